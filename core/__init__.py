@@ -1,0 +1,1 @@
+"""The vocabulary everyone speaks: people, time, the household, the hour, replies, errors. No I/O."""

@@ -1,0 +1,77 @@
+"""What may be asked of a language model: per prompt its role, its reply, and the variables code supplies.
+
+A prompt file may use any subset of the variables listed here, and no other. Values are plain JSON data:
+
+- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first;
+- `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
+- a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
+- `percept` is a `Percept` as data with its `caption`, or None where the model looks at the pictures.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from core.protocols import Role
+
+_MEMORY = ("recalled_intentions", "recalled_tasks")
+_PERSON = ("person", "name", "big_five", "profile")  # `person` is the id
+_TIME = ("time", "hour", "weekday", "day")
+_BELIEF = ("big_five", "profile")  # inferred by the robot; None before the first evening
+
+
+class AskSpec(NamedTuple):
+    """The contract of one prompt."""
+
+    role: Role
+    reply: str
+    variables: frozenset[str]
+
+
+def _spec(role: Role, reply: str, *variables: str) -> AskSpec:
+    return AskSpec(role, reply, frozenset(variables))
+
+
+ASKS: dict[str, AskSpec] = {
+    "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
+    "persona/big_five": _spec("human", "BigFiveReply", "profile"),
+    "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "today"),
+    "human/tasks_type1": _spec(
+        "human", "PickPlaceReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "n_tasks"
+    ),
+    "human/tasks_type2": _spec(
+        "human", "FreeMotionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "motions", "n_tasks"
+    ),
+    "human/reflect_profile_type1": _spec(
+        "human", "PickPlaceReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "tasks"
+    ),
+    "human/reflect_profile_type2": _spec(
+        "human", "FreeMotionReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "tasks"
+    ),
+    "human/reflect_scene_type1": _spec(
+        "human", "PickPlaceReflectionReply", *_TIME, "intention", "fixed", "movable", "tasks", "n_tasks", "findings"
+    ),
+    "human/reflect_scene_type2": _spec(
+        "human", "FreeMotionReflectionReply", *_TIME, "intention", "fixed", "motions", "tasks", "n_tasks", "findings"
+    ),
+    "human/feedback_intentions": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "guesses"),
+    "human/feedback_tasks": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
+    "robot/intentions": _spec(
+        "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "rooms", "percept", "first_task", "n_intentions"
+    ),
+    "robot/tasks_type1": _spec(
+        "robot",
+        "PickPlaceReply",
+        *_TIME,
+        *_BELIEF,
+        *_MEMORY,
+        "intention",
+        "fixed",
+        "movable",
+        "first_task",
+        "n_tasks",
+    ),
+    "robot/tasks_type2": _spec("robot", "HandOverReply", *_TIME, *_BELIEF, *_MEMORY, "intention", "fixed", "n_tasks"),
+    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile"),
+    "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),
+}

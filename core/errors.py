@@ -1,0 +1,52 @@
+"""Every error that coopera raises on purpose.
+
+Each class answers one decision of its caller; the command line turns `ConfigError` into
+exit code 2 (the input is wrong) and every other `CooperaError` into 1 (the work failed).
+"""
+
+from __future__ import annotations
+
+
+class CooperaError(Exception):
+    """Root of all errors that coopera raises on purpose; its text is one clear sentence."""
+
+
+class ConfigError(CooperaError):
+    """The input is wrong: the text names the file or flag, the field and what was expected."""
+
+
+class PromptError(ConfigError):
+    """A prompt file cannot be used: the text names the file and, where known, the line."""
+
+
+class ModelCallError(CooperaError):
+    """A language model could not be reached or refused to answer after bounded retries."""
+
+
+class ModelOutputError(CooperaError):
+    """A language model answered, but not with what the prompt asks for, after bounded repairs.
+
+    The hour that needed the reply is unscored, never counted as a "no".
+
+    Attributes:
+        prompt: Name of the prompt, such as `robot/intentions`.
+        reply: The last raw reply.
+    """
+
+    def __init__(self, prompt: str, reply: str, reason: str) -> None:
+        """Keep the evidence beside the sentence."""
+        super().__init__(f"{prompt}: the model's reply cannot be used: {reason}")
+        self.prompt = prompt
+        self.reply = reply
+
+
+class MemoryStoreError(CooperaError):
+    """A memory store is damaged, locked by another process, or of another kind than asked for."""
+
+
+class SimulationError(CooperaError):
+    """The world cannot do what was asked of it; a failed grasp or walk is an `Outcome`, not this."""
+
+
+class RunError(CooperaError):
+    """A run directory cannot be written, continued or read."""

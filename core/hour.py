@@ -1,0 +1,246 @@
+"""The hour of a person and of a robot: intentions, tasks, candidates, and the record of it all."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field
+
+from core.clock import Clock
+from core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
+from core.people import BigFive, Frozen, PersonId, Picture
+
+
+class Reasons(Frozen):
+    """Why: the person's traits, earlier intentions, earlier tasks, and (robot only) what was seen."""
+
+    human: str = ""
+    intentions: str = ""
+    tasks: str = ""
+    vision: str = ""
+
+
+class Intention(Frozen):
+    """What the person is up to this hour: high level, naming no object."""
+
+    text: str
+    reasons: Reasons = Reasons()
+
+
+class Task(Frozen):
+    """One step of an intention; `id` is "<hour>.<number from 1>", as in "9.2"."""
+
+    id: str
+    thought: str
+    reasons: Reasons = Reasons()
+    act: Act
+
+
+class Recalled(Frozen):
+    """One retrieved memory: score = recency x relevance (PAPER §3.2, Memory Retrieval)."""
+
+    kind: Literal["intention", "task"]
+    text: str
+    hour: int
+    relevance: float
+    recency: float
+    score: float
+
+
+class Found(Frozen):
+    """What Search found for an intention: objects the tasks may use, and example motions."""
+
+    fixed: ObjectMap
+    movable: ObjectMap
+    motions: list[str]
+
+
+class TaskVerdict(Frozen):
+    """What a reflection says of one task."""
+
+    ok: bool
+    comment: str = ""
+
+
+class Reflection(Frozen):
+    """One round of reflection: verdicts by task, and what it changed (before -> after)."""
+
+    node: Literal["reflect_profile", "reflect_scene"]
+    verdicts: list[TaskVerdict]
+    changes: list[str]
+
+
+class HumanHour(Frozen):
+    """All that the human graph did in an hour."""
+
+    recalled: list[Recalled]
+    intention: Intention
+    found: Found
+    tasks: list[Task]
+    reflections: list[Reflection]
+    repairs: list[str] = []
+    """Tasks that code had to mend after both reflections, as sentences."""
+
+
+class Observation(Frozen):
+    """What the robot is given of the hour: never the intention, nor any task after the first.
+
+    `frames`: picture files, relative to the run directory, robot views first, in order of time.
+    `percept`: set where the robot's model cannot look at pictures.
+    `first_task`: the text of the first task, in collaboration type 1 only (PAPER §3.1).
+    """
+
+    frames: list[str] = []
+    percept: Percept | None = None
+    first_task: str | None = None
+
+
+class IntentionCandidate(Frozen):
+    """An intention the robot imagines. `correct` is known only after the evening's feedback."""
+
+    text: str
+    reasons: Reasons = Reasons()
+    probability: float | None = None
+    accepted: bool | None = None
+    correct: bool | None = None
+
+
+class TaskCandidate(Frozen):
+    """A task the robot imagines for one of its intentions (by text). `correct`: predicate success."""
+
+    intention: str
+    thought: str
+    reasons: Reasons = Reasons()
+    act: Act
+    probability: float | None = None
+    accepted: bool | None = None
+    correct: bool | None = None
+
+
+class RobotHour(Frozen):
+    """All that the robot graph did in an hour."""
+
+    observation: Observation
+    recalled: list[Recalled] = []
+    intentions: list[IntentionCandidate]
+    tasks: list[TaskCandidate]
+    outcomes: list[Outcome] = []
+    fallbacks: list[str] = []
+    """Which defined fallbacks were used, e.g. "no intention accepted"."""
+
+
+class Counts(Frozen):
+    """A confusion count over one task superset; `unscored` candidates are in none of the others.
+
+    f1, precision and recall are None where nothing could be scored. PAPER §4.3: F1 over the task
+    superset, the accepted tasks being the predicted positives.
+    """
+
+    tp: int = Field(0, ge=0)
+    fp: int = Field(0, ge=0)
+    fn: int = Field(0, ge=0)
+    tn: int = Field(0, ge=0)
+    unscored: int = Field(0, ge=0)
+    f1: float | None = None
+    precision: float | None = None
+    recall: float | None = None
+
+
+class Success(Frozen):
+    """The hour's success by each measure."""
+
+    predicate: Counts
+    judge: Counts
+
+
+class ModelCall(Frozen):
+    """One call through the one door, as it stands in the trace."""
+
+    node: str
+    prompt: str
+    prompt_sha: str
+    model: str
+    messages: list[dict[str, Any]]
+    reply: str
+    seconds: float = 0.0
+    tokens_in: int = 0
+    tokens_out: int = 0
+    attempts: int = 1
+    cached: bool = False
+    faults: list[str] = []
+
+
+class HourRecord(Frozen):
+    """The file trace/day-DD/hour-HH.json."""
+
+    day: int
+    hour: int
+    person: PersonId
+    scene: SceneId
+    human: HumanHour | None
+    robot: RobotHour | None
+    world: dict[str, Any]
+    success: Success | None
+    status: Literal["ok", "failed"]
+    reason: str = ""
+    calls: list[ModelCall] = []
+
+
+class FeedbackItem(Frozen):
+    """The person's yes or no, with a reason, to one thing the robot imagined."""
+
+    hour: int
+    kind: Literal["intention", "task"]
+    text: str
+    accepted: bool
+    helpful: bool | None
+    """None where the person's answer could not be read: no label is made of it."""
+    reason: str = ""
+
+
+class Evening(Frozen):
+    """The file trace/day-DD/evening.json."""
+
+    day: int
+    person: PersonId
+    scene: SceneId
+    feedback: list[FeedbackItem]
+    picture: Picture
+    traits_reasons: dict[str, str] = {}
+    learned: dict[str, Any] = {}
+    calls: list[ModelCall] = []
+
+
+class DayPlan(Frozen):
+    """One day of a schedule: who lives it, where, and at which hours."""
+
+    day: int = Field(ge=0)
+    person: PersonId
+    scene: SceneId
+    hours: list[int]
+    collab: Collab = 2
+
+    def clocks(self) -> list[Clock]:
+        """The day's hours as clocks, in order."""
+        return [Clock(day=self.day, hour=hour) for hour in self.hours]
+
+
+class Example(Frozen):
+    """What a yes/no classifier is shown, in the paper's fields (PAPER App. C.2), and the label.
+
+    `person` keeps people apart. `candidate` is the intention's text or the task's description.
+    """
+
+    person: PersonId
+    day: int
+    hour: int
+    candidate: str
+    intention: str = ""
+    """For a task: the intention it belongs to."""
+    profile: str = ""
+    big_five: BigFive | None = None
+    intentions: list[str] = []
+    """Previous relevant intentions, best first."""
+    tasks: list[str] = []
+    """Previous relevant tasks, best first."""
+    label: bool | None = None

@@ -1,0 +1,99 @@
+"""What can be done in a home, and what a robot can see of it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, NewType, TypeAlias
+
+from pydantic import Field
+
+from core.people import Frozen
+
+SceneId = NewType("SceneId", str)
+Agent: TypeAlias = Literal["human", "robot"]
+Collab: TypeAlias = Literal[1, 2]
+ObjectMap: TypeAlias = dict[str, tuple[int, str]]
+"""{unique object name: (object id, room)}: the scene as language models read it (PAPER App. A)."""
+
+Name = Annotated[str, Field(min_length=1, max_length=120)]
+
+
+class PickPlace(Frozen):
+    """Take a movable object and put it on (or in) a fixed one: a task of collaboration type 1."""
+
+    kind: Literal["pick_place"] = "pick_place"
+    object_id: int
+    object: Name
+    receptacle_id: int
+    receptacle: Name
+
+    def describe(self) -> str:
+        """Say it as a sentence fragment, without ids."""
+        return f"put the {plain(self.object)} on the {plain(self.receptacle)}"
+
+
+class FreeMotion(Frozen):
+    """Move freely at a fixed object with a thing in hand: a task of collaboration type 2."""
+
+    kind: Literal["free_motion"] = "free_motion"
+    target_id: int
+    target: Name
+    in_hand: Name
+    motion: Annotated[str, Field(min_length=1, max_length=200)]
+
+    def describe(self) -> str:
+        """Say it as a sentence fragment, without ids."""
+        return f"{self.motion} at the {plain(self.target)} with the {plain(self.in_hand)} in hand"
+
+
+class HandOver(Frozen):
+    """Bring a small thing from the magic box to the person: what the robot does in type 2."""
+
+    kind: Literal["hand_over"] = "hand_over"
+    object: Name
+
+    def describe(self) -> str:
+        """Say it as a sentence fragment."""
+        return f"bring the {plain(self.object)}"
+
+
+Act = Annotated[PickPlace | FreeMotion | HandOver, Field(discriminator="kind")]
+
+
+class Outcome(Frozen):
+    """How an act ended in the world; a failure is data with a reason, not an exception."""
+
+    agent: Agent
+    act: Act
+    ok: bool
+    reason: str = ""
+    metres: float = 0.0
+    """Distance walked or driven."""
+
+
+class Percept(Frozen):
+    """What a perception module reports of the first task: seen things only, with its errors.
+
+    `near`: fixed objects at which the person acted, nearest first, by name.
+    `motion`: the recognised motion label; may be wrong. `in_hand`: the class of the thing seen in the
+    hand, or None. `visible`: names of objects seen from the robot, sorted.
+    """
+
+    room: str
+    near: list[str]
+    motion: str
+    in_hand: str | None = None
+    visible: list[str] = []
+
+    def caption(self) -> str:
+        """The percept as one sentence for a model that cannot look at pictures."""
+        at = f" at the {plain(self.near[0])}" if self.near else ""
+        thing = f", holding something like a {plain(self.in_hand)}" if self.in_hand else ""
+        return f"In the {self.room}, the person seems to {self.motion}{at}{thing}."
+
+
+def plain(name: str) -> str:
+    """Return an object's name as words: "kitchen_table_2" becomes "kitchen table"."""
+    words = name.replace("_", " ").split()
+    if len(words) > 1 and words[-1].isdigit():
+        words = words[:-1]
+    return " ".join(words)

@@ -1,0 +1,55 @@
+"""People: who they are, and what the robot believes they are."""
+
+from __future__ import annotations
+
+from typing import NewType
+
+from pydantic import BaseModel, ConfigDict, Field
+
+PersonId = NewType("PersonId", str)
+
+TRAITS = ("openness", "conscientiousness", "extroversion", "agreeableness", "neuroticism")
+"""The Big Five in the order used everywhere (PAPER §3.2 spells it "extroversion")."""
+
+
+class Frozen(BaseModel):
+    """Base of everything stored or parsed: immutable, and unknown fields are errors."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class BigFive(Frozen):
+    """Big-Five scores, each in [1, 5]; 3 is the middle of the scale."""
+
+    openness: float = Field(3.0, ge=1, le=5)
+    conscientiousness: float = Field(3.0, ge=1, le=5)
+    extroversion: float = Field(3.0, ge=1, le=5)
+    agreeableness: float = Field(3.0, ge=1, le=5)
+    neuroticism: float = Field(3.0, ge=1, le=5)
+
+    def __str__(self) -> str:
+        """One line in the fixed trait order, two decimals."""
+        return ", ".join(f"{trait} {getattr(self, trait):.2f}" for trait in TRAITS)
+
+
+class Persona(Frozen):
+    """A person as written in a persona file: the truth that the robot must infer.
+
+    `source` says where the text came from ("coopera", or the file and row of an import).
+    """
+
+    id: PersonId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")
+    name: str = Field(min_length=1, max_length=80)
+    profile: str = Field(min_length=1, max_length=20_000)
+    big_five: BigFive
+    source: str = "coopera"
+
+
+class Picture(Frozen):
+    """What the robot believes about one person: inferred Big Five and a three-sentence profile.
+
+    `None` until the first evening (PAPER App. D: empty at the first collaboration).
+    """
+
+    big_five: BigFive | None = None
+    profile: str | None = None

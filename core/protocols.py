@@ -1,0 +1,174 @@
+"""The joints of the house: what one room needs of another, without importing it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, Protocol, TypeVar
+
+import numpy as np
+
+from core.hour import Evening, Example, HourRecord, ModelCall
+from core.household import Act, Agent, ObjectMap, Outcome, Percept, SceneId
+from core.people import Frozen
+from core.randomness import Address
+
+Reply = TypeVar("Reply", bound=Frozen)
+Role = Literal["human", "robot", "judge"]
+
+
+class Ask(Protocol):
+    """The one door to language models (DESIGN rule 1)."""
+
+    def __call__(
+        self,
+        prompt: str,
+        reply: type[Reply],
+        /,
+        *,
+        at: Address,
+        variables: Mapping[str, Any],
+        images: Sequence[Path] = (),
+    ) -> Reply:
+        """Render the prompt, ask its role's model, validate and if need be repair the reply.
+
+        Raises:
+            ModelOutputError: If no attempt gave a valid reply; the hour is then unscored.
+            ModelCallError: If the model could not be reached.
+        """
+        ...
+
+    def sees(self, role: Role) -> bool:
+        """Whether this role's model looks at pictures itself."""
+        ...
+
+    def take_calls(self) -> list[ModelCall]:
+        """Return the calls made since the last time, in order, and forget them."""
+        ...
+
+
+class Rendered(Frozen):
+    """A prompt ready to be sent."""
+
+    name: str
+    role: Role
+    text: str
+    sha: str
+    reply: str
+    temperature: float
+
+
+class Prompts(Protocol):
+    """The prompt folder."""
+
+    def render(self, name: str, variables: Mapping[str, Any]) -> Rendered:
+        """Fill a prompt's template; every declared input must be given and no other.
+
+        Raises:
+            PromptError: Naming file and line.
+        """
+        ...
+
+
+class Home(Protocol):
+    """A household simulation, as the graphs use it. Truth is kept between calls; time is not."""
+
+    scene: SceneId
+
+    @property
+    def rooms(self) -> list[str]:
+        """Names of the rooms, sorted."""
+        ...
+
+    @property
+    def motions(self) -> list[str]:
+        """Captions of the motions the person's body can do."""
+        ...
+
+    def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
+        """The object-room mapping as things now stand, sorted by name."""
+        ...
+
+    def class_of(self, name: str) -> str:
+        """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
+        ...
+
+    def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
+        """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
+
+        With `record`, the motion is kept for `percept` and `frames` (the newest recording counts).
+        Something impossible is a failed `Outcome` with its reason, and the world stays consistent.
+        """
+        ...
+
+    def percept(self, rng: np.random.Generator) -> Percept:
+        """What a perception module reports of the recording, with its errors drawn from `rng`."""
+        ...
+
+    def frames(self, count: int, folder: Path) -> list[Path]:
+        """Render `count` uniformly sampled moments of the recording from two views into `folder`.
+
+        Files are robot-0.webp … and human-0.webp …; robot views first in the returned list.
+        """
+        ...
+
+    def snapshot(self) -> dict[str, Any]:
+        """The whole state as plain JSON data of a few kB."""
+        ...
+
+    def restore(self, snapshot: Mapping[str, Any]) -> None:
+        """Set the state to a snapshot, exactly."""
+        ...
+
+
+class Classifier(Protocol):
+    """A yes/no judge of candidates, trained each evening (PAPER §3.3)."""
+
+    def probabilities(self, examples: Sequence[Example]) -> list[float]:
+        """P(yes) per example, in [0, 1]; exactly 0.5 for all while untrained."""
+        ...
+
+    def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
+        """Learn from all labelled examples so far; returns what was measured in training.
+
+        With fewer than one example of each label nothing can be learned and the classifier stays as it was.
+        """
+        ...
+
+    def save(self, folder: Path) -> None:
+        """Write the learned state in open formats (no pickle)."""
+        ...
+
+    def load(self, folder: Path) -> None:
+        """Read what `save` wrote.
+
+        Raises:
+            CooperaError: If the folder holds no state of this kind, or a damaged one.
+        """
+        ...
+
+
+class Recorder(Protocol):
+    """The run directory, as the graphs use it. Writes are atomic; writing an hour again replaces it."""
+
+    root: Path
+
+    def frames_folder(self, day: int, hour: int) -> Path:
+        """An empty folder for an hour's frames."""
+        ...
+
+    def write_hour(self, record: HourRecord) -> None:
+        """Write trace/day-DD/hour-HH.json."""
+        ...
+
+    def read_day(self, day: int) -> list[HourRecord]:
+        """The hours of a day, in order."""
+        ...
+
+    def write_evening(self, evening: Evening) -> None:
+        """Write trace/day-DD/evening.json."""
+        ...
+
+    def adapters_folder(self, day: int) -> Path:
+        """The folder of a day's classifiers."""
+        ...

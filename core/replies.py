@@ -1,0 +1,150 @@
+"""What a language model may answer: one type per prompt, named in the prompt's front matter.
+
+Code appends the JSON schema to the prompt and parses the answer with these types, so a reworded
+prompt cannot break parsing. Every text and list is bounded, so that constrained decoding ends.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from core.household import FreeMotion, HandOver, PickPlace
+from core.people import BigFive, Frozen
+
+Sentence = Annotated[str, Field(min_length=1, max_length=300)]
+Reason = Annotated[str, Field(max_length=400)]
+
+
+class IntentionReply(Frozen):
+    """human/intention: what the person wants to do this hour, and why."""
+
+    intention: Sentence
+    reason_human: Reason = ""
+    reason_intentions: Reason = ""
+    reason_tasks: Reason = ""
+
+
+class _TaskDraft(Frozen):
+    thought: Sentence
+    reason_human: Reason = ""
+    reason_intentions: Reason = ""
+    reason_tasks: Reason = ""
+
+
+class PickPlaceDraft(_TaskDraft):
+    """A proposed pick-and-place task."""
+
+    act: PickPlace
+
+
+class FreeMotionDraft(_TaskDraft):
+    """A proposed free-form task."""
+
+    act: FreeMotion
+
+
+class HandOverDraft(_TaskDraft):
+    """A proposed offer of one thing."""
+
+    act: HandOver
+
+
+class PickPlaceReply(Frozen):
+    """human/tasks_type1 and robot/tasks_type1: tasks in the order they would be done."""
+
+    tasks: Annotated[list[PickPlaceDraft], Field(min_length=1, max_length=8)]
+
+
+class FreeMotionReply(Frozen):
+    """human/tasks_type2: tasks in the order they will be done."""
+
+    tasks: Annotated[list[FreeMotionDraft], Field(min_length=1, max_length=8)]
+
+
+class HandOverReply(Frozen):
+    """robot/tasks_type2: one thing to bring per imagined task."""
+
+    tasks: Annotated[list[HandOverDraft], Field(min_length=1, max_length=8)]
+
+
+class VerdictReply(Frozen):
+    """A yes or no with its reason."""
+
+    yes: bool
+    reason: Reason = ""
+
+
+class PickPlaceReflectionReply(PickPlaceReply):
+    """human/reflect_*_type1: a verdict per given task, and the tasks as they should be."""
+
+    verdicts: Annotated[list[VerdictReply], Field(min_length=1, max_length=8)]
+
+
+class FreeMotionReflectionReply(FreeMotionReply):
+    """human/reflect_*_type2: a verdict per given task, and the tasks as they should be."""
+
+    verdicts: Annotated[list[VerdictReply], Field(min_length=1, max_length=8)]
+
+
+class ImaginedIntention(Frozen):
+    """One intention that the robot thinks possible."""
+
+    intention: Sentence
+    reason_human: Reason = ""
+    reason_intentions: Reason = ""
+    reason_tasks: Reason = ""
+    reason_vision: Reason = ""
+
+
+class IntentionsReply(Frozen):
+    """robot/intentions: possible intentions, most likely first."""
+
+    intentions: Annotated[list[ImaginedIntention], Field(min_length=1, max_length=8)]
+
+
+class VerdictsReply(Frozen):
+    """human/feedback_intentions, human/feedback_tasks and judge/tasks: one verdict per item, in the given order."""
+
+    verdicts: Annotated[list[VerdictReply], Field(max_length=64)]
+
+
+class TraitsReply(Frozen):
+    """robot/traits: who this person seems to be."""
+
+    big_five: BigFive
+    profile: Annotated[str, Field(min_length=1, max_length=900)]
+    reasons_big_five: Annotated[str, Field(max_length=900)] = ""
+    reasons_profile: Annotated[str, Field(max_length=900)] = ""
+
+
+class ProfileReply(Frozen):
+    """persona/profile: a first-person self-introduction."""
+
+    profile: Annotated[str, Field(min_length=1, max_length=6000)]
+
+
+class BigFiveReply(Frozen):
+    """persona/big_five: Big-Five scores read from a profile."""
+
+    big_five: BigFive
+
+
+REPLIES: dict[str, type[Frozen]] = {
+    reply.__name__: reply
+    for reply in (
+        IntentionReply,
+        PickPlaceReply,
+        FreeMotionReply,
+        HandOverReply,
+        PickPlaceReflectionReply,
+        FreeMotionReflectionReply,
+        IntentionsReply,
+        VerdictsReply,
+        TraitsReply,
+        ProfileReply,
+        BigFiveReply,
+    )
+}
+"""The reply types a prompt's front matter may name."""
