@@ -96,13 +96,12 @@ class Observation(Frozen):
 
 
 class IntentionCandidate(Frozen):
-    """An intention the robot imagines. `correct` is known only after the evening's feedback."""
+    """An intention the robot imagines; whether it was right stands in the evening's feedback."""
 
     text: str
     reasons: Reasons = Reasons()
     probability: float | None = None
     accepted: bool | None = None
-    correct: bool | None = None
 
 
 class TaskCandidate(Frozen):
@@ -171,9 +170,11 @@ class ModelCall(Frozen):
 
 
 class HourRecord(Frozen):
-    """The file trace/day-DD/hour-HH.json."""
+    """The file trace/day-DD/hour-HH.json; `episode` and `episode_day` as in `DayPlan`."""
 
     day: int
+    episode: int
+    episode_day: int
     hour: int
     person: PersonId
     scene: SceneId
@@ -199,9 +200,11 @@ class FeedbackItem(Frozen):
 
 
 class Evening(Frozen):
-    """The file trace/day-DD/evening.json."""
+    """The file trace/day-DD/evening.json; `episode` and `episode_day` as in `DayPlan`."""
 
     day: int
+    episode: int
+    episode_day: int
     person: PersonId
     scene: SceneId
     feedback: list[FeedbackItem]
@@ -212,17 +215,24 @@ class Evening(Frozen):
 
 
 class DayPlan(Frozen):
-    """One day of a schedule: who lives it, where, and at which hours."""
+    """One day of a schedule: who lives it, where, and at which hours.
+
+    `day` numbers the days of a run and names its folder. An `episode` is what one robot lives through:
+    its knowledge starts anew with each episode, and `episode_day` (from 0) is the day within it, by
+    which learning curves count and which is the person's own calendar.
+    """
 
     day: int = Field(ge=0)
+    episode: int = Field(0, ge=0)
+    episode_day: int = Field(ge=0)
     person: PersonId
     scene: SceneId
     hours: list[int]
     collab: Collab = 2
 
-    def clocks(self) -> list[Clock]:
-        """The day's hours as clocks, in order."""
-        return [Clock(day=self.day, hour=hour) for hour in self.hours]
+    def clock(self, position: int) -> Clock:
+        """The hour at a position of the day, in the person's calendar."""
+        return Clock(day=self.episode_day, hour=self.hours[position])
 
 
 class Example(Frozen):
