@@ -1,0 +1,198 @@
+"""Text embeddings that never change: each text is encoded alone, once, and remembered by its content."""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import sqlite3
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+from langchain_core.embeddings import Embeddings
+from typing_extensions import override
+
+from core.errors import ConfigError, MemoryStoreError
+from memory import minilm
+from memory.minilm import Vector
+
+_LOG = logging.getLogger(__name__)
+_IN_RAM = 65_536  # vectors kept in RAM; 100 MB of MiniLM's
+_PER_QUERY = 500
+_PATIENCE = 60.0  # seconds that a process waits for another one's write
+
+Encode = Callable[[str], Vector]
+
+
+class CachedEmbeddings(Embeddings):
+    """A LangChain `Embeddings` with a cache in RAM and, if a path is given, in SQLite.
+
+    Two processes may share the file. The key is the SHA-256 of the model's identity and the text. Texts are encoded
+    one by one, so that an embedding's bits depend neither on its neighbours nor on what was cached before.
+
+    Attributes:
+        model_id: Identity of the model; part of each key, and noted in every store that uses the model.
+        misses: How many texts had to be encoded so far.
+    """
+
+    def __init__(self, encode: Encode, model_id: str, cache: Path | None = None) -> None:
+        """Wrap an encoder.
+
+        Args:
+            encode: Maps a text to a float32 vector of unit norm, shape (d,).
+            model_id: Must differ between encoders that give different vectors.
+            cache: SQLite file to use or create; None keeps the cache in RAM.
+        """
+        self.model_id = model_id
+        self.misses = 0
+        self._encode = encode
+        self._ram: dict[str, Vector] = {}
+        self._lock = threading.RLock()
+        self._disk = _Disk(cache, model_id) if cache is not None else None
+
+    @override
+    def embed_documents(self, texts: list[str]) -> list[list[float]]:
+        """Return one vector per text; the floats are exactly the float32 values."""
+        return [vector.tolist() for vector in self._vectors(texts)]
+
+    @override
+    def embed_query(self, text: str) -> list[float]:
+        """Return the text's vector; a query is encoded as a document is."""
+        values: list[float] = self._vectors([text])[0].tolist()
+        return values
+
+    def array(self, texts: Sequence[str]) -> Vector:
+        """Return the vectors of n texts as an array, shape (n, d), float32."""
+        vectors = self._vectors(texts)
+        return np.stack(vectors) if vectors else np.zeros((0, 0), np.float32)
+
+    def close(self) -> None:
+        """Close the cache file; the RAM part goes on working."""
+        if self._disk is not None:
+            self._disk.close()
+            self._disk = None
+
+    def _vectors(self, texts: Sequence[str]) -> list[Vector]:
+        """Return each text's vector, in order, from RAM, from disk, or by encoding it."""
+        found: dict[str, Vector] = {}
+        with self._lock:
+            missing = []
+            for text in dict.fromkeys(map(_checked, texts)):
+                vector = self._ram.get(text)
+                if vector is None:
+                    missing.append(text)
+                else:
+                    found[text] = vector
+            if missing and self._disk is not None:
+                found.update(self._disk.read(missing))
+                missing = [text for text in missing if text not in found]
+            for text in missing:
+                found[text] = self._fresh(text)
+                if self._disk is not None:
+                    self._disk.write(text, found[text])
+            self._remember(found)
+        return [found[text] for text in texts]
+
+    def _fresh(self, text: str) -> Vector:
+        vector = self._encode(text)
+        if vector.dtype != np.float32 or vector.ndim != 1 or not np.isfinite(vector).all():
+            raise MemoryStoreError(f"{self.model_id}: the encoder gave no finite float32 vector for {text[:60]!r}")
+        vector.setflags(write=False)
+        self.misses += 1
+        return vector
+
+    def _remember(self, found: dict[str, Vector]) -> None:
+        """Keep vectors in RAM; where that is full, the oldest go."""
+        self._ram.update(found)
+        for text in list(self._ram)[: max(0, len(self._ram) - _IN_RAM)]:
+            del self._ram[text]
+
+
+class _Disk:
+    """The SQLite file behind the cache. Calls come under the owner's lock."""
+
+    def __init__(self, path: Path, model_id: str) -> None:
+        self._path = path
+        self._salt = hashlib.sha256(model_id.encode() + b"\0")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._db = sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None, check_same_thread=False)
+            try:
+                self._db.execute("PRAGMA journal_mode=WAL")
+                self._db.execute("PRAGMA synchronous=NORMAL")
+                self._db.execute("CREATE TABLE IF NOT EXISTS vectors(key BLOB PRIMARY KEY, vector BLOB) WITHOUT ROWID")
+            except sqlite3.Error:
+                self._db.close()
+                raise
+        except (OSError, sqlite3.Error) as err:
+            raise self._broken(err) from err
+
+    def read(self, texts: Sequence[str]) -> dict[str, Vector]:
+        """Return the vectors that are there, by text."""
+        by_key = {self._key(text): text for text in texts}
+        keys = list(by_key)
+        found: dict[str, Vector] = {}
+        try:
+            for start in range(0, len(keys), _PER_QUERY):
+                some = keys[start : start + _PER_QUERY]
+                marks = ",".join("?" * len(some))
+                rows = self._db.execute(f"SELECT key, vector FROM vectors WHERE key IN ({marks})", some)
+                for key, blob in rows:
+                    found[by_key[key]] = np.frombuffer(blob, "<f4")
+        except (sqlite3.Error, ValueError) as err:
+            raise self._broken(err) from err
+        return found
+
+    def write(self, text: str, vector: Vector) -> None:
+        """Add a vector; one that another process added in the meantime stays."""
+        blob = vector.astype("<f4").tobytes()
+        try:
+            self._db.execute("INSERT OR IGNORE INTO vectors VALUES (?, ?)", (self._key(text), blob))
+        except sqlite3.Error as err:
+            raise self._broken(err) from err
+
+    def close(self) -> None:
+        self._db.close()
+
+    def _key(self, text: str) -> bytes:
+        digest = self._salt.copy()
+        digest.update(text.encode())
+        return digest.digest()
+
+    def _broken(self, err: Exception) -> MemoryStoreError:
+        return MemoryStoreError(
+            f"{self._path}: cannot be used as a cache of embeddings ({err}); it may be deleted, it is rebuilt as needed"
+        )
+
+
+def _checked(text: str) -> str:
+    """Refuse a text that no tokeniser and no database could take."""
+    try:
+        text.encode()
+    except UnicodeEncodeError as err:
+        raise ConfigError(f"a text to embed is not valid Unicode: {text[:60]!r}") from err
+    return text
+
+
+def bundled(cache: Path | None = None) -> CachedEmbeddings:
+    """Return the embeddings of the installed all-MiniLM-L6-v2, 384 numbers per text; nothing is downloaded.
+
+    The model loads with the first text that is in no cache, and is shared by all that this function returns.
+
+    Args:
+        cache: SQLite file that keeps the vectors, created if need be; None keeps them in RAM.
+
+    Raises:
+        MemoryStoreError: If the cache file cannot be used.
+    """
+    return CachedEmbeddings(lambda text: minilm.shared().encode(text), minilm.model_id(), cache)
+
+
+def as_array(embeddings: Embeddings, texts: Sequence[str]) -> Vector:
+    """Return the vectors of n texts as an array, shape (n, d), float32, from any LangChain embeddings."""
+    if isinstance(embeddings, CachedEmbeddings):
+        return embeddings.array(texts)
+    if not texts:
+        return np.zeros((0, 0), np.float32)
+    return np.asarray(embeddings.embed_documents(list(texts)), np.float32)

