@@ -1,1 +1,20 @@
-""""""
+"""The LangGraph state machines: the person's hour, the robot's hour, the day, the study."""
+
+from graphs.day import build_day_graph
+from graphs.human import build_human_graph
+from graphs.method import Method
+from graphs.robot import build_robot_graph
+from graphs.services import HumanContext, RobotContext, Services
+from graphs.study import STATE_TYPES, build_study_graph
+
+__all__ = [
+    "STATE_TYPES",
+    "HumanContext",
+    "Method",
+    "RobotContext",
+    "Services",
+    "build_day_graph",
+    "build_human_graph",
+    "build_robot_graph",
+    "build_study_graph",
+]

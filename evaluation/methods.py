@@ -1,0 +1,20 @@
+"""The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from graphs import Method
+
+OURS = Method(name="ours")
+
+METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        OURS,
+        replace(OURS, name="random", verdicts="accept", learns=False),  # PAPER §4.3: no classifiers, all accepted
+        replace(OURS, name="no_traits", traits=False),  # PAPER §4.5
+        replace(OURS, name="no_context", context=False),  # PAPER §4.5
+    )
+}
+"""All methods by name."""

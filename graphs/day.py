@@ -1,0 +1,222 @@
+"""A day as a supervisor graph: start_day -> hour (looped) -> feedback -> infer_traits -> learn -> end_day.
+
+With a checkpointer, each pass through `hour` leaves a durable checkpoint; the state holds all that the next hour needs
+(the homes as they were left, what the robot believes), so a stopped day goes on in another process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, TypeAlias
+
+from langgraph.checkpoint.base import BaseCheckpointSaver
+from langgraph.graph import END, START, StateGraph
+from langgraph.graph.state import CompiledStateGraph
+from langgraph.runtime import Runtime
+from typing_extensions import TypedDict
+
+from core.errors import ModelOutputError
+from core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
+from core.household import SceneId
+from core.people import PersonId, Picture
+from core.randomness import Address
+from core.replies import TraitsReply, VerdictsReply
+from graphs.hour import build_hour_graph, human_context
+from graphs.human import as_tasks, when, who
+from graphs.learning import labelled
+from graphs.recall import as_memory
+from graphs.services import Services
+
+Answer: TypeAlias = tuple[bool | None, str]
+"""Yes, no or unreadable, and the reason."""
+
+
+class DayInput(TypedDict):
+    """What starts a day: its plan, and what earlier days left behind (empty on the first)."""
+
+    plan: DayPlan
+    worlds: dict[SceneId, dict[str, Any]]
+    pictures: dict[PersonId, Picture]
+    learned: list[int]
+
+
+class DayState(DayInput, total=False):
+    """State of a day. `worlds`, `pictures` and `learned` are handed on to the next day.
+
+    `learned`: the days of this episode, in order, whose evenings the classifiers have learned from.
+    """
+
+    position: int  # by start_day and hour: the next hour's place in the plan
+    feedback: list[FeedbackItem]  # by feedback
+    traits_reasons: dict[str, str]  # by infer_traits
+    measured: dict[str, Any]  # by learn
+
+
+def build_day_graph(
+    checkpointer: BaseCheckpointSaver[Any] | None = None,
+) -> CompiledStateGraph[DayState, Services, DayInput, DayState]:
+    """Compile the day; invoke it with a `DayInput` and `Services`, or use it as a node of the study."""
+    hours = build_hour_graph()
+
+    def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+        """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`."""
+        services, plan = runtime.context, state["plan"]
+        services.learner.be_at(state["learned"][-1] if state["learned"] else None)
+        home = services.home(plan.scene)
+        if plan.scene in state["worlds"]:
+            home.restore(state["worlds"][plan.scene])
+        services.ask.take_calls()
+        picture = state["pictures"].get(plan.person, Picture())
+        done = hours.invoke({"plan": plan, "position": state["position"], "picture": picture}, context=services)
+        return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
+
+    graph = StateGraph(DayState, context_schema=Services, input_schema=DayInput)
+    for node in (start_day, hour, feedback, infer_traits, learn, end_day):
+        graph.add_node(node)
+    graph.add_edge(START, "start_day")
+    graph.add_edge("start_day", "hour")
+    graph.add_conditional_edges("hour", next_hour, ["hour", "feedback"])
+    graph.add_edge("feedback", "infer_traits")
+    graph.add_edge("infer_traits", "learn")
+    graph.add_edge("learn", "end_day")
+    graph.add_edge("end_day", END)
+    return graph.compile(checkpointer=checkpointer, name="day")
+
+
+def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Begin at the first hour. Writes `position`."""
+    runtime.stream_writer({"day": state["plan"].day, "hour": None, "node": "start_day", "success": None})
+    return {"position": 0}
+
+
+def next_hour(state: DayState) -> Literal["hour", "feedback"]:
+    """Loop until the plan's hours are lived."""
+    return "hour" if state["position"] < len(state["plan"].hours) else "feedback"
+
+
+def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Ask the person what was right of all that the robot imagined today. Writes `feedback`.
+
+    PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the imagined intentions too, and for
+    the whole superset rather than for what was done, so that both classifiers get labels that are not biased by them.
+    """
+    services, plan = runtime.context, state["plan"]
+    items: list[FeedbackItem] = []
+    for hour in services.recorder.read_day(plan.day):
+        if hour.human is not None and hour.robot is not None:
+            items += _hour_feedback(services, plan, hour.hour, hour.human, hour.robot)
+    return {"feedback": items}
+
+
+def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Revise the robot's picture of the person from what it was told today. Writes `pictures`, `traits_reasons`.
+
+    A reply that cannot be read leaves the picture as it was.
+    """
+    services, plan = runtime.context, state["plan"]
+    told = [hour for hour in services.recorder.read_day(plan.day) if hour.human is not None]
+    picture = state["pictures"].get(plan.person, Picture())
+    if not services.method.traits or not told:
+        return {"traits_reasons": {}}
+    clock = plan.clock(len(plan.hours) - 1)
+    lived = [(hour.human, plan.episode_day * 24 + hour.hour) for hour in told if hour.human is not None]
+    try:
+        reply = services.ask(
+            "robot/traits",
+            TraitsReply,
+            at=Address(plan.person, clock.day, clock.hour, "infer_traits"),
+            variables={
+                "intentions": [as_memory(human.intention.text, now, clock) for human, now in lived],
+                "tasks": [as_memory(task.act.describe(), now, clock) for human, now in lived for task in human.tasks],
+                "profile": picture.profile,
+            },
+        )
+    except ModelOutputError as err:
+        return {"traits_reasons": {"failed": str(err)}}
+    seen = Picture(big_five=reply.big_five, profile=reply.profile)
+    reasons = {"big_five": reply.reasons_big_five, "profile": reply.reasons_profile}
+    return {"pictures": {**state["pictures"], plan.person: seen}, "traits_reasons": reasons}
+
+
+def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Keep the day's truth as history and train both classifiers. Writes `learned` and `measured`."""
+    services, plan = runtime.context, state["plan"]
+    hours = services.recorder.read_day(plan.day)
+    history = services.memories("history", plan.episode, plan.person)
+    history.forget_from(plan.episode_day * 24)
+    for hour in hours:
+        if hour.human is not None:
+            texts = [task.act.describe() for task in hour.human.tasks]
+            history.add(hour.human.intention.text, texts, plan.episode_day * 24 + hour.hour)
+    if not services.method.learns:
+        return {"measured": {}}
+    picture = state["pictures"].get(plan.person, Picture())
+    examples = labelled(hours, state["feedback"], picture)
+    measured = services.learner.learn(plan.day, state["learned"], examples, picture, services.seed)
+    return {"measured": measured, "learned": [*state["learned"], plan.day]}
+
+
+def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Write the evening's trace."""
+    services, plan = runtime.context, state["plan"]
+    services.recorder.write_evening(
+        Evening(
+            day=plan.day,
+            episode=plan.episode,
+            episode_day=plan.episode_day,
+            person=plan.person,
+            scene=plan.scene,
+            feedback=state["feedback"],
+            picture=state["pictures"].get(plan.person, Picture()),
+            traits_reasons=state["traits_reasons"],
+            learned=state["measured"],
+            calls=services.ask.take_calls(),
+        )
+    )
+    runtime.stream_writer({"day": plan.day, "hour": None, "node": "end_day", "success": None})
+    return {}
+
+
+def _hour_feedback(
+    services: Services, plan: DayPlan, hour: int, human: HumanHour, robot: RobotHour
+) -> list[FeedbackItem]:
+    clock = plan.clock(plan.hours.index(hour))
+    at = Address(plan.person, clock.day, clock.hour, "feedback")
+    known = {**when(clock), **who(human_context(services, plan)), "intention": human.intention.text}
+    guesses = [c.text for c in robot.intentions]
+    texts = [t.act.describe() for t in robot.tasks]
+    offers = [{"thought": t.thought, "text": text} for t, text in zip(robot.tasks, texts, strict=True)]
+    asked = {**known, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
+    heard = _ask_verdicts(services, "human/feedback_intentions", at, {**known, "guesses": guesses}, len(guesses))
+    said = _ask_verdicts(services, "human/feedback_tasks", at, asked, len(offers))
+    return [
+        *_items(hour, "intention", guesses, robot.intentions, heard),
+        *_items(hour, "task", texts, robot.tasks, said),
+    ]
+
+
+def _items(
+    hour: int,
+    kind: Literal["intention", "task"],
+    texts: Sequence[str],
+    candidates: Sequence[IntentionCandidate | TaskCandidate],
+    answers: Sequence[Answer],
+) -> list[FeedbackItem]:
+    return [
+        FeedbackItem(hour=hour, kind=kind, text=text, accepted=bool(candidate.accepted), helpful=yes, reason=reason)
+        for text, candidate, (yes, reason) in zip(texts, candidates, answers, strict=True)
+    ]
+
+
+def _ask_verdicts(
+    services: Services, prompt: str, at: Address, variables: dict[str, Any], count: int
+) -> Sequence[Answer]:
+    if count == 0:
+        return []
+    try:
+        reply = services.ask(prompt, VerdictsReply, at=at, variables=variables)
+    except ModelOutputError as err:
+        return [(None, str(err))] * count
+    if len(reply.verdicts) != count:
+        return [(None, f"{len(reply.verdicts)} answers to {count} questions")] * count
+    return [(v.yes, v.reason) for v in reply.verdicts]

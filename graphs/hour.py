@@ -1,0 +1,220 @@
+"""One hour in the home: the person lives it, the robot watches the first task and helps, and it is scored.
+
+human -> demonstrate -> robot -> finish -> score -> record. The hour is the unit of work: interrupted, it is done
+again as a whole and gives the same result, so its graphs keep no checkpoints of their own.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable
+from typing import Annotated, Any, Protocol, cast
+
+from langgraph.graph import END, START, StateGraph
+from langgraph.graph.state import CompiledStateGraph
+from langgraph.runtime import Runtime
+from typing_extensions import TypedDict
+
+from core.clock import Clock
+from core.errors import ModelOutputError
+from core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
+from core.household import Outcome
+from core.people import Picture
+from core.protocols import Home
+from core.randomness import Address
+from graphs.human import HumanState, build_human_graph, human_hour
+from graphs.robot import RobotInput, RobotState, build_robot_graph, robot_hour
+from graphs.services import HumanContext, RobotContext, Services
+
+
+class HourInput(TypedDict):
+    """What starts an hour."""
+
+    plan: DayPlan
+    position: int
+    picture: Picture
+
+
+class HourState(HourInput, total=False):
+    """Working state of the hour; the person's truth lives here and is never handed to the robot's graph."""
+
+    human: HumanHour  # by human
+    observation: Observation  # by demonstrate
+    robot: RobotHour  # by robot, completed by score
+    outcomes: Annotated[list[Outcome], operator.add]  # by demonstrate and finish: what the person did
+    success: Success  # by score
+    failure: str  # by whichever node failed
+    world: dict[str, Any]  # by record: the snapshot
+
+
+class Node(Protocol):
+    """A node of the hour."""
+
+    def __call__(self, state: HourState, *, runtime: Runtime[Services]) -> dict[str, Any]:
+        """Return a partial update of the state."""
+        ...
+
+
+def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, HourState]:
+    """Compile the hour; a reply that cannot be read ends it early, as failed, and it is recorded all the same."""
+    human, robot = build_human_graph(), build_robot_graph()
+
+    def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+        ctx = human_context(runtime.context, state["plan"])
+        ctx.memories.forget_from(_clock(state).now)
+        return {"human": human_hour(cast(HumanState, human.invoke({"clock": _clock(state)}, context=ctx)))}
+
+    def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+        ctx = robot_context(runtime.context, state["plan"])
+        ctx.guesses.forget_from(_clock(state).now)
+        given = RobotInput(clock=_clock(state), observation=state["observation"], picture=state["picture"])
+        return {"robot": robot_hour(cast(RobotState, robot.invoke(given, context=ctx)))}
+
+    graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
+    nodes: dict[str, Node] = {
+        "human": live,
+        "demonstrate": demonstrate,
+        "robot": help_person,
+        "finish": finish,
+        "score": score,
+    }
+    graph.add_edge(START, "human")
+    for (name, node), after in zip(nodes.items(), [*list(nodes)[1:], "record"], strict=True):
+        graph.add_node(name, _failing(node))
+        graph.add_conditional_edges(name, _goes_on_to(after), sorted({after, "record"}))
+    graph.add_node("record", record)
+    graph.add_edge("record", END)
+    return graph.compile(checkpointer=False, name="hour")
+
+
+def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Have the person do the first task while the robot watches. Writes `observation`.
+
+    The robot gets sampled frames, in type 1 the task's text too (PAPER §3.1), and, where its model cannot look at
+    pictures, what a perception module reports.
+    """
+    services, plan, clock = runtime.context, state["plan"], _clock(state)
+    home, first = services.home(plan.scene), state["human"].tasks[0]
+    outcome = home.perform("human", first.act, record=True)
+    frames = []
+    if services.frames:
+        folder = services.recorder.frames_folder(plan.day, clock.hour)
+        frames = [services.relative(path) for path in home.frames(services.frames, folder)]
+    blind = not services.ask.sees("robot")
+    percept = home.percept(services.rng(Address(plan.person, clock.day, clock.hour, "percept"))) if blind else None
+    text = first.act.describe() if plan.collab == 1 else None
+    return {"observation": Observation(frames=frames, percept=percept, first_task=text), "outcomes": [outcome]}
+
+
+def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Have the person do the remaining tasks, except those that the robot has done. Adds to `outcomes`."""
+    home = runtime.context.home(state["plan"].scene)
+    done = {_effect(home, outcome) for outcome in state["robot"].outcomes if outcome.ok}
+    remaining = [task.act for task in state["human"].tasks[1:]]
+    mine = [act for act in remaining if _effect(home, Outcome(agent="human", act=act, ok=True)) not in done]
+    return {"outcomes": [home.perform("human", act) for act in mine]}
+
+
+def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Judge the robot's tasks against the person's remaining ones. Completes `robot`; writes `success`."""
+    services, plan, human, robot = runtime.context, state["plan"], state["human"], state["robot"]
+    at = Address(plan.person, _clock(state).day, _clock(state).hour, "score")
+    tasks, success = services.score(services.home(plan.scene), at, human.intention, human.tasks[1:], robot.tasks)
+    return {"robot": robot.model_copy(update={"tasks": tasks}), "success": success}
+
+
+def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Remember the hour and write its trace: the last act of an hour. Writes `world`."""
+    services, plan, clock = runtime.context, state["plan"], _clock(state)
+    human, robot = state.get("human"), state.get("robot")
+    if human:
+        texts = [task.act.describe() for task in human.tasks]
+        services.memories("human", plan.episode, plan.person).add(human.intention.text, texts, clock.now)
+    if robot:
+        _remember_guess(services, plan, clock, robot)
+    world = services.home(plan.scene).snapshot()
+    success = state.get("success")
+    services.recorder.write_hour(
+        HourRecord(
+            day=plan.day,
+            episode=plan.episode,
+            episode_day=plan.episode_day,
+            hour=clock.hour,
+            person=plan.person,
+            scene=plan.scene,
+            human=human,
+            robot=robot,
+            world={"outcomes": [o.model_dump() for o in state.get("outcomes", [])], "after": world},
+            success=success,
+            status="failed" if "failure" in state else "ok",
+            reason=state.get("failure", ""),
+            calls=services.ask.take_calls(),
+        )
+    )
+    runtime.stream_writer(
+        {"day": plan.day, "hour": clock.hour, "node": "record", "success": success.model_dump() if success else None}
+    )
+    return {"world": world}
+
+
+def human_context(services: Services, plan: DayPlan) -> HumanContext:
+    """The person's services for a day."""
+    return HumanContext(
+        ask=services.ask,
+        persona=services.people[plan.person],
+        collab=plan.collab,
+        home=services.home(plan.scene),
+        memories=services.memories("human", plan.episode, plan.person),
+        embeddings=services.embeddings,
+    )
+
+
+def robot_context(services: Services, plan: DayPlan) -> RobotContext:
+    """The robot's services for a day: what it may know."""
+    return RobotContext(
+        ask=services.ask,
+        person=plan.person,
+        collab=plan.collab,
+        method=services.method,
+        home=services.home(plan.scene),
+        history=services.memories("history", plan.episode, plan.person),
+        guesses=services.memories("guesses", plan.episode, plan.person),
+        learner=services.learner,
+        images=services.recorder.root,
+    )
+
+
+def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: RobotHour) -> None:
+    accepted = [c for c in robot.intentions if c.accepted]
+    guess = max(accepted, key=lambda c: c.probability or 0.0)
+    tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
+    seen = [robot.observation.first_task] if robot.observation.first_task else []
+    services.memories("guesses", plan.episode, plan.person).add(guess.text, [*seen, *tasks], clock.now)
+
+
+def _effect(home: Home, outcome: Outcome) -> tuple[str, ...]:
+    act = outcome.act
+    if act.kind == "pick_place":
+        return ("on", home.class_of(act.object), home.class_of(act.receptacle))
+    return (outcome.agent, act.describe())
+
+
+def _clock(state: HourInput) -> Clock:
+    return state["plan"].clock(state["position"])
+
+
+def _failing(node: Node) -> Node:
+    def run(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+        try:
+            return node(state, runtime=runtime)
+        except ModelOutputError as err:
+            return {"failure": str(err)}
+
+    return run
+
+
+def _goes_on_to(after: str) -> Callable[[HourState], str]:
+    def route(state: HourState) -> str:
+        return "record" if "failure" in state else after
+
+    return route

@@ -1,0 +1,37 @@
+"""A method is data: what the robot does and sees, declared as differences from ours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """One way for the robot to help; `evaluation.METHODS` lists them.
+
+    Attributes:
+        name: As given to `--method`.
+        traits: Whether the inferred Big Five and profile enter prompts and classifiers.
+        context: Whether retrieved intentions and tasks enter prompts and classifiers.
+        verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything.
+        learns: Whether the evening trains the classifiers.
+    """
+
+    name: str
+    traits: bool = True
+    context: bool = True
+    verdicts: Literal["classifiers", "accept"] = "classifiers"
+    learns: bool = True
+
+
+class Numbers:
+    """How many of each thing the paper's method asks for, by collaboration type (facts of the paper and its code)."""
+
+    HUMAN_TASKS = {1: 3, 2: 5}  # PAPER §3.1
+    ROBOT_INTENTIONS = {1: 3, 2: 5}  # PAPER App. D says 5; the authors' code asks for 3 in type 1
+    ROBOT_TASKS = {1: 3, 2: 5}  # PAPER App. D
+    RECALL_INTENTIONS = 3  # PAPER §4.1
+    RECALL_TASKS = 5  # PAPER §4.1
+    SEARCH_OBJECTS = 30  # the authors' code
+    SEARCH_MOTIONS = 5  # the authors' code

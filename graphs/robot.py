@@ -1,0 +1,272 @@
+"""The robot's hour as a state machine: observe, imagine and classify intentions, imagine and classify tasks, act.
+
+PAPER §3.3. Nothing true about the hour is an input: `RobotInput` holds the clock and the observation only,
+and `RobotContext` reaches neither the persona nor the person's memories.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+from langgraph.graph import END, START, StateGraph
+from langgraph.graph.state import CompiledStateGraph
+from langgraph.runtime import Runtime
+from langgraph.types import Send
+from typing_extensions import TypedDict
+
+from core.clock import Clock
+from core.errors import ModelOutputError
+from core.hour import Example, IntentionCandidate, Observation, Reasons, Recalled, RobotHour, TaskCandidate
+from core.household import Outcome
+from core.people import Picture
+from core.randomness import Address
+from core.replies import HandOverReply, IntentionsReply, PickPlaceReply
+from graphs.human import when
+from graphs.learning import Kind, example
+from graphs.method import Numbers
+from graphs.recall import as_variables, best, recall_both
+from graphs.services import RobotContext
+
+TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
+
+
+class RobotInput(TypedDict):
+    """Everything the robot is given. The person's intention is not in it, on purpose."""
+
+    clock: Clock
+    observation: Observation
+    picture: Picture
+
+
+class Imagined(TypedDict):
+    """The tasks imagined for one accepted intention."""
+
+    rank: int
+    tasks: list[TaskCandidate]
+
+
+class RobotState(RobotInput, total=False):
+    """Working state of the robot's hour; a key is absent until its node has run."""
+
+    recalled: list[Recalled]  # by observe
+    intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
+    imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
+    tasks: list[TaskCandidate]  # by classify_tasks; in the order of their intentions, without repeats
+    outcomes: list[Outcome]  # by act, one per accepted task
+    fallbacks: Annotated[list[str], operator.add]  # by whichever node had to fall back
+
+
+class TaskRequest(TypedDict):
+    """What one imagine_tasks gets: an accepted intention, and what the robot knows."""
+
+    clock: Clock
+    observation: Observation
+    picture: Picture
+    recalled: list[Recalled]
+    intention: IntentionCandidate
+    rank: int
+
+
+def build_robot_graph() -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
+    """Compile the robot's graph; invoke it with a `RobotInput` and a `RobotContext`."""
+    graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=RobotInput)
+    for node in (observe, imagine_intentions, classify_intentions, imagine_tasks, classify_tasks, act):
+        graph.add_node(node)
+    graph.add_edge(START, "observe")
+    graph.add_edge("observe", "imagine_intentions")
+    graph.add_edge("imagine_intentions", "classify_intentions")
+    graph.add_conditional_edges("classify_intentions", one_per_accepted, ["imagine_tasks"])
+    graph.add_edge("imagine_tasks", "classify_tasks")
+    graph.add_edge("classify_tasks", "act")
+    graph.add_edge("act", END)
+    return graph.compile(checkpointer=False, name="robot")
+
+
+def robot_hour(state: RobotState) -> RobotHour:
+    """The finished state as it stands in the trace."""
+    return RobotHour(
+        observation=state["observation"],
+        recalled=state["recalled"],
+        intentions=state["intentions"],
+        tasks=state["tasks"],
+        outcomes=state["outcomes"],
+        fallbacks=sorted(state.get("fallbacks", [])),
+    )
+
+
+def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Recall what the robot knows that resembles what it sees. Reads `observation`; writes `recalled`.
+
+    Earlier days come from what the person told in the evenings, today from the robot's own guesses.
+    """
+    ctx, clock, seen = runtime.context, state["clock"], state["observation"]
+    if not ctx.method.context:
+        return {"recalled": []}
+    sight = seen.first_task or (seen.percept.caption() if seen.percept else "")
+    query = f"{clock.label}, {clock.weekday}. {sight}"
+    dawn = clock.day * 24
+    told = recall_both(ctx.history, query, clock, since=None)
+    guessed = recall_both(ctx.guesses, query, clock, since=dawn)
+    return {"recalled": best([*told, *guessed])}
+
+
+def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Propose what the person may be up to. Reads `observation`, `recalled`; writes `intentions`.
+
+    Raises:
+        ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
+    """
+    ctx, clock, seen = runtime.context, state["clock"], state["observation"]
+    percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
+    count = Numbers.ROBOT_INTENTIONS[ctx.collab]
+    reply = ctx.ask(
+        "robot/intentions",
+        IntentionsReply,
+        at=_at(clock, ctx, "imagine_intentions"),
+        images=[ctx.images / frame for frame in seen.frames] if ctx.ask.sees("robot") else (),
+        variables={
+            **when(clock),
+            **belief(state["picture"], ctx),
+            **as_variables(state["recalled"], clock),
+            "rooms": ctx.home.rooms,
+            "percept": percept,
+            "first_task": seen.first_task,
+            "n_intentions": count,
+        },
+    )
+    candidates = {
+        item.intention: IntentionCandidate(
+            text=item.intention,
+            reasons=Reasons(
+                human=item.reason_human,
+                intentions=item.reason_intentions,
+                tasks=item.reason_tasks,
+                vision=item.reason_vision,
+            ),
+        )
+        for item in reversed(reply.intentions[:count])
+    }
+    return {"intentions": list(reversed(candidates.values()))}
+
+
+def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Keep the likely intentions. Reads and completes `intentions`.
+
+    Where none is accepted the most probable one goes on, and that is said.
+    DEVIATES: the authors' code then takes one at random.
+    """
+    ctx, candidates = runtime.context, state["intentions"]
+    asked = [example(state, ctx.person, intention=c.text) for c in candidates]
+    probabilities = _verdicts(ctx, "intention", asked)
+    accepted = [p >= 0.5 for p in probabilities]
+    fallbacks = []
+    if not any(accepted):
+        accepted[probabilities.index(max(probabilities))] = True
+        fallbacks = ["no intention was accepted: the most probable one went on"]
+    judged = [
+        c.model_copy(update={"probability": p, "accepted": a})
+        for c, p, a in zip(candidates, probabilities, accepted, strict=True)
+    ]
+    return {"intentions": judged, "fallbacks": fallbacks}
+
+
+def one_per_accepted(state: RobotState) -> list[Send]:
+    """Fan out: one imagine_tasks per accepted intention."""
+    return [
+        Send(
+            "imagine_tasks",
+            TaskRequest(
+                clock=state["clock"],
+                observation=state["observation"],
+                picture=state["picture"],
+                recalled=state["recalled"],
+                intention=intention,
+                rank=rank,
+            ),
+        )
+        for rank, intention in enumerate(state["intentions"])
+        if intention.accepted
+    ]
+
+
+def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Propose tasks for one accepted intention. Reads a `TaskRequest`; adds to `imagined`.
+
+    A reply that cannot be read leaves this intention without tasks, and that is said.
+    Tasks with objects that are not in the home are left out, since the robot could not do them.
+    """
+    ctx, clock, intention = runtime.context, state["clock"], state["intention"]
+    home, count = ctx.home, Numbers.ROBOT_TASKS[ctx.collab]
+    extra = (
+        {"movable": home.objects("movable"), "first_task": state["observation"].first_task} if ctx.collab == 1 else {}
+    )
+    try:
+        reply = ctx.ask(
+            f"robot/tasks_type{ctx.collab}",
+            TASKS_REPLY[ctx.collab],
+            at=_at(clock, ctx, "imagine_tasks", draw=state["rank"]),
+            variables={
+                **when(clock),
+                **belief(state["picture"], ctx),
+                **as_variables(state["recalled"], clock),
+                **extra,
+                "intention": intention.text,
+                "fixed": home.objects("fixed"),
+                "n_tasks": count,
+            },
+        )
+    except ModelOutputError as err:
+        return {"imagined": [], "fallbacks": [f'no tasks for "{intention.text}": {err}']}
+    tasks = [
+        TaskCandidate(
+            intention=intention.text,
+            thought=draft.thought,
+            reasons=Reasons(human=draft.reason_human, intentions=draft.reason_intentions, tasks=draft.reason_tasks),
+            act=draft.act,
+        )
+        for draft in reply.tasks[:count]
+    ]
+    return {"imagined": [{"rank": state["rank"], "tasks": tasks}]}
+
+
+def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Keep the likely tasks of the superset. Reads `imagined`; writes `tasks`.
+
+    A task imagined for several intentions counts once, for the most likely of them.
+    """
+    ctx = runtime.context
+    superset: dict[str, TaskCandidate] = {}
+    for batch in sorted(state.get("imagined", []), key=lambda batch: batch["rank"]):
+        for task in batch["tasks"]:
+            superset.setdefault(task.act.describe(), task)
+    asked = [example(state, ctx.person, intention=t.intention, task=t.act.describe()) for t in superset.values()]
+    probabilities = _verdicts(ctx, "task", asked)
+    tasks = [
+        task.model_copy(update={"probability": p, "accepted": p >= 0.5})
+        for task, p in zip(superset.values(), probabilities, strict=True)
+    ]
+    return {"tasks": tasks}
+
+
+def act(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Do the accepted tasks in the home, most probable first. Reads `tasks`; writes `outcomes`."""
+    accepted = sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0))
+    return {"outcomes": [runtime.context.home.perform("robot", task.act) for task in accepted]}
+
+
+def belief(picture: Picture, ctx: RobotContext) -> dict[str, Any]:
+    """The inferred traits as prompts read them; nothing where the method goes without."""
+    known = picture if ctx.method.traits else Picture()
+    return {"big_five": known.big_five.model_dump() if known.big_five else None, "profile": known.profile}
+
+
+def _verdicts(ctx: RobotContext, kind: Kind, asked: Sequence[Example]) -> list[float]:
+    if ctx.method.verdicts == "accept":
+        return [1.0] * len(asked)
+    return ctx.learner.classifiers[kind].probabilities(asked) if asked else []
+
+
+def _at(clock: Clock, ctx: RobotContext, node: str, draw: int = 0) -> Address:
+    return Address(ctx.person, clock.day, clock.hour, node, draw)

@@ -1,0 +1,128 @@
+"""What the graphs' nodes work with: connections, processes and weights, passed as LangGraph's runtime context.
+
+Nothing here is ever stored in state. Each graph has a context of its own, so that a node cannot reach what
+its agent must not know: `RobotContext` holds neither the persona nor the person's memories.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from langchain_core.embeddings import Embeddings
+
+from core.hour import Intention, Success, Task, TaskCandidate
+from core.household import Collab, SceneId
+from core.people import Persona, PersonId
+from core.protocols import Ask, Home, Recorder
+from core.randomness import Address, rng_at
+from graphs.learning import Learner
+from graphs.method import Method
+from memory import MemoryStream, Search
+
+
+class Memories(NamedTuple):
+    """The two streams an agent keeps of a person: one of intentions, one of tasks."""
+
+    intentions: MemoryStream
+    tasks: MemoryStream
+
+    def forget_from(self, now: int) -> None:
+        """Drop what is of this hour or later, before an hour is done (again)."""
+        self.intentions.forget_from(now)
+        self.tasks.forget_from(now)
+
+    def add(self, intention: str, tasks: Sequence[str], now: int) -> None:
+        """Append one hour."""
+        self.intentions.add([intention], now)
+        if tasks:
+            self.tasks.add(list(tasks), now)
+
+
+@dataclass(frozen=True, slots=True)
+class HumanContext:
+    """The person's services for a day in a home."""
+
+    ask: Ask
+    persona: Persona
+    collab: Collab
+    home: Home
+    memories: Memories
+    embeddings: Embeddings
+
+    def search(self, texts: Sequence[str]) -> Search:
+        """Search over a fixed list of texts (object names, motion captions)."""
+        return Search(self.embeddings, list(texts))
+
+
+@dataclass(frozen=True, slots=True)
+class RobotContext:
+    """The robot's services for a day: no persona, no memory of the person's own.
+
+    `history` holds what the person told in the evenings; `guesses` what the robot itself inferred, of
+    which only today's count, since the evening replaces them by the truth.
+    """
+
+    ask: Ask
+    person: PersonId
+    collab: Collab
+    method: Method
+    home: Home
+    history: Memories
+    guesses: Memories
+    learner: Learner
+    images: Path
+    """The folder to which the observation's frames are relative."""
+
+
+class Score(Protocol):
+    """The measure of an hour; `evaluation.success` has the real one."""
+
+    def __call__(
+        self,
+        home: Home,
+        at: Address,
+        intention: Intention,
+        remaining: Sequence[Task],
+        candidates: Sequence[TaskCandidate],
+    ) -> tuple[list[TaskCandidate], Success]:
+        """Judge candidates against the true intention and remaining tasks: set `correct`, and count."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Services:
+    """Everything a run works with; the day and study graphs derive each agent's context from it.
+
+    `home` opens a scene once and keeps it. `stream` opens a memory stream by name. `images` is the root
+    against which frames are relative.
+    """
+
+    ask: Ask
+    method: Method
+    people: Mapping[PersonId, Persona]
+    home: Callable[[SceneId], Home]
+    stream: Callable[[str], MemoryStream]
+    embeddings: Embeddings
+    learner: Learner
+    recorder: Recorder
+    score: Score
+    seed: int
+    frames: int
+    """Sampled moments per hour and viewpoint; 0 renders nothing."""
+
+    def rng(self, address: Address) -> np.random.Generator:
+        """The generator of an address in this run."""
+        return rng_at(self.seed, *address)
+
+    def memories(self, owner: str, episode: int, person: PersonId) -> Memories:
+        """The streams of one owner ("human", "history" or "guesses") about a person in an episode."""
+        stem = f"{owner}/{episode}/{person}"
+        return Memories(self.stream(f"{stem}/intentions"), self.stream(f"{stem}/tasks"))
+
+    def relative(self, path: Path) -> str:
+        """A file's name as the trace gives it."""
+        return path.relative_to(self.recorder.root).as_posix()

@@ -1,0 +1,69 @@
+"""A study: days in the order that the setting prescribes, one supervisor over the day graph."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from langgraph.checkpoint.base import BaseCheckpointSaver
+from langgraph.graph import END, START, StateGraph
+from langgraph.graph.state import CompiledStateGraph
+from langgraph.runtime import Runtime
+from typing_extensions import TypedDict
+
+from core.clock import Clock
+from core.hour import DayPlan, FeedbackItem
+from core.household import SceneId
+from core.people import BigFive, PersonId, Picture
+from graphs.day import build_day_graph
+from graphs.services import Services
+
+STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, Picture)
+"""The classes that stand in checkpoints; a checkpointer's serialiser must be given them."""
+
+
+class StudyInput(TypedDict):
+    """What starts a study."""
+
+    schedule: list[DayPlan]
+
+
+class StudyState(StudyInput, total=False):
+    """State of a study; the keys of `DayInput` are the day graph's to read and write."""
+
+    ahead: int  # by next_day: how many days have been started
+    plan: DayPlan  # by next_day
+    worlds: dict[SceneId, dict[str, Any]]
+    pictures: dict[PersonId, Picture]
+    learned: list[int]
+
+
+def build_study_graph(
+    checkpointer: BaseCheckpointSaver[Any] | None = None,
+) -> CompiledStateGraph[StudyState, Services, StudyInput, StudyState]:
+    """Compile the study; invoke it with `{"schedule": [...]}`, or with None to go on from its checkpoint.
+
+    Give the checkpointer `STATE_TYPES`, and leave `durability` at "async": "sync" breaks the uncheckpointed graphs
+    within the hour (a fault of LangGraph 1.2.22), and nothing is lost, since a lost hour is done again.
+    """
+    graph = StateGraph(StudyState, context_schema=Services, input_schema=StudyInput)
+    graph.add_node(next_day)
+    graph.add_node("day", build_day_graph())
+    graph.add_conditional_edges(START, has_days, {"next_day": "next_day", "done": END})
+    graph.add_edge("next_day", "day")
+    graph.add_conditional_edges("day", has_days, {"next_day": "next_day", "done": END})
+    return graph.compile(checkpointer=checkpointer, name="study")
+
+
+def next_day(state: StudyState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Take the next plan; a new episode starts with a robot that knows nobody and homes as they were built."""
+    ahead = state.get("ahead", 0)
+    plan = state["schedule"][ahead]
+    update: dict[str, Any] = {"ahead": ahead + 1, "plan": plan}
+    if ahead == 0 or state["schedule"][ahead - 1].episode != plan.episode:
+        update |= {"worlds": {}, "pictures": {}, "learned": []}
+    return update
+
+
+def has_days(state: StudyState) -> Literal["next_day", "done"]:
+    """Go on until the schedule is lived."""
+    return "next_day" if state.get("ahead", 0) < len(state["schedule"]) else "done"
