@@ -1,1 +1,31 @@
-""""""
+"""The front door: command line, configuration, run directory, trace and report.
+
+Names are loaded when they are first used, so that `import coopera` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from coopera.config import Config
+    from coopera.rundir import RunDir
+    from coopera.study import resume_study, run_study
+
+__all__ = ["Config", "RunDir", "resume_study", "run_study"]
+__version__ = "0.1.0"
+
+_HOME = {
+    "Config": "coopera.config",
+    "RunDir": "coopera.rundir",
+    "resume_study": "coopera.study",
+    "run_study": "coopera.study",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name on first use."""
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'coopera' has no attribute {name!r}")

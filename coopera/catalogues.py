@@ -1,0 +1,108 @@
+"""What there is to choose from, and a configuration completed and checked against it before anything is written."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from coopera import humans
+from coopera.config import Config
+from core.errors import ConfigError
+
+
+class Catalogues(NamedTuple):
+    """Ids that a configuration may name; people and scenes in the order in which a setting takes them.
+
+    `needs` gives, by setting, (people of one episode, scenes of one episode, days of one episode).
+    """
+
+    people: list[str]
+    scenes: list[str]
+    methods: list[str]
+    needs: dict[int, tuple[int, int, int]]
+
+
+def load_catalogues(config: Config) -> Catalogues:
+    """Gather what ships with coopera and what stands in the configuration's data folder."""
+    # These rooms are slow to import, and `coopera --help` needs none of them.
+    from evaluation import METHODS, SETTINGS  # noqa: PLC0415
+    from simulation.scene import list_scenes  # noqa: PLC0415
+
+    return Catalogues(
+        people=list(humans.known_ids(config.data_dir)),
+        scenes=list_scenes([config.data_dir / "scenes"]),
+        methods=list(METHODS),
+        needs={number: (setting.people, setting.scenes, setting.days) for number, setting in SETTINGS.items()},
+    )
+
+
+def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
+    """Fill in what the setting decides and check every name; humans, scenes, days and out are then set.
+
+    Raises:
+        ConfigError: Naming the field, what is wrong and what there is.
+    """
+    known = catalogues or load_catalogues(config)
+    n_people, n_scenes, days = known.needs[config.setting]
+    _refuse_what_comes_later(config)
+    _check("method", "method", [config.method], known.methods)
+    _check("humans", "person", config.humans or [], known.people)
+    _check("scenes", "home", config.scenes or [], known.scenes)
+    people = config.humans or _first("humans", known.people, n_people, config.setting)
+    scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
+    _groups("humans", people, n_people, config.setting)
+    _groups("scenes", scenes, n_scenes, config.setting)
+    for person in people:
+        humans.find(person, config.data_dir)
+    return config.model_copy(
+        update={
+            "humans": list(people),
+            "scenes": list(scenes),
+            "days": config.days or days,
+            "out": config.out or next_folder(Path("runs")),
+        }
+    )
+
+
+def _first(field: str, ids: Sequence[str], count: int, setting: int) -> list[str]:
+    if len(ids) < count:
+        there = f"only {', '.join(ids)} exists" if len(ids) == 1 else f"there are {', '.join(ids) or 'none'}"
+        raise ConfigError(f"{field}: setting {setting} needs {count}, and {there}.")
+    return list(ids[:count])
+
+
+def _check(field: str, what: str, wanted: Sequence[str], known: Sequence[str]) -> None:
+    for name in wanted:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            shown = ", ".join(known[:12]) + (f" and {len(known) - 12} more" if len(known) > 12 else "")
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise ConfigError(f"{field}: there is no {what} {name!r} ({hint}known are {shown or 'none'}).")
+        if wanted.count(name) > 1:
+            raise ConfigError(f"{field}: {name} stands twice, and each may stand once.")
+
+
+def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:
+    if len(ids) % size:
+        a_multiple = f"{size} or a multiple of it" if size > 1 else "at least 1"
+        raise ConfigError(f"{field}: setting {setting} takes {a_multiple}, not {len(ids)} ({', '.join(ids)}).")
+
+
+def next_folder(runs: Path) -> Path:
+    """The first of run-001, run-002, … that is not there yet."""
+    number = 1
+    while (folder := runs / f"run-{number:03d}").exists():
+        number += 1
+    return folder
+
+
+def _refuse_what_comes_later(config: Config) -> None:
+    """Refuse choices that are named in the design but not built yet."""
+    if config.pictures == "video":
+        raise ConfigError("pictures: video comes later; choose sampled or none.")
+    if config.human != "simulated":
+        raise ConfigError(f"human: {config.human} comes later; choose simulated.")
+    if config.prompts is not None and not config.prompts.is_dir():
+        raise ConfigError(f"prompts: {config.prompts} must be a folder of prompt files, and there is no such folder.")

@@ -1,0 +1,55 @@
+"""The command line. Nothing heavy is imported before a command needs it, so that `--help` answers at once."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import typer
+
+from coopera.commands import humans, reports, run, scenes
+from core.errors import ConfigError, CooperaError
+
+app = typer.Typer(
+    name="coopera",
+    help="A person with a personality lives in a simulated home, and a robot learns to help that person.",
+    epilog="Exit codes: 0 done, 1 the work failed, 2 the input is wrong, 130 stopped by Ctrl-C.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(run.run)
+app.command()(run.resume)
+app.command()(reports.trace)
+app.command()(reports.report)
+app.add_typer(humans.app, name="humans")
+app.add_typer(scenes.app, name="scenes")
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code: 0 done, 1 the work failed, 2 the input is wrong, 130 stopped.
+
+    What is wrong is said in one sentence on standard error.
+    """
+    try:
+        code = app(list(sys.argv[1:] if args is None else args), prog_name="coopera", standalone_mode=False)
+    except ConfigError as err:
+        return _fail(str(err), 2)
+    except CooperaError as err:
+        return _fail(str(err), 1)
+    except typer.TyperException as err:
+        return _fail(err.format_message(), 2)
+    except BrokenPipeError:  # the reader of a pipe, such as `head`, has seen enough
+        sys.stderr.close()
+        return 1
+    return code if isinstance(code, int) else 0
+
+
+def _fail(sentence: str, code: int) -> int:
+    if sentence:
+        typer.echo(f"coopera: {' '.join(sentence.split())}", err=True)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,106 @@
+"""`coopera humans`: who can take part, and how to bring in more."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder
+
+app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
+
+
+@app.command("list")
+def list_humans(as_json: AsJson = False) -> None:
+    """List the shipped people and the imported ones."""
+    from coopera.config import default_data_dir
+    from coopera.humans import catalogue
+    from coopera.tables import print_table
+
+    people = catalogue(default_data_dir())
+    if as_json:
+        typer.echo(json.dumps([person.model_dump(mode="json") for person in people], ensure_ascii=False))
+        return
+    rows = [[person.id, person.name, *_scores(person), person.source] for person in people]
+    print_table(["id", "name", "O", "C", "E", "A", "N", "source"], rows)
+
+
+@app.command()
+def show(
+    person: Annotated[str, typer.Argument(metavar="ID", help="An id from `coopera humans list`.")],
+    as_json: AsJson = False,
+) -> None:
+    """Show one person: self-introduction and Big Five."""
+    from coopera.config import default_data_dir
+    from coopera.humans import find
+
+    found = find(person, default_data_dir())
+    if as_json:
+        typer.echo(found.model_dump_json())
+        return
+    typer.echo(f"{found.name} ({found.id}, from {found.source})\n\n{found.profile}\n\n{found.big_five}")
+
+
+@app.command("import")
+def import_humans(
+    file: Annotated[Path, typer.Argument(metavar="FILE.csv", help="Synthetic-Persona-Chat as published.")],
+    limit: Annotated[int | None, typer.Option(min=1, help="Take the first rows only.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR, or the user's own]")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Write anew those who are there already.")] = False,
+    model: Model = None,
+    base_url: BaseUrl = None,
+    prompts: PromptFolder = None,
+    as_json: AsJson = False,
+) -> None:
+    """Make one person of each row, from the column "user 1 personas"."""
+    from coopera.config import load_config
+    from coopera.persona_import import import_people, read_rows
+
+    models = {"human": model} if model else None
+    config = load_config(flags={"models": models, "base_url": base_url, "prompts": prompts, "data_dir": out})
+    read_rows(file)  # a file that is wrong is refused before a model is loaded
+    from coopera.assemble import open_ask
+
+    folder = config.data_dir / "humans"
+    ask = open_ask(config)
+
+    def tell(person: str, what: str) -> None:
+        typer.echo(f"{person}: {what}", err=True)
+
+    done = import_people(file, ask, folder, limit=limit, force=force, on_person=tell)
+    if as_json:
+        found: dict[str, Any] = {"written": done.written, "kept": done.kept, "folder": str(folder)}
+        typer.echo(json.dumps(found))
+        return
+    typer.echo(f"{len(done.written)} written and {len(done.kept)} kept in {folder}.")
+
+
+@app.command()
+def check(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A persona file (.yaml), or a CSV to be imported.")],
+    as_json: AsJson = False,
+) -> None:
+    """Say whether a file can be used, and if not, why."""
+    if file.suffix.lower() == ".csv":
+        from coopera.persona_import import read_rows
+
+        what: dict[str, Any] = {"file": str(file), "rows": len(read_rows(file))}
+        sentence = f"{file}: {what['rows']} people can be imported."
+    else:
+        from coopera.humans import read_persona
+
+        person = read_persona(file)
+        what = {"file": str(file), "id": person.id, "name": person.name}
+        sentence = f"{file}: this is {person.name} ({person.id})."
+    typer.echo(json.dumps(what) if as_json else sentence)
+
+
+def _scores(person: Any) -> list[str]:
+    from core.people import TRAITS
+
+    return [f"{getattr(person.big_five, trait):.1f}" for trait in TRAITS]

@@ -1,0 +1,34 @@
+"""`coopera trace` and `coopera report`: look inside a run."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from coopera.commands.options import AsJson, RunPath
+
+
+def trace(
+    run: RunPath,
+    day: Annotated[int | None, typer.Option(min=0, help="Only this day, counted from 0 as in the file names.")] = None,
+    hour: Annotated[int | None, typer.Option(min=0, max=23, help="Only this hour of day, such as 9 or 14.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print hours of a run as readable trees, from its trace files alone."""
+    from coopera.rundir import RunDir
+    from coopera.trace import print_json, print_trees
+
+    found = RunDir.open(run)
+    (print_json if as_json else print_trees)(found, day, hour)
+
+
+def report(run: RunPath, as_json: AsJson = False) -> None:
+    """Write RUN/report.html anew, from the run's files alone."""
+    import json
+
+    from coopera.report import write_report
+    from coopera.rundir import RunDir
+
+    path = write_report(RunDir.open(run))
+    typer.echo(json.dumps({"report": str(path), "bytes": path.stat().st_size}) if as_json else f"Report: {path}")

@@ -1,0 +1,132 @@
+"""`coopera run` and `coopera resume`."""
+
+from __future__ import annotations
+
+import json
+import signal
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, RunPath, as_list
+
+STOPPED = 130  # what shells give a program that Ctrl-C ended
+
+Event = Mapping[str, Any]
+
+
+def run(
+    study: Annotated[Path | None, typer.Argument(metavar="[STUDY.yaml]", help="A study file; flags win.")] = None,
+    setting: Annotated[int | None, typer.Option(help="The paper's setting, 1 to 4. [default: 1]")] = None,
+    collab: Annotated[int | None, typer.Option(help="1 watch and help, 2 free-form. [default: 2]")] = None,
+    humans: Annotated[str | None, typer.Option(metavar="ID,…", help="People, in the order they take part.")] = None,
+    scenes: Annotated[str | None, typer.Option(metavar="ID,…", help="Homes, in the order they are lived in.")] = None,
+    days: Annotated[int | None, typer.Option(help="Days of each episode. [default: as the setting has it]")] = None,
+    hours: Annotated[int | None, typer.Option(help="Hours of each day, from 9 am. [default: 13]")] = None,
+    method: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's method. [default: ours]")] = None,
+    seed: Annotated[int | None, typer.Option(help="Every random draw derives from it. [default: 0]")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="The run directory. [default: the next runs/run-NNN]")
+    ] = None,
+    model: Model = None,
+    human_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the person.")] = None,
+    robot_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the robot.")] = None,
+    judge_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the judge.")] = None,
+    base_url: BaseUrl = None,
+    prompts: PromptFolder = None,
+    classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    human: Annotated[str | None, typer.Option(help="Who plays the person. [default: simulated]")] = None,
+    pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Let people live their days while a robot learns to help them."""
+    from coopera.catalogues import resolve
+    from coopera.config import load_config
+
+    roles = {"human": human_model or model, "robot": robot_model or model, "judge": judge_model or model}
+    flags = {
+        "setting": setting,
+        "collab": collab,
+        "humans": as_list(humans),
+        "scenes": as_list(scenes),
+        "days": days,
+        "hours": hours,
+        "method": method,
+        "seed": seed,
+        "out": out,
+        "models": {role: spec for role, spec in roles.items() if spec is not None} or None,
+        "base_url": base_url,
+        "prompts": prompts,
+        "classifier": classifier,
+        "human": human,
+        "pictures": pictures,
+    }
+    config = resolve(load_config(study, flags))
+    assert config.out is not None  # resolve sets it
+
+    def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
+        from coopera.study import run_study
+
+        return run_study(config, on_event=on_event)
+
+    _carry_out(work, config.out, _hours_of(config), as_json=as_json)
+
+
+def resume(run: RunPath, as_json: AsJson = False) -> None:
+    """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
+    from coopera.rundir import RunDir
+
+    config = RunDir.open(run).config
+
+    def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
+        from coopera.study import resume_study
+
+        return resume_study(run, on_event=on_event)
+
+    _carry_out(work, run, _hours_of(config), as_json=as_json)
+
+
+def _hours_of(config: Any) -> int:
+    """How many hours the whole run has."""
+    from evaluation.settings import SETTINGS, schedule
+
+    plans = schedule(
+        SETTINGS[config.setting],
+        config.humans,
+        config.scenes,
+        days=config.days,
+        hours=config.hours,
+        collab=config.collab,
+    )
+    return sum(len(plan.hours) for plan in plans)
+
+
+def _carry_out(
+    work: Callable[[Callable[[Event], None]], dict[str, Any]], folder: Path, hours: int, *, as_json: bool
+) -> None:
+    """Do the work with progress on standard error, then show what came of it."""
+    from coopera.progress import Progress, days_table
+
+    signal.signal(signal.SIGTERM, _interrupt)  # so that `kill` leaves a run as tidy as Ctrl-C does
+    try:
+        with Progress(hours) as progress:
+            summary = work(progress.tell)
+    except KeyboardInterrupt:
+        typer.echo(_how_to_go_on(folder), err=True)
+        raise typer.Exit(STOPPED) from None
+    if as_json:
+        typer.echo(json.dumps({**summary, "run": str(folder)}, sort_keys=True))
+        return
+    days_table(summary, folder)
+
+
+def _interrupt(signum: int, frame: object) -> None:
+    raise KeyboardInterrupt
+
+
+def _how_to_go_on(folder: Path) -> str:
+    if (folder / "run.json").is_file():
+        return f"Stopped. Continue with: coopera resume {folder}"
+    return "Stopped before the run began; nothing was written."

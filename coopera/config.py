@@ -1,0 +1,174 @@
+"""The configuration of one study: a YAML file, flags that override it, and clear refusals of what is wrong."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import yaml
+from pydantic import Field, ValidationError, field_validator
+
+from coopera.files import read_yaml
+from core.clock import FIRST_HOUR, HOURS_PER_DAY
+from core.errors import ConfigError
+from core.household import Collab
+from core.people import Frozen
+
+MAX_HOURS = 24 - FIRST_HOUR
+
+Text = Annotated[str, Field(min_length=1)]
+Ids = Annotated[list[Text], Field(min_length=1)]
+Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
+
+_EXPECTED = {
+    "setting": "1, 2, 3 or 4",
+    "collab": "1 or 2",
+    "humans": "a list of one or more persona ids",
+    "scenes": "a list of one or more scene ids",
+    "days": "a whole number from 1 to 366",
+    "hours": f"a whole number from 1 to {MAX_HOURS}",
+    "method": "the name of a method",
+    "seed": "a whole number from 0 up",
+    "out": "the path of a folder",
+    "models": "a mapping with any of human, robot and judge",
+    "models.human": "a model such as offline",
+    "models.robot": "a model such as offline",
+    "models.judge": "a model such as offline",
+    "base_url": "an address such as http://localhost:8000/v1",
+    "prompts": "the path of a folder",
+    "classifier": "kernel or lora",
+    "human": "simulated, me or log:FILE",
+    "pictures": "sampled, none or video",
+    "frames": "a whole number from 1 to 64",
+    "frame_size": "two whole numbers from 32 to 2048, [width, height]",
+    "data_dir": "the path of a folder",
+}
+
+
+class Models(Frozen):
+    """Which language model plays which role."""
+
+    human: Text = "offline"
+    robot: Text = "offline"
+    judge: Text = "offline"
+
+
+def default_data_dir() -> Path:
+    """Where imported people and homes live: COOPERA_DATA_DIR, else the user's own data folder."""
+    given = os.environ.get("COOPERA_DATA_DIR")
+    if given:
+        return Path(given).expanduser()
+    base = os.environ.get("XDG_DATA_HOME")
+    return (Path(base) if base else Path.home() / ".local" / "share") / "coopera"
+
+
+class Config(Frozen):
+    """What to run. `None` means "as the setting has it"; `coopera.catalogues.resolve` fills that in.
+
+    Attributes:
+        setting: One of the paper's four settings (PAPER §4.1).
+        collab: Collaboration type, 1 (watch and help) or 2 (free-form).
+        humans: Persona ids in the order in which they take part.
+        scenes: Scene ids in the order in which they are lived in.
+        days: Days of each episode.
+        hours: Hours of each day, the first at 9 am (PAPER §3.2: 13).
+        method: Name in `evaluation.METHODS`.
+        seed: Every random draw derives from it.
+        out: The run directory; None takes the next free runs/run-NNN.
+        models: Language model of each role.
+        base_url: Address of an OpenAI-compatible server, where a model needs one.
+        prompts: A folder whose files replace shipped prompts of the same name.
+        classifier: Kind of the robot's yes/no classifiers.
+        human: Who plays the person.
+        pictures: Whether the first task of each hour is recorded as pictures.
+        frames: Pictures per view and hour.
+        frame_size: Width and height of a picture in pixels.
+        data_dir: Folder of imported people and homes.
+    """
+
+    setting: Literal[1, 2, 3, 4] = 1
+    collab: Collab = 2
+    humans: Ids | None = None
+    scenes: Ids | None = None
+    days: Annotated[int, Field(strict=True, ge=1, le=366)] | None = None
+    hours: Annotated[int, Field(strict=True, ge=1, le=MAX_HOURS)] = HOURS_PER_DAY
+    method: Text = "ours"
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 0
+    out: Path | None = None
+    models: Models = Models()
+    base_url: Annotated[str, Field(pattern=r"^https?://\S+$")] | None = None
+    prompts: Path | None = None
+    classifier: Literal["kernel", "lora"] = "kernel"
+    human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
+    pictures: Literal["sampled", "none", "video"] = "sampled"
+    frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
+    frame_size: tuple[Pixels, Pixels] = (320, 240)
+    data_dir: Path = Field(default_factory=default_data_dir)
+
+    @field_validator("setting", "collab", mode="before")
+    @classmethod
+    def _is_no_switch(cls, value: Any) -> Any:
+        if isinstance(value, bool):  # YAML's yes and true would pass for 1
+            raise ValueError
+        return value
+
+    @property
+    def day_hours(self) -> list[int]:
+        """The hours of each day, such as [9, 10, …, 21]."""
+        return list(range(FIRST_HOUR, FIRST_HOUR + self.hours))
+
+    def to_yaml(self) -> str:
+        """The configuration as YAML, in the order of the fields.
+
+        `out` is left out: a rerun of the file goes to a folder of its own.
+        """
+        data = self.model_dump(mode="json", exclude={"out"})
+        return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120)
+
+
+def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:
+    """Read a study file and lay flags over it; a flag of None was not given.
+
+    Flags are named as the fields are, `models` being a mapping of the roles that were given.
+
+    Raises:
+        ConfigError: Naming the file or flag, the field and what was expected.
+    """
+    data = read_yaml(path, "study file") if path else {}
+    given = {name: value for name, value in (flags or {}).items() if value is not None}
+    merged = {**data, **given}
+    roles, file_roles = given.get("models"), data.get("models")
+    if roles and isinstance(file_roles, dict):
+        merged["models"] = {**file_roles, **roles}
+    try:
+        return Config.model_validate(merged)
+    except ValidationError as err:
+        raise ConfigError(_sentence(err, str(path), given)) from None
+
+
+def _sentence(err: ValidationError, file: str, flags: Mapping[str, Any]) -> str:
+    """Turn the first of pydantic's complaints into one sentence."""
+    first = err.errors(include_url=False)[0]
+    names = [part for part in first["loc"] if isinstance(part, str)]
+    known = [".".join(names[:size]) for size in range(len(names), 0, -1)]
+    field = next((name for name in known if name in _EXPECTED), ".".join(names))
+    if first["type"] == "extra_forbidden":
+        name = str(first["loc"][-1])
+        fields = Models.model_fields if names[0] == "models" else Config.model_fields
+        near = difflib.get_close_matches(name, fields, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(fields)}"
+        return f"{file}: there is no field {name!r} ({hint})."
+    where = _flag(names, flags) or f"{file}: {field}"
+    return f"{where} must be {_EXPECTED.get(field, 'otherwise')}, not {first['input']!r}."
+
+
+def _flag(names: list[str], flags: Mapping[str, Any]) -> str | None:
+    """The flag that a wrong value came from, or None where it came from the file."""
+    if names[0] == "models" and len(names) > 1:
+        roles = flags.get("models", {})
+        one_for_all = len(roles) == len(Models.model_fields) and len(set(roles.values())) == 1
+        return None if names[1] not in roles else "--model" if one_for_all else f"--{names[1]}-model"
+    return f"--{names[0].replace('_', '-')}" if names[0] in flags else None

@@ -1,0 +1,359 @@
+"""The run directory: the truth about a run, in files of open formats that are replaced as a whole or not at all."""
+
+from __future__ import annotations
+
+import fcntl
+import importlib.metadata
+import json
+import os
+import shutil
+import socket
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self, TypeVar
+
+from pydantic import ValidationError
+
+from coopera.config import Config, load_config
+from coopera.files import canonical_json, reason, write_atomic
+from coopera.humans import read_persona, write_persona
+from coopera.summary import metrics_csv, metrics_rows, summarise
+from core.errors import ConfigError, CooperaError, RunError
+from core.hour import Evening, HourRecord, ModelCall
+from core.people import Frozen, Persona
+
+Record = TypeVar("Record", bound=Frozen)
+SCHEMA = 1
+_PACKAGES = [
+    "coopera",
+    "chromadb",
+    "langchain-core",
+    "langgraph",
+    "numpy",
+    "peft",
+    "pillow",
+    "pybullet",
+    "pydantic",
+    "scikit-learn",
+    "torch",
+    "transformers",
+]
+
+
+class RunDir:
+    """One run's folder; implements `core.protocols.Recorder`.
+
+    The process that writes holds a lock on the file `lock` and is named in run.json. Used as a context manager
+    it records how the work ended: `finished` after `finish`, else `stopped` or `failed`, each of which may be resumed.
+
+    Attributes:
+        root: The folder.
+        config: The resolved configuration, as in config.yaml.
+    """
+
+    def __init__(self, root: Path, config: Config, info: dict[str, Any], lock: IO[str] | None) -> None:
+        """Use `create`, `resume` or `open`."""
+        self.root = root
+        self.config = config
+        self.info = info
+        self._lock = lock
+        self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
+
+    @classmethod
+    def create(
+        cls,
+        config: Config,
+        *,
+        people: Sequence[Persona],
+        prompts: Mapping[str, str],
+        models: Mapping[str, str],
+    ) -> Self:
+        """Start a new run in `config.out`; nothing stays behind if that fails.
+
+        Args:
+            config: Resolved by `coopera.catalogues.resolve`.
+            people: Those who take part; kept in the run, so that it stays readable without the data folder.
+            prompts: SHA of each prompt by name.
+            models: Identity of the model behind each role.
+
+        Raises:
+            ConfigError: If the folder cannot be written, is not empty or holds another run.
+        """
+        root, made = _claim(config.out)
+        info = _info(prompts, models)
+        lock = None
+        try:
+            lock = _locked(root)
+            write_atomic(root / "config.yaml", config.to_yaml())
+            for persona in people:
+                write_persona(persona, root / "people")
+            write_atomic(root / "run.json", canonical_json(info))
+        except (OSError, CooperaError) as err:
+            if lock:
+                lock.close()
+            _clear(root, made)
+            what = reason(err) if isinstance(err, OSError) else str(err)
+            raise ConfigError(f"out: {root} cannot be written ({what}).") from err
+        return cls(root, config, info, lock)
+
+    @classmethod
+    def open(cls, path: Path) -> Self:
+        """Open a run for reading.
+
+        Raises:
+            ConfigError: If the folder holds no run.
+            RunError: If its files are damaged or newer than this version understands.
+        """
+        if not (path / "run.json").is_file():
+            raise ConfigError(f"{path}: this folder holds no run (there is no run.json in it).")
+        info = _read_json(path / "run.json")
+        if not isinstance(info, dict) or not isinstance(info.get("schema"), int):
+            raise RunError(f"{path / 'run.json'}: the field schema is missing, so this run cannot be read.")
+        if info["schema"] > SCHEMA:
+            raise RunError(
+                f"{path / 'run.json'}: schema {info['schema']} was written by a newer coopera; this one knows {SCHEMA}."
+            )
+        return cls(path, load_config(path / "config.yaml"), info, None)
+
+    @classmethod
+    def resume(cls, path: Path) -> Self:
+        """Open a stopped, failed or killed run for writing.
+
+        Raises:
+            ConfigError: If the folder holds no run.
+            RunError: If the run is finished, or another process is still writing it.
+        """
+        run = cls.open(path)
+        if run.state == "finished":
+            raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
+        _refuse_second_writer(path, run.info)
+        run._lock = _locked(path)
+        for half in path.rglob(".*.tmp"):  # what a killed writer left
+            half.unlink(missing_ok=True)
+        run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
+        run.info |= {**_writer(), "state": "running", "reason": "", "ended": None}
+        run._write_info()
+        return run
+
+    @property
+    def state(self) -> str:
+        """State as run.json has it: running, stopped, failed or finished."""
+        return str(self.info["state"])
+
+    def __enter__(self) -> Self:
+        """Return the run."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Record how the work ended and let go of the run."""
+        if self._lock is None:
+            return
+        if self.state == "running":
+            if isinstance(error, Exception):
+                what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
+                self._end("failed", what)
+            else:
+                self._end("stopped", "interrupted" if error else "the work ended before it was complete")
+        self._lock.close()
+        self._lock = None
+
+    # Recorder
+
+    def frames_folder(self, day: int, hour: int) -> Path:
+        """An empty folder frames/day-DD/hour-HH."""
+        folder = self.root / "frames" / f"day-{day:02d}" / f"hour-{hour:02d}"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        return folder
+
+    def write_hour(self, record: HourRecord) -> None:
+        """Write trace/day-DD/hour-HH.json."""
+        self._write(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
+        self._rows[record.day, record.hour] = metrics_rows(record)
+
+    def read_day(self, day: int) -> list[HourRecord]:
+        """The hours of a day, in order."""
+        return [_read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
+
+    def write_evening(self, evening: Evening) -> None:
+        """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
+        self._write(self._day(evening.day) / "evening.json", evening)
+        self._write_metrics()
+
+    def adapters_folder(self, day: int) -> Path:
+        """The folder adapters/day-DD, made if need be."""
+        folder = self.root / "adapters" / f"day-{day:02d}"
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder
+
+    # Reading
+
+    def days(self) -> list[int]:
+        """Numbers of the days of which there is a trace, sorted."""
+        return sorted(int(path.name[4:]) for path in (self.root / "trace").glob("day-*") if path.name[4:].isdigit())
+
+    def hours(self) -> list[HourRecord]:
+        """All hours of the run, in order."""
+        return [record for day in self.days() for record in self.read_day(day)]
+
+    def read_evening(self, day: int) -> Evening | None:
+        """A day's evening, or None where the day has not ended."""
+        path = self._day(day) / "evening.json"
+        return _read_record(path, Evening) if path.is_file() else None
+
+    def evenings(self) -> list[Evening]:
+        """All evenings of the run, in order."""
+        return [evening for day in self.days() if (evening := self.read_evening(day))]
+
+    def people(self) -> dict[str, Persona]:
+        """Those who took part, by id, as they were when the run began."""
+        return {path.stem: read_persona(path) for path in sorted((self.root / "people").glob("*.yaml"))}
+
+    def summary(self) -> dict[str, Any]:
+        """The figures so far, computed from the trace, which is the content of summary.json."""
+        evening_calls: list[ModelCall] = [call for evening in self.evenings() for call in evening.calls]
+        return summarise(self.config, self.hours(), evening_calls)
+
+    # The end
+
+    def finish(self) -> dict[str, Any]:
+        """Write metrics.csv and summary.json, record that the run is finished, and return the summary."""
+        summary = self.summary()
+        self._write_metrics()
+        write_atomic(self.root / "summary.json", canonical_json(summary))
+        self._end("finished", "")
+        return summary
+
+    def _end(self, state: str, why: str) -> None:
+        self.info |= {"state": state, "reason": why, "ended": _now()}
+        self._write_info()
+
+    def _write_info(self) -> None:
+        write_atomic(self.root / "run.json", canonical_json(self.info))
+
+    def _write_metrics(self) -> None:
+        rows = [row for key in sorted(self._rows) for row in self._rows[key]]
+        write_atomic(self.root / "metrics.csv", metrics_csv(rows))
+
+    def _write(self, path: Path, record: Frozen) -> None:
+        try:
+            write_atomic(path, canonical_json(record.model_dump(mode="json")))
+        except OSError as err:
+            raise RunError(f"{path}: the trace cannot be written ({reason(err)}).") from err
+
+    def _day(self, day: int) -> Path:
+        return self.root / "trace" / f"day-{day:02d}"
+
+
+def _claim(out: Path | None) -> tuple[Path, list[Path]]:
+    """Make the run's folder, and say which folders were made for it, innermost first."""
+    if out is None:
+        raise ConfigError("out: a folder for the run must be given.")
+    if (out / "run.json").exists():
+        raise ConfigError(f"out: {out} already holds another run; choose another folder, or `coopera resume {out}`.")
+    if out.exists() and not out.is_dir():
+        raise ConfigError(f"out: {out} must be a folder, and it is a file.")
+    missing = [folder for folder in (out, *out.parents) if not folder.exists()]
+    try:
+        if out.is_dir() and any(out.iterdir()):
+            raise ConfigError(f"out: {out} is not empty; a new run needs an empty folder or a new one.")
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as err:
+        _clear(out, missing)
+        raise ConfigError(f"out: {out} cannot be written ({reason(err)}).") from err
+    return out, missing
+
+
+def _clear(root: Path, made: Sequence[Path]) -> None:
+    """Undo a start that failed: our files go, and so do the folders that were made for them."""
+    for name in ("config.yaml", "run.json", "lock"):
+        _forget(root / name)
+    shutil.rmtree(root / "people", ignore_errors=True)
+    for folder in made:
+        if folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def _forget(path: Path) -> None:
+    if path.is_file():
+        path.unlink()
+
+
+def _locked(root: Path) -> IO[str]:
+    """Take the run's lock, which the system frees when this process ends, however it ends."""
+    file = (root / "lock").open("w")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        raise RunError(f"{root}: another process is writing this run.") from None
+    return file
+
+
+def _refuse_second_writer(path: Path, info: Mapping[str, Any]) -> None:
+    """Refuse a run whose writer lives; on another machine only the lock can tell."""
+    pid = info.get("pid")
+    if info["state"] != "running" or info.get("host") != socket.gethostname() or not isinstance(pid, int):
+        return
+    if pid != os.getpid() and _start_of(pid) is not None and _start_of(pid) == info.get("pid_start", _start_of(pid)):
+        raise RunError(f"{path}: the process {pid} is still writing this run; stop it first, or wait for its end.")
+
+
+def _start_of(pid: int) -> int | None:
+    """When a process started, in clock ticks since boot, so that a reused number is not taken for it; None if gone."""
+    try:
+        return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[19])
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def _writer() -> dict[str, Any]:
+    pid = os.getpid()
+    return {"pid": pid, "pid_start": _start_of(pid), "host": socket.gethostname()}
+
+
+def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "state": "running",
+        "reason": "",
+        **_writer(),
+        "started": _now(),
+        "ended": None,
+        "versions": {name: version for name in _PACKAGES if (version := _version(name))},
+        "prompts": dict(prompts),
+        "models": dict(models),
+    }
+
+
+def _version(package: str) -> str | None:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return None
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def _read_json(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as err:
+        raise RunError(f"{path}: the file cannot be read ({reason(err)}).") from err
+    except ValueError as err:
+        raise RunError(f"{path}: the file is damaged ({err}).") from err
+
+
+def _read_record(path: Path, kind: type[Record]) -> Record:
+    try:
+        return kind.model_validate(_read_json(path))
+    except ValidationError as err:
+        first = err.errors(include_url=False)[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise RunError(f"{path}: the field {field} is damaged ({first['msg'].lower()}).") from err

@@ -1,0 +1,97 @@
+"""The figures of a run, drawn from its trace alone: days by pooled counts, hours as rows."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from coopera.config import Config
+from core.hour import Counts, HourRecord, ModelCall
+
+MEASURES = ("predicate", "judge")
+_RATES = ("f1", "precision", "recall")
+_COUNTS = ("tp", "fp", "fn", "tn", "unscored")
+COLUMNS = ("day", "episode", "episode_day", "hour", "person", "scene", "measure", *_RATES, *_COUNTS, "status")
+
+
+def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
+    """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures."""
+    rows = []
+    for measure in MEASURES:
+        counts = getattr(record.success, measure) if record.success else None
+        row: dict[str, Any] = {
+            name: getattr(record, name) for name in ("day", "episode", "episode_day", "hour", "person", "scene")
+        }
+        row |= {"measure": measure, "status": record.status}
+        row |= {name: getattr(counts, name) if counts else None for name in (*_RATES, *_COUNTS)}
+        rows.append(row)
+    return rows
+
+
+def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
+    """Rows as CSV text; an empty cell is a figure that does not exist."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def summarise(config: Config, hours: Sequence[HourRecord], evening_calls: Sequence[ModelCall] = ()) -> dict[str, Any]:
+    """The content of summary.json, from the hours in order and the calls made in the evenings.
+
+    `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
+    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else.
+    """
+    days = sorted({record.day for record in hours})
+    calls = [call for record in hours for call in record.calls] + list(evening_calls)
+    entries = [day_entry([record for record in hours if record.day == day]) for day in days]
+    return {
+        "method": config.method,
+        "setting": config.setting,
+        "collab": config.collab,
+        "seed": config.seed,
+        "people": config.humans or [],
+        "scenes": config.scenes or [],
+        "models": config.models.model_dump(),
+        "days": entries,
+        "calls": len(calls),
+        "calls_with_faults": sum(bool(call.faults) for call in calls),
+        "tokens": sum(call.tokens_in + call.tokens_out for call in calls),
+        "tokens_in": sum(call.tokens_in for call in calls),
+        "tokens_out": sum(call.tokens_out for call in calls),
+        "hours": len(hours),
+        "failed_hours": sum(record.status == "failed" for record in hours),
+        "failures": [
+            {"day": record.day, "hour": record.hour, "reason": record.reason}
+            for record in hours
+            if record.status == "failed"
+        ],
+        "unscored": sum(entry["predicate"]["unscored"] for entry in entries),
+        "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
+    }
+
+
+def day_entry(hours: Sequence[HourRecord]) -> dict[str, Any]:
+    """One day of the summary: the counts of its hours added up, and the rates of the sums (PAPER §4.3)."""
+    first = hours[0]
+    return {
+        "day": first.day,
+        "episode": first.episode,
+        "episode_day": first.episode_day,
+        "person": first.person,
+        "scene": first.scene,
+        "hours": len(hours),
+        "failed_hours": sum(record.status == "failed" for record in hours),
+        **{measure: pooled(hours, measure).model_dump() for measure in MEASURES},
+    }
+
+
+def pooled(hours: Iterable[HourRecord], measure: str) -> Counts:
+    """Add up one measure over hours, failed ones left out."""
+    # evaluation is slow to import; the command line answers --help without it
+    from evaluation.success import pool  # noqa: PLC0415
+
+    return pool(getattr(record.success, measure) for record in hours if record.success)
