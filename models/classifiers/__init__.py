@@ -1,0 +1,44 @@
+"""Yes/no classifiers of what the robot imagines, trained each evening from the person's feedback (PAPER §3.3).
+
+>>> from memory.embeddings import bundled
+>>> judge = make_classifier("kernel", kind="intention", embeddings=bundled())
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from core.errors import ConfigError
+from models.classifiers.text import Inputs, Kind
+
+if TYPE_CHECKING:
+    from langchain_core.embeddings import Embeddings
+
+    from core.protocols import Classifier
+
+__all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
+
+CLASSIFIERS: dict[str, str] = {
+    "kernel": "ridge regression on a product kernel over frozen sentence embeddings; learns in a fraction of a second",
+}
+"""Every classifier's name and what it is."""
+
+
+def make_classifier(name: str, *, kind: Kind, embeddings: Embeddings, inputs: Inputs | None = None) -> Classifier:
+    """Return a new, untrained classifier.
+
+    Args:
+        name: One of `CLASSIFIERS`.
+        kind: What it judges: "intention" or "task".
+        embeddings: Sentence embeddings; must give a text the same vector every time.
+        inputs: What the method lets it see; by default everything.
+
+    Raises:
+        ConfigError: If there is no classifier of that name.
+    """
+    inputs = inputs or Inputs()
+    if name == "kernel":
+        from models.classifiers.kernel import KernelClassifier  # noqa: PLC0415 - scikit-learn is heavy
+
+        return KernelClassifier(kind=kind, embeddings=embeddings, inputs=inputs)
+    raise ConfigError(f"there is no classifier {name!r}; known: {', '.join(CLASSIFIERS)}")

@@ -1,0 +1,213 @@
+"""The `kernel` classifier: ridge regression on a product kernel over frozen sentence embeddings."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from langchain_core.embeddings import Embeddings
+from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
+
+from core.errors import CooperaError
+from core.hour import Example
+from memory.embeddings import as_array
+from models.classifiers.calibration import Scale, scale
+from models.classifiers.features import Batch, Floats, Similarity, centre_of, read
+from models.classifiers.state import read_manifest, replace_bytes, write_manifest
+from models.classifiers.text import Inputs, Kind, Lesson, lesson
+
+VERSION = 1
+ARRAYS = "kernel.npz"
+MOST = 5_000
+"""Examples learned from; beyond it each person's oldest are left out."""
+LANDMARKS = 1_200
+"""Examples that others are compared with: up to here the solution is exact, beyond it Nyström's approximation."""
+RIDGE = 3.0
+_PROBE = "The robot brings a cup of tea at four."
+_DECIMALS = 6  # arithmetic on another machine, or of another batch, may differ further behind
+
+
+@dataclass(frozen=True, slots=True)
+class _Fitted:
+    """What was learned: score(x) = similarity(x, landmarks) @ weights."""
+
+    landmarks: Batch
+    centre: Floats
+    weights: Floats
+    scale: Scale
+
+
+class KernelClassifier:
+    """Judges a candidate by its likeness to what got a yes or a no at like hours, from like people, after like things.
+
+    DEVIATES: the paper finetunes a 7B language model each evening. Frozen embeddings and a convex fit learn more from a
+    day's few dozen labels and take a fraction of a second; `lora` is the way closer to the paper.
+    """
+
+    def __init__(self, *, kind: Kind, embeddings: Embeddings, inputs: Inputs) -> None:
+        """Start untrained."""
+        self._kind = kind
+        self._embeddings = embeddings
+        self._inputs = inputs
+        self._fitted: _Fitted | None = None
+
+    def probabilities(self, examples: Sequence[Example]) -> list[float]:
+        """Return P(yes) per example, in [0, 1]; exactly 0.5 for all while untrained. See `calibration.scale`."""
+        if self._fitted is None or not examples:
+            return [0.5] * len(examples)
+        with threadpool_limits(1, user_api="blas"):
+            batch = read([self._inputs.show(example) for example in examples], self._embeddings)
+            fitted = self._fitted
+            scores = self._similarity(fitted.centre).gram(batch, fitted.landmarks) @ fitted.weights
+            return [round(float(p), _DECIMALS) for p in fitted.scale.probabilities(scores)]
+
+    def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
+        """Learn anew from all labelled examples so far.
+
+        With fewer than one example of each label the classifier stays as it was.
+
+        Args:
+            examples: All feedback so far, in any order; unlabelled ones are left out.
+            seed: Only chooses the landmarks where there are more than `LANDMARKS` examples.
+
+        Returns:
+            `examples`, `positives`, and, measured on days left out of learning (on hours, with a single day):
+            `f1` at the chosen threshold and `f1_always_yes`.
+        """
+        taught = lesson(examples, self._inputs, most=MOST)
+        counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
+        if not taught.teaches:
+            return counts
+        with threadpool_limits(1, user_api="blas"):
+            self._fitted, measured = self._fit(taught, np.random.default_rng(seed))
+        return counts | measured
+
+    def _similarity(self, centre: Floats) -> Similarity:
+        return Similarity(task=self._kind == "task", centre=centre)
+
+    def _fit(self, taught: Lesson, rng: np.random.Generator) -> tuple[_Fitted, dict[str, float]]:
+        batch = read(taught.examples, self._embeddings)
+        labels = np.array(taught.labels)
+        hours = np.array(taught.hours)
+        centre = centre_of(batch)
+        similarity = self._similarity(centre)
+        landmarks = batch.take(_landmarks(labels, rng))
+        among = similarity.gram(landmarks, landmarks)
+        lower = cholesky(among + 1e-6 * np.eye(len(landmarks)), lower=True)
+        features = solve_triangular(lower, similarity.gram(landmarks, batch), lower=True).T
+        n_days = len(np.unique(hours // 24))
+        weights, unseen = _ridge(features, labels, hours // 24 if n_days > 1 else hours)
+        chosen = scale(unseen, labels, days=n_days)
+        solution = solve_triangular(lower, weights, lower=True, trans="T")
+        measured = {
+            "f1": _f1(chosen.probabilities(unseen) >= 0.5, labels),
+            "f1_always_yes": _f1(np.ones(len(labels), bool), labels),
+        }
+        return _Fitted(landmarks, centre, solution, chosen), measured
+
+    def save(self, folder: Path) -> None:
+        """Write `classifier.json` and, once trained, `kernel.npz`.
+
+        Raises:
+            CooperaError: If the folder cannot be written.
+        """
+        manifest: dict[str, Any] = dict(self._identity())
+        if (fitted := self._fitted) is not None:
+            buffer = io.BytesIO()
+            arrays = fitted.landmarks.arrays()
+            arrays["vectors"] = fitted.landmarks.vectors.astype(np.float32)  # exact: they came as float32
+            np.savez_compressed(buffer, allow_pickle=False, centre=fitted.centre, weights=fitted.weights, **arrays)
+            replace_bytes(folder / ARRAYS, buffer.getvalue())
+            manifest["scale"] = list(fitted.scale)
+        manifest["probe"] = self._probe().tolist()
+        manifest["trained"] = self._fitted is not None
+        write_manifest(folder, manifest)
+
+    def load(self, folder: Path) -> None:
+        """Read what `save` wrote.
+
+        Raises:
+            CooperaError: If the folder holds no state of this kind, of other embeddings, or a damaged one.
+        """
+        manifest = read_manifest(folder, self._identity())
+        try:
+            probe = np.array(manifest["probe"], np.float64)
+            trained = bool(manifest["trained"])
+            chosen = Scale(*map(float, manifest["scale"])) if trained else None
+        except (KeyError, TypeError, ValueError) as err:
+            raise CooperaError(f"{folder}: classifier.json is damaged ({err})") from err
+        ours = self._probe()
+        if probe.shape != ours.shape or not np.allclose(probe, ours, atol=1e-3):
+            raise CooperaError(f"{folder}: the classifier was learned on other embeddings than those given")
+        self._fitted = None if chosen is None else _read_arrays(folder / ARRAYS, chosen)
+
+    def _identity(self) -> dict[str, Any]:
+        seen = [name for name in ("traits", "context", "time") if getattr(self._inputs, name)]
+        return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": seen}
+
+    def _probe(self) -> Floats:
+        """Return the vector of a fixed sentence, by which embeddings are told apart; shape (d,)."""
+        probe: Floats = as_array(self._embeddings, [_PROBE])[0].astype(np.float64).round(6)
+        return probe
+
+
+def _read_arrays(path: Path, chosen: Scale) -> _Fitted:
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            columns = {field.name: arrays[field.name] for field in fields(Batch)}
+            columns["vectors"] = columns["vectors"].astype(np.float64)
+            return _Fitted(Batch(**columns), arrays["centre"], arrays["weights"], chosen)
+    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
+        raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
+
+
+def _landmarks(labels: npt.NDArray[np.bool_], rng: np.random.Generator) -> npt.NDArray[np.int64]:
+    """Choose the examples that all are compared with: every one, or at random, up to half of them positives."""
+    if len(labels) <= LANDMARKS:
+        return np.arange(len(labels))
+    yes, no = np.flatnonzero(labels), np.flatnonzero(~labels)
+    n_yes = max(min(len(yes), LANDMARKS // 2), LANDMARKS - len(no))
+    picked = [rng.choice(yes, n_yes, replace=False), rng.choice(no, LANDMARKS - n_yes, replace=False)]
+    return np.sort(np.concatenate(picked))
+
+
+def _ridge(features: Floats, labels: npt.NDArray[np.bool_], group: npt.NDArray[np.int64]) -> tuple[Floats, Floats]:
+    """Fit +1/-1 by ridge regression with balanced classes.
+
+    Args:
+        features: Shape (n, m).
+        labels: Shape (n,); both labels occur.
+        group: Shape (n,); examples of one group are left out together.
+
+    Returns:
+        The weights, shape (m,), and each example's score by a fit without its group, shape (n,), which has a closed
+        form: with H the hat matrix, the residuals of a group left out are (I - H_gg)^-1 times those of the fit.
+    """
+    target = np.where(labels, 1.0, -1.0)
+    importance = np.where(labels, 0.5 / labels.mean(), 0.5 / (1 - labels.mean()))
+    root = np.sqrt(importance)
+    weighted = features * root[:, None]
+    normal = weighted.T @ weighted
+    normal[np.diag_indices_from(normal)] += RIDGE
+    factor = cho_factor(normal)
+    weights: Floats = cho_solve(factor, weighted.T @ (root * target))
+    residual = root * target - weighted @ weights
+    unseen = np.empty(len(labels))
+    for name in np.unique(group):
+        rows = np.flatnonzero(group == name)
+        part = weighted[rows]
+        hat = part @ cho_solve(factor, part.T)
+        left_out = np.linalg.solve(np.eye(len(rows)) - hat, residual[rows])
+        unseen[rows] = target[rows] - left_out / root[rows]
+    return weights, unseen
+
+
+def _f1(yes: npt.NDArray[np.bool_], labels: npt.NDArray[np.bool_]) -> float:
+    return round(float(2 * (yes & labels).sum() / (yes.sum() + labels.sum())), _DECIMALS)
