@@ -7,14 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from memory.embeddings import CachedEmbeddings, as_array, bundled
+    from memory.log import Record
+    from memory.search import Search
+    from memory.stream import MemoryStream, Recollection
 
 _HOMES = {
     "CachedEmbeddings": "memory.embeddings",
+    "MemoryStream": "memory.stream",
+    "Recollection": "memory.stream",
+    "Record": "memory.log",
+    "Search": "memory.search",
     "as_array": "memory.embeddings",
     "bundled": "memory.embeddings",
 }
 
-__all__ = ["CachedEmbeddings", "as_array", "bundled"]
+__all__ = ["CachedEmbeddings", "MemoryStream", "Recollection", "Record", "Search", "as_array", "bundled"]
 
 
 def __getattr__(name: str) -> Any:

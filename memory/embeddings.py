@@ -33,18 +33,21 @@ class CachedEmbeddings(Embeddings):
 
     Attributes:
         model_id: Identity of the model; part of each key, and noted in every store that uses the model.
+        dimension: Numbers per vector, where it is known beforehand.
         misses: How many texts had to be encoded so far.
     """
 
-    def __init__(self, encode: Encode, model_id: str, cache: Path | None = None) -> None:
+    def __init__(self, encode: Encode, model_id: str, cache: Path | None = None, dimension: int | None = None) -> None:
         """Wrap an encoder.
 
         Args:
             encode: Maps a text to a float32 vector of unit norm, shape (d,).
             model_id: Must differ between encoders that give different vectors.
             cache: SQLite file to use or create; None keeps the cache in RAM.
+            dimension: Numbers per vector, if known without encoding.
         """
         self.model_id = model_id
+        self.dimension = dimension
         self.misses = 0
         self._encode = encode
         self._ram: dict[str, Vector] = {}
@@ -186,7 +189,7 @@ def bundled(cache: Path | None = None) -> CachedEmbeddings:
     Raises:
         MemoryStoreError: If the cache file cannot be used.
     """
-    return CachedEmbeddings(lambda text: minilm.shared().encode(text), minilm.model_id(), cache)
+    return CachedEmbeddings(lambda text: minilm.shared().encode(text), minilm.model_id(), cache, minilm.DIMENSION)
 
 
 def as_array(embeddings: Embeddings, texts: Sequence[str]) -> Vector:
@@ -196,3 +199,13 @@ def as_array(embeddings: Embeddings, texts: Sequence[str]) -> Vector:
     if not texts:
         return np.zeros((0, 0), np.float32)
     return np.asarray(embeddings.embed_documents(list(texts)), np.float32)
+
+
+def identity(embeddings: Embeddings) -> str:
+    """Return what tells one embedding model from another: `model_id`, or else the class and the model's name."""
+    known = getattr(embeddings, "model_id", None)
+    if isinstance(known, str):
+        return known
+    name = getattr(embeddings, "model_name", None) or getattr(embeddings, "model", None)
+    kind = type(embeddings).__qualname__
+    return f"{kind} {name}" if isinstance(name, str) else kind

@@ -1,0 +1,285 @@
+"""The durable log of one stream: records numbered 0, 1, 2, … in order of time, addressed by those numbers only."""
+
+from __future__ import annotations
+
+import json
+import threading
+import zlib
+from collections import OrderedDict
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from core.errors import MemoryStoreError
+from memory.minilm import Vector
+from memory.scan import BLOCK, Block
+from memory.store import translated
+
+if TYPE_CHECKING:
+    from chromadb.api.models.Collection import Collection
+
+_PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
+_BLOCKS_IN_RAM = 48  # 38 MB of MiniLM's
+_FAN = 32  # positions looked at together when searching by hour
+
+
+class Record(NamedTuple):
+    """What was added: a text, the global hour index it belongs to, and the caller's own data."""
+
+    text: str
+    hour: int
+    metadata: Mapping[str, Any]
+
+
+class Log:
+    """A stream's records in Chroma, with the newest block and the recently read ones in RAM.
+
+    Implements `scan.Rows`. Calls come under `lock`.
+    """
+
+    def __init__(self, collection: Collection, where: str, *, exclusive: bool) -> None:
+        """Find the end of the log.
+
+        Args:
+            collection: The stream's collection.
+            where: Store and stream, for messages.
+            exclusive: Whether no one else can write; if not, each write is read back.
+
+        Raises:
+            MemoryStoreError: If records are missing or damaged.
+        """
+        self.lock = threading.RLock()
+        self.where = where
+        self._collection = collection
+        self._exclusive = exclusive
+        self._length = 0
+        self._tail = _empty(0, 0)
+        self._blocks: OrderedDict[int, Block] = OrderedDict()
+        self._starts: dict[int, int] = {}
+        self._reload()
+
+    def __len__(self) -> int:
+        """Return the number of records."""
+        return self._length
+
+    @property
+    def dimension(self) -> int | None:
+        """Numbers per vector; None while there is no record."""
+        return int(self._tail.vectors.shape[1]) if self._length else None
+
+    @property
+    def last_hour(self) -> int | None:
+        """Hour of the newest record; None while there is no record."""
+        return int(self._hours_of_tail()[-1]) if self._length else None
+
+    def block(self, number: int) -> Block:
+        """Return one block of 512 records, from RAM if it is there."""
+        if number * BLOCK == self._tail.start:
+            filled = self._length - self._tail.start
+            return Block(self._tail.start, self._tail.vectors[:filled], self._tail.hours[:filled])
+        block = self._blocks.pop(number, None)
+        if block is None:
+            block = self._read(number * BLOCK, min((number + 1) * BLOCK, self._length))
+        self._blocks[number] = block
+        if len(self._blocks) > _BLOCKS_IN_RAM:
+            self._blocks.popitem(last=False)
+        return block
+
+    def first_at(self, hour: int) -> int:
+        """Return the position of the first record at this hour or later; the length if there is none."""
+        hours = self._hours_of_tail()
+        if self._length == 0 or hours[0] < hour:
+            return self._tail.start + int(np.searchsorted(hours, hour))
+        before, after = -1, self._tail.start // BLOCK  # numbers of blocks that begin before the hour, and not before
+        while after - before > 1:
+            step = max(1, (after - before) // _FAN)
+            numbers = list(range(before + step, after, step))
+            starts = self._start_hours(numbers)
+            earlier = [number for number in numbers if starts[number] < hour]
+            before = max(earlier, default=before)
+            after = min((number for number in numbers if starts[number] >= hour), default=after)
+        if before < 0:
+            return 0
+        return before * BLOCK + int(np.searchsorted(self.block(before).hours, hour))
+
+    def append(
+        self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
+    ) -> None:
+        """Add records at the end, up to 1000 of them at once or not at all.
+
+        Args:
+            texts: n texts.
+            vectors: Unit vectors, shape (n, d).
+            hours: n hours, none before `last_hour`, non-decreasing.
+            metadata: n mappings of JSON data.
+
+        Raises:
+            MemoryStoreError: If the store fails; what was then written is found again by the next call.
+        """
+        for start in range(0, len(texts), _PER_CALL):
+            part = slice(start, start + _PER_CALL)
+            self._append(texts[part], vectors[part], hours[part], metadata[part])
+
+    def cut(self, length: int) -> None:
+        """Drop all records from this position on, the newest first, so that no hole can be left."""
+        while self._length > length:
+            start = max(length, self._length - _PER_CALL)
+            with translated(self.where):
+                self._collection.delete(ids=_ids(range(start, self._length)))
+            self._length = start
+        self._reload()
+
+    def records(self, positions: Sequence[int]) -> list[Record]:
+        """Return records by position, in the order asked for.
+
+        Raises:
+            MemoryStoreError: If one is missing or is not what was written.
+        """
+        found: dict[int, Record] = {}
+        for start in range(0, len(positions), _PER_CALL):
+            part = positions[start : start + _PER_CALL]
+            with translated(self.where):
+                rows = self._collection.get(ids=_ids(part), include=["documents", "metadatas"])
+            for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
+                if text is None or meta is None or meta.get("text_sum") != _sum(text.encode()):
+                    raise self._damaged(f"the text of record {int(key)} is not what was written")
+                own = json.loads(str(meta["metadata"])) if "metadata" in meta else {}
+                found[int(key)] = Record(text, _hour(meta), own)
+        missing = [position for position in positions if position not in found]
+        if missing:
+            raise self._damaged(f"record {missing[0]} is missing")
+        return [found[position] for position in positions]
+
+    def _append(
+        self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
+    ) -> None:
+        ids = _ids(range(self._length, self._length + len(texts)))
+        entries: list[dict[str, str | int]] = []
+        for text, vector, hour, own in zip(texts, vectors, hours, metadata, strict=True):
+            entry: dict[str, str | int] = {"hour": hour, "text_sum": _sum(text.encode()), "vector_sum": _sum(vector)}
+            if own:
+                entry["metadata"] = json.dumps(own, ensure_ascii=False, allow_nan=False)
+            entries.append(entry)
+        try:
+            with translated(self.where):
+                self._collection.add(
+                    ids=ids,
+                    embeddings=vectors,
+                    documents=list(texts),
+                    metadatas=entries,  # type: ignore[arg-type]
+                )
+            if not self._exclusive:
+                self._check_written(ids, entries)
+        except MemoryStoreError:
+            self._reload()
+            raise
+        self._extend(vectors, np.asarray(hours, np.int64))
+
+    def _check_written(self, ids: list[str], entries: list[dict[str, str | int]]) -> None:
+        """Make sure that these records are ours: adding an id that is there is silently ignored by Chroma."""
+        with translated(self.where):
+            rows = self._collection.get(ids=ids, include=["metadatas"])
+        there = dict(zip(rows["ids"], rows["metadatas"] or [], strict=True))
+        if any(there.get(key) != entry for key, entry in zip(ids, entries, strict=True)):
+            raise MemoryStoreError(f"{self.where}: another process writes to this stream; a stream has one writer")
+
+    def _extend(self, vectors: Vector, hours: npt.NDArray[np.int64]) -> None:
+        """Take records that are in the store into the tail; where it is full, a new one begins.
+
+        The tail is empty only while there is no record, so that the newest hour is always at hand.
+        """
+        for vector, hour in zip(vectors, hours, strict=True):
+            filled = self._length - self._tail.start
+            if filled == 0:
+                self._tail = _empty(0, vectors.shape[1])
+            elif filled == BLOCK:
+                self._blocks[self._tail.start // BLOCK] = self._tail
+                self._tail = _empty(self._length, vectors.shape[1])
+                filled = 0
+            self._tail.vectors[filled] = vector
+            self._tail.hours[filled] = hour
+            self._length += 1
+
+    def _reload(self) -> None:
+        """Read the log's end from the store."""
+        self._blocks.clear()
+        self._starts.clear()
+        self._length = 0
+        self._tail = _empty(0, 0)
+        length = self._find_length()
+        if length == 0:
+            return
+        start = (length - 1) // BLOCK * BLOCK
+        block = self._read(start, length)
+        self._tail = _empty(start, block.vectors.shape[1])
+        self._tail.vectors[: length - start] = block.vectors
+        self._tail.hours[: length - start] = block.hours
+        self._length = length
+
+    def _find_length(self) -> int:
+        """Count the records, and make sure that they are numbered without a hole."""
+        with translated(self.where):
+            count = self._collection.count()
+            ends = self._collection.get(ids=_ids(range(max(0, count - 1), count + 1)), include=[])["ids"]
+        if ends != (_ids([count - 1]) if count else []):
+            raise self._damaged(f"its {count} records are not numbered 0 to {count - 1}")
+        return count
+
+    def _read(self, start: int, stop: int) -> Block:
+        """Read the vectors and hours of some records, checking each against its check sum."""
+        ids = _ids(range(start, stop))
+        from chromadb.errors import InternalError  # noqa: PLC0415 - heavy
+
+        try:
+            with translated(self.where):
+                rows = self._collection.get(ids=ids, include=["embeddings", "metadatas"])
+        except MemoryStoreError as err:
+            if isinstance(err.__cause__, InternalError):
+                raise self._damaged(f"the vectors of records {start} to {stop - 1} cannot be read: {err}") from err
+            raise
+        if len(rows["ids"]) != len(ids):
+            raise self._damaged(f"{len(ids) - len(rows['ids'])} of the records {start} to {stop - 1} are missing")
+        order = np.argsort(rows["ids"])
+        metadatas: Any = rows["metadatas"]
+        vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
+        hours = np.array([_hour(metadatas[place]) for place in order], np.int64)
+        for offset, place in enumerate(order):
+            if metadatas[place].get("vector_sum") != _sum(vectors[offset]):
+                raise self._damaged(f"the vector of record {start + offset} is not what was written")
+        if (np.diff(hours) < 0).any():
+            raise self._damaged(f"the hours of records {start} to {stop - 1} go backwards")
+        return Block(start, vectors, hours)
+
+    def _start_hours(self, numbers: Sequence[int]) -> dict[int, int]:
+        """Return the first hour of some full blocks, by block number."""
+        unknown = [number for number in numbers if number not in self._starts]
+        for record, number in zip(self.records([n * BLOCK for n in unknown]), unknown, strict=True):
+            self._starts[number] = record.hour
+        return self._starts
+
+    def _hours_of_tail(self) -> npt.NDArray[np.int64]:
+        return self._tail.hours[: self._length - self._tail.start]
+
+    def _damaged(self, what: str) -> MemoryStoreError:
+        return MemoryStoreError(
+            f"{self.where}: the memory is damaged: {what}; `coopera memory repair` rebuilds it from its texts"
+        )
+
+
+def _empty(start: int, dimension: int) -> Block:
+    return Block(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
+
+
+def _ids(positions: Sequence[int]) -> list[str]:
+    return [f"{position:012d}" for position in positions]
+
+
+def _sum(data: bytes | Vector) -> int:
+    """Return a check sum that tells written from damaged."""
+    return zlib.crc32(data if isinstance(data, bytes) else np.ascontiguousarray(data, "<f4").tobytes())
+
+
+def _hour(meta: Mapping[str, Any]) -> int:
+    return int(meta["hour"])

@@ -1,0 +1,163 @@
+"""Exact top-k by recency x relevance over records in order of time, reading only as many as can matter.
+
+A record's score is cosine(query, record) x decay^(now - hour). A cosine is at most 1, so nothing older than a record
+whose recency is below the k-th best score found so far can enter the result, and the scan, which goes backwards from
+the newest record, ends there. How far it goes depends on the decay and on the number of records per hour, not on the
+number of records. Where the k-th best score is not positive the bound says nothing and all records are read.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from memory.minilm import Vector
+
+BLOCK = 512
+"""Records per block: what is read at once."""
+
+_MARGIN = 1e-4
+"""More than float32 arithmetic can err in a score; what is that near to the k-th best is computed in float64."""
+
+
+class Block(NamedTuple):
+    """Records start, start + 1, …: unit vectors (n, d) float32 and hours (n,) int64, non-decreasing."""
+
+    start: int
+    vectors: Vector
+    hours: npt.NDArray[np.int64]
+
+
+class Rows(Protocol):
+    """Records by position, in order of time."""
+
+    def __len__(self) -> int:
+        """Number of records."""
+        ...
+
+    def block(self, number: int) -> Block:
+        """Return the records number x 512 … number x 512 + 511, or as many of them as there are."""
+        ...
+
+    def first_at(self, hour: int) -> int:
+        """Return the position of the first record at this hour or later; the number of records if there is none."""
+        ...
+
+
+class Hit(NamedTuple):
+    """A record found: its position, its hour and its cosine with the query."""
+
+    position: int
+    hour: int
+    relevance: float
+
+
+class Hits(NamedTuple):
+    """The best records, best first, and how many were looked at."""
+
+    hits: list[Hit]
+    scanned: int
+
+
+class ArrayRows:
+    """Rows held in arrays, for records that live in one process only.
+
+    Args:
+        vectors: Unit vectors, shape (n, d), float32.
+        hours: Shape (n,), non-decreasing.
+    """
+
+    def __init__(self, vectors: Vector, hours: npt.NDArray[np.int64]) -> None:
+        self._vectors = vectors
+        self._hours = hours
+
+    def __len__(self) -> int:
+        """Return the number of records."""
+        return len(self._hours)
+
+    def block(self, number: int) -> Block:
+        """Return a view of one block."""
+        part = slice(number * BLOCK, (number + 1) * BLOCK)
+        return Block(number * BLOCK, self._vectors[part], self._hours[part])
+
+    def first_at(self, hour: int) -> int:
+        """Find the hour by bisection."""
+        return int(np.searchsorted(self._hours, hour))
+
+
+def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int | None = None) -> Hits:
+    """Return the k records of the highest score among those with since <= hour <= now.
+
+    Best first, and newer first where scores are equal. The order is that of cosine x decay^(newest - hour), where
+    `newest` is the newest hour in question: the same order, but a long pause does not turn all scores into 0.
+
+    Args:
+        rows: The records.
+        query: Unit vector, shape (d,), float32.
+        k: At least 1; fewer hits are returned where there are fewer records.
+        now: Hour of the recall.
+        decay: In (0, 1]; with 1 nothing fades, and all records are read.
+        since: First hour in question; None for no limit.
+    """
+    low = 0 if since is None else rows.first_at(since)
+    high = rows.first_at(now + 1)
+    if high <= low:
+        return Hits([], 0)
+    newest = rows.block((high - 1) // BLOCK)
+    window = _Window(query, k, decay, int(newest.hours[high - 1 - newest.start]))
+    position = high
+    while position > low and not window.complete:
+        block = rows.block((position - 1) // BLOCK)
+        start = max(low, block.start)
+        part = slice(start - block.start, position - block.start)
+        window.take(Block(start, block.vectors[part], block.hours[part]))
+        position = start
+    return Hits(window.best(), high - position)
+
+
+class _Window:
+    """The records read so far, newest first; only those that may still be among the k best are kept."""
+
+    def __init__(self, query: Vector, k: int, decay: float, newest: int) -> None:
+        self._query = query
+        self._k = k
+        self._decay = decay
+        self._newest = newest
+        self._kept: list[tuple[npt.NDArray[np.float64], Block, npt.NDArray[np.int64]]] = []
+        self._best = np.empty(0)
+        self._floor = -np.inf
+        self.complete = False
+        """Whether no record before those taken can be among the k best."""
+
+    def take(self, block: Block) -> None:
+        """Roughly score some records, in float32."""
+        recency = np.power(self._decay, (self._newest - block.hours).astype(np.float64))
+        scores = recency * (block.vectors @ self._query)
+        self._best = np.concatenate((self._best, scores))
+        if len(self._best) >= self._k:
+            self._best = np.partition(self._best, -self._k)[-self._k :]
+            kth = float(self._best[0])
+            self._floor = kth - _MARGIN
+            self.complete = bool(recency[0] * (1 + _MARGIN) < self._floor)  # recency[0]: nothing before is newer
+        rows = np.flatnonzero(scores >= self._floor)
+        kept = Block(block.start, block.vectors[rows], block.hours[rows])
+        self._kept.append((scores[rows], kept, rows))
+
+    def best(self) -> list[Hit]:
+        """Score the records that may be among the k best in float64, one by one, and order them.
+
+        A float32 product depends on where in the matrix a row stands, so it only preselects.
+        """
+        query = self._query.astype(np.float64)
+        found: list[tuple[float, int, Hit]] = []
+        for scores, block, rows in self._kept:
+            near = np.flatnonzero(scores >= self._floor)
+            relevance = (block.vectors[near].astype(np.float64) * query).sum(1)
+            for row, cosine in zip(near.tolist(), relevance.tolist(), strict=True):
+                position, hour = block.start + int(rows[row]), int(block.hours[row])
+                key = cosine * self._decay ** (self._newest - hour)
+                found.append((-key, -position, Hit(position, hour, cosine)))
+        found.sort()
+        return [hit for _, _, hit in found[: self._k]]

@@ -1,0 +1,266 @@
+"""A store of streams: a folder that one process at a time may open, or a Chroma server.
+
+Each stream is a Chroma collection of its own. Chroma is used as a durable log and text store addressed by id; its
+index of neighbours is never asked, so it is built as cheaply as can be.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import json
+import os
+import socket
+import threading
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, TypeVar
+from urllib.parse import urlsplit
+
+from core.errors import ConfigError, MemoryStoreError
+
+if TYPE_CHECKING:
+    from chromadb.api import ClientAPI
+    from chromadb.api.models.Collection import Collection
+
+_LOCK = "writer.lock"
+_CHROMA = "chroma.sqlite3"
+_SPACE = "ip"
+_INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
+_FORMAT = 1
+_PATIENCE = 10.0  # seconds to wait for a server's answer when connecting
+_REQUEST_PATIENCE = 60.0
+MAX_NAME = 200
+
+_Shared = TypeVar("_Shared")
+
+
+class Store:
+    """An open store; get one by `Store.open`, and `close` it as often as you opened it.
+
+    Attributes:
+        where: The folder or URL, for messages.
+        exclusive: Whether no one else can write (a folder, locked).
+    """
+
+    _open: dict[Hashable, Store] = {}
+    _guard = threading.RLock()
+
+    def __init__(self, client: ClientAPI, where: str, key: Hashable, lock: IO[str] | None) -> None:
+        """Use `Store.open`."""
+        self.where = where
+        self.exclusive = lock is not None
+        self._client = client
+        self._key = key
+        self._lock = lock
+        self._users = 0
+        self._shared: dict[str, tuple[int, Any]] = {}
+
+    @classmethod
+    def open(cls, where: Path | str | ClientAPI, *, create: bool = True) -> Store:
+        """Open a folder, a server by URL, or a Chroma client of the caller's.
+
+        Each is opened once per process, however many streams use it.
+
+        Raises:
+            ConfigError: If the folder is something else than a store, or missing and not to be created.
+            MemoryStoreError: If another process has the folder open, or the server does not answer.
+        """
+        remote = isinstance(where, str) and where.startswith(("http://", "https://"))
+        given = not isinstance(where, str | Path)
+        key: Hashable = str(where) if remote else id(where) if given else Path(str(where)).resolve()
+        with cls._guard:
+            store = cls._open.get(key)
+            if store is None:
+                if isinstance(key, Path):
+                    store = cls._open_folder(key, create)
+                elif remote:
+                    store = cls(_connect(str(where)), str(where), key, None)
+                else:
+                    store = cls(where, "the given Chroma client", key, None)  # type: ignore[arg-type]
+                cls._open[key] = store
+            store._users += 1
+            return store
+
+    @classmethod
+    def _open_folder(cls, folder: Path, create: bool) -> Store:
+        _check_folder(folder, create)
+        lock = _lock(folder)
+        try:
+            return cls(_open_client(folder), str(folder), folder, lock)
+        except MemoryStoreError:
+            lock.close()
+            raise
+
+    def close(self) -> None:
+        """Release the store; the last user's call closes Chroma and then the lock."""
+        with Store._guard:
+            self._users -= 1
+            if self._users > 0:
+                return
+            del Store._open[self._key]
+            if not isinstance(self._key, int):  # a client of the caller's stays open
+                self._client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
+            if self._lock is not None:
+                self._lock.close()
+
+    def streams(self) -> list[str]:
+        """Return the names of the streams, sorted."""
+        with translated(self.where):
+            metadata = [collection.metadata or {} for collection in self._client.list_collections()]
+        return sorted(str(entry["stream"]) for entry in metadata if "stream" in entry)
+
+    def collection(self, name: str, model: str, *, create: bool = True) -> Collection:
+        """Return a stream's collection, checked to be of this model and space.
+
+        Raises:
+            ConfigError: If the name is unusable, or the stream unknown and not to be created.
+            MemoryStoreError: If the stream was written with another model, space or format.
+        """
+        if not isinstance(name, str) or not name.strip() or len(name) > MAX_NAME:
+            raise ConfigError(f"the name of a memory stream must have 1 to {MAX_NAME} characters, not {name!r:.80}")
+        known = create or name in self.streams()
+        if not known:
+            there = ", ".join(self.streams()) or "none"
+            raise ConfigError(f"{self.where}: there is no memory stream {name!r}; those there: {there}")
+        with translated(self.where):
+            collection = self._client.get_or_create_collection(
+                collection_name(name),
+                configuration=_INDEX,  # type: ignore[arg-type]
+                metadata={"stream": name, "model": model, "format": _FORMAT},
+                embedding_function=None,
+            )
+        self._check(collection, name, model)
+        return collection
+
+    def raw(self, name: str) -> Collection:
+        """Return an existing stream's collection as it is, unchecked."""
+        with translated(self.where):
+            return self._client.get_collection(collection_name(name), embedding_function=None)
+
+    def share(self, name: str, make: Callable[[], _Shared]) -> _Shared:
+        """Return what `make` made at the first call for this name, to all who ask until all have let go of it."""
+        with Store._guard:
+            users, thing = self._shared.get(name) or (0, make())
+            self._shared[name] = (users + 1, thing)
+            return thing
+
+    def unshare(self, name: str) -> None:
+        """Let go of what `share` returned."""
+        with Store._guard:
+            users, thing = self._shared.pop(name)
+            if users > 1:
+                self._shared[name] = (users - 1, thing)
+
+    def _check(self, collection: Collection, name: str, model: str) -> None:
+        """Refuse a stream that is of another kind than asked for."""
+        found = collection.metadata or {}
+        space = (collection.configuration_json.get("hnsw") or {}).get("space")
+        at = f"{self.where}: the memory stream {name!r}"
+        if found.get("stream") != name or found.get("format") != _FORMAT:
+            raise MemoryStoreError(f"{at} was not written by this version of coopera (format {found.get('format')!r})")
+        if found.get("model") != model:
+            raise MemoryStoreError(f"{at} was written with the embeddings {found.get('model')!r}, not {model!r}")
+        if space != _SPACE:
+            raise MemoryStoreError(f"{at} has the vector space {space!r}, where {_SPACE!r} was expected")
+
+
+def collection_name(stream: str) -> str:
+    """Return the Chroma collection's name for a stream; Chroma takes no free text as a name."""
+    return "stream-" + hashlib.sha256(stream.encode("utf-8", "surrogatepass")).hexdigest()[:40]
+
+
+@contextmanager
+def translated(where: str) -> Iterator[None]:
+    """Turn what Chroma and its transport raise into our error.
+
+    Raises:
+        MemoryStoreError: Naming the store and the reason.
+    """
+    import httpx  # noqa: PLC0415 - heavy
+    from chromadb.errors import ChromaError  # noqa: PLC0415
+
+    try:
+        yield
+    except httpx.HTTPError as err:
+        raise MemoryStoreError(f"{where}: the memory server does not answer ({type(err).__name__}: {err})") from err
+    except (ChromaError, ValueError, OSError) as err:
+        raise MemoryStoreError(f"{where}: the memory store failed: {err}") from err
+
+
+def _check_folder(folder: Path, create: bool) -> None:
+    """Make sure that a folder is a store or may become one."""
+    if folder.exists() and not folder.is_dir():
+        raise ConfigError(f"{folder}: a memory store is a folder, and this is a file")
+    if (folder / _CHROMA).exists():
+        return
+    others = sorted(entry.name for entry in folder.iterdir() if entry.name != _LOCK) if folder.exists() else []
+    if others:
+        raise ConfigError(f"{folder}: is no memory store, since it has no {_CHROMA} but {', '.join(others[:3])}")
+    if not create:
+        raise ConfigError(f"{folder}: there is no memory store")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as err:
+        raise ConfigError(f"{folder}: the memory store cannot be created: {err}") from err
+
+
+def _lock(folder: Path) -> IO[str]:
+    """Take the folder's lock, which the system releases when the process ends, however it ends."""
+    try:
+        file = (folder / _LOCK).open("a+")
+    except OSError as err:
+        raise ConfigError(f"{folder}: the memory store cannot be written: {err}") from err
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as err:
+        file.seek(0)
+        holder = {"pid": "unknown", "host": "unknown"}
+        with suppress(ValueError):
+            holder |= json.loads(file.read())
+        file.close()
+        raise MemoryStoreError(
+            f"{folder}: the memory store is in use by process {holder['pid']} on {holder['host']}; "
+            "one process at a time may open it (several can share one through a Chroma server)"
+        ) from err
+    file.truncate(0)
+    file.write(json.dumps({"pid": os.getpid(), "host": socket.gethostname()}))
+    file.flush()
+    return file
+
+
+def _open_client(folder: Path) -> ClientAPI:
+    import chromadb  # noqa: PLC0415 - heavy
+    from chromadb.config import Settings  # noqa: PLC0415
+
+    with translated(str(folder)):
+        return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+
+
+def _connect(url: str) -> ClientAPI:
+    """Connect to a Chroma server, waiting a bounded time for it."""
+    import chromadb  # noqa: PLC0415 - heavy
+    import httpx  # noqa: PLC0415
+    from chromadb.config import Settings  # noqa: PLC0415
+
+    parts = urlsplit(url)
+    secure = parts.scheme == "https"
+    try:
+        port = parts.port or (443 if secure else 8000)
+    except ValueError as err:
+        raise ConfigError(f"{url}: is no address of a memory server: {err}") from err
+    if not parts.hostname:
+        raise ConfigError(f"{url}: is no address of a memory server; expected http://host:port")
+    host = f"[{parts.hostname}]" if ":" in parts.hostname else parts.hostname
+    with translated(url):
+        answer = httpx.get(f"{parts.scheme}://{host}:{port}/api/v2/heartbeat", timeout=_PATIENCE)
+        if answer.status_code != httpx.codes.OK or "nanosecond heartbeat" not in answer.text:
+            raise MemoryStoreError(f"{url}: something answers there, but it is no Chroma server")
+        client = chromadb.HttpClient(
+            host=parts.hostname, port=port, ssl=secure, settings=Settings(anonymized_telemetry=False)
+        )
+    session = getattr(getattr(client, "_server", None), "_session", None)
+    if isinstance(session, httpx.Client):  # Chroma would wait for ever
+        session.timeout = httpx.Timeout(_REQUEST_PATIENCE)
+    return client

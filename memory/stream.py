@@ -1,0 +1,306 @@
+"""The memory stream: what a person did, recalled by recency x relevance.
+
+PAPER §3.2 (Memory Retrieval): the score of a memory is its cosine with the query times decay^(hours ago). The result is
+exactly the best k, and the time to find them does not grow with the number of records (see `memory.scan`).
+"""
+
+from __future__ import annotations
+
+import json
+import operator
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+import numpy as np
+from langchain_core.embeddings import Embeddings
+
+from core.errors import ConfigError, MemoryStoreError
+from memory.embeddings import as_array, identity
+from memory.log import Log, Record
+from memory.minilm import Vector
+from memory.scan import top
+from memory.store import Store
+
+if TYPE_CHECKING:
+    from chromadb.api import ClientAPI
+
+DECAY = 0.95  # PAPER §3.2: per hour
+MAX_TEXT = 100_000
+"""Characters per record or query."""
+
+_UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
+_PAGE = 1000
+
+
+class Recollection(NamedTuple):
+    """A record recalled: score = relevance x recency.
+
+    Attributes:
+        text: As it was added.
+        hour: Global hour index it was added for.
+        relevance: Cosine of record and query, in [-1, 1].
+        recency: decay^(now - hour), in (0, 1].
+        score: relevance x recency, in float64.
+        metadata: As it was added; empty if there was none.
+    """
+
+    text: str
+    hour: int
+    relevance: float
+    recency: float
+    score: float
+    metadata: Mapping[str, Any]
+
+
+class MemoryStream:
+    """One stream of texts in time: append by the hour, recall by recency x relevance.
+
+    Reading changes nothing, and time is what the caller says it is. What `add` has returned from is on disk and
+    survives a crash. Several streams of one store, and several objects for one stream, may be open in one process.
+    """
+
+    def __init__(self, store: Store, name: str, log: Log, embeddings: Embeddings, decay: float) -> None:
+        """Use `MemoryStream.open`."""
+        self.name = name
+        self.decay = decay
+        self.scanned = 0
+        """How many records the last `recall` had to look at."""
+        self._store = store
+        self._log: Log | None = log
+        self._embeddings = embeddings
+
+    @classmethod
+    def open(
+        cls,
+        path_or_client: Path | str | ClientAPI,
+        name: str,
+        embeddings: Embeddings,
+        decay: float = DECAY,
+        *,
+        create: bool = True,
+    ) -> Self:
+        """Open a stream, or make it.
+
+        Args:
+            path_or_client: Folder of the store; or URL of a Chroma server, such as "http://localhost:8000"; or a
+                Chroma client.
+            name: The stream's name, free text of up to 200 characters, such as "human/mara/intentions".
+            embeddings: What the records' and queries' vectors come from; always the same for one stream.
+            decay: Factor per hour, in (0, 1]. It is not stored: a stream can be read with any.
+            create: Whether an unknown stream, or a missing folder, is made.
+
+        Raises:
+            ConfigError: If the folder is no store, or the name, the decay or (without `create`) the stream is unknown.
+            MemoryStoreError: If the store is locked, damaged, or does not answer; or if the stream was written with
+                other embeddings, another dimension or another space.
+        """
+        if not 0 < decay <= 1:
+            raise ConfigError(f"the decay of a memory stream must be above 0 and at most 1, not {decay}")
+        store = Store.open(path_or_client, create=create)
+        try:
+            collection = store.collection(name, identity(embeddings), create=create)
+            where = f"{store.where}: the memory stream {name!r}"
+            log = store.share(name, lambda: Log(collection, where, exclusive=store.exclusive))
+        except (ConfigError, MemoryStoreError):
+            store.close()
+            raise
+        stream = cls(store, name, log, embeddings, decay)
+        try:
+            stream._check_dimension()
+        except MemoryStoreError:
+            stream.close()
+            raise
+        return stream
+
+    def __len__(self) -> int:
+        """Return the number of records."""
+        log = self._open_log
+        with log.lock:
+            return len(log)
+
+    def add(self, texts: Sequence[str], hour: int, metadata: Sequence[Mapping[str, Any]] | None = None) -> None:
+        """Add an hour's records, in order; up to 1000 of them are written at once or not at all.
+
+        Args:
+            texts: Texts of 1 to 100,000 characters.
+            hour: Global hour index (day x 24 + hour of day), not before that of any record.
+            metadata: JSON data per text, given back with it.
+
+        Raises:
+            ConfigError: If a text, the hour or the metadata cannot be taken; nothing is then added.
+            MemoryStoreError: If the store fails.
+        """
+        hour = _whole(hour, "the hour of a memory")
+        if isinstance(texts, str):
+            raise ConfigError(f"{self._where}: expected a list of texts, not one text")
+        for text in texts:
+            _check_text(text, "a text to remember")
+        own = self._checked_metadata(texts, metadata)
+        if not texts:
+            return
+        vectors = self._vectors(texts)
+        log = self._open_log
+        with log.lock:
+            if log.last_hour is not None and hour < log.last_hour:
+                raise ConfigError(f"{self._where}: hour {hour} is before hour {log.last_hour}, which is already there")
+            log.append(texts, vectors, [hour] * len(texts), own)
+
+    def recall(self, query: str, now: int, k: int, since: int | None = None) -> list[Recollection]:
+        """Return the k records with the highest score, best first; newer first where scores are equal.
+
+        Args:
+            query: Text of 1 to 100,000 characters.
+            now: Hour of the recall; what was added for a later hour is not recalled.
+            k: How many, at least 1.
+            since: First hour in question, such as the day's first for a memory that starts anew each day.
+
+        Raises:
+            ConfigError: If an argument is out of range.
+            MemoryStoreError: If the store fails or is damaged.
+        """
+        _check_text(query, "a query")
+        now, k = _whole(now, "the hour of a recall"), _whole(k, "k")
+        if k < 1:
+            raise ConfigError(f"k must be at least 1, not {k}")
+        log = self._open_log
+        if not len(log):
+            return []
+        [vector] = self._vectors([query])
+        with log.lock:
+            found = top(log, vector, k, now=now, decay=self.decay, since=since)
+            self.scanned = found.scanned
+            records = log.records([hit.position for hit in found.hits])
+        recalled = []
+        for hit, record in zip(found.hits, records, strict=True):
+            recency = float(self.decay ** (now - hit.hour))
+            score = hit.relevance * recency
+            recalled.append(Recollection(record.text, hit.hour, hit.relevance, recency, score, record.metadata))
+        return recalled
+
+    def latest(self, n: int) -> list[Record]:
+        """Return the n newest records, newest first."""
+        n = _whole(n, "the number of latest memories")
+        if n < 0:
+            raise ConfigError(f"the number of latest memories must not be negative, not {n}")
+        log = self._open_log
+        with log.lock:
+            return log.records(range(len(log) - 1, max(-1, len(log) - 1 - n), -1))
+
+    def records(self, since: int | None = None) -> Iterator[Record]:
+        """Yield all records, oldest first, from hour `since` on."""
+        log = self._open_log
+        with log.lock:
+            start = 0 if since is None else log.first_at(since)
+        while True:
+            with log.lock:
+                page = log.records(range(start, min(start + _PAGE, len(log))))
+            if not page:
+                return
+            yield from page
+            start += len(page)
+
+    def forget_from(self, hour: int) -> int:
+        """Drop all records of this hour and later, for an hour that is done again; return how many went.
+
+        Raises:
+            MemoryStoreError: If the store fails; what is then left is a stream without a hole.
+        """
+        log = self._open_log
+        with log.lock:
+            before = len(log)
+            keep = log.first_at(_whole(hour, "the hour to forget from"))
+            if keep < before:
+                log.cut(keep)
+            return before - keep
+
+    def close(self) -> None:
+        """Let go of the store; closing twice does no harm."""
+        if self._log is not None:
+            self._log = None
+            self._store.unshare(self.name)
+            self._store.close()
+
+    def __enter__(self) -> Self:
+        """Return the stream itself."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the stream."""
+        self.close()
+
+    @property
+    def _open_log(self) -> Log:
+        if self._log is None:
+            raise MemoryStoreError(f"{self._where} is closed")
+        return self._log
+
+    @property
+    def _where(self) -> str:
+        return f"{self._store.where}: the memory stream {self.name!r}"
+
+    def _vectors(self, texts: Sequence[str]) -> Vector:
+        """Return the texts' unit vectors, shape (n, d)."""
+        vectors = unit(as_array(self._embeddings, texts), texts)
+        dimension = self._open_log.dimension
+        if dimension not in (None, vectors.shape[1]):
+            raise MemoryStoreError(f"{self._where} has vectors of {dimension} numbers, not {vectors.shape[1]}")
+        return vectors
+
+    def _check_dimension(self) -> None:
+        """Refuse embeddings of another dimension; those that do not say theirs are tried."""
+        if self._open_log.dimension is None or self._open_log.dimension == getattr(self._embeddings, "dimension", None):
+            return
+        self._vectors(["dimension"])
+
+    def _checked_metadata(
+        self, texts: Sequence[str], metadata: Sequence[Mapping[str, Any]] | None
+    ) -> Sequence[Mapping[str, Any]]:
+        if metadata is None:
+            return [{}] * len(texts)
+        if len(metadata) != len(texts):
+            raise ConfigError(f"{self._where}: {len(texts)} texts came with {len(metadata)} entries of metadata")
+        for entry in metadata:
+            try:
+                json.dumps(entry, allow_nan=False)
+            except (TypeError, ValueError) as err:
+                raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
+            if not isinstance(entry, Mapping):
+                raise ConfigError(f"{self._where}: metadata must be one mapping per text, not {entry!r:.80}")
+        return metadata
+
+
+def unit(vectors: Vector, texts: Sequence[str]) -> Vector:
+    """Scale vectors to unit norm, leaving alone those that have it.
+
+    Args:
+        vectors: Shape (n, d).
+        texts: What they stand for, for messages.
+
+    Raises:
+        MemoryStoreError: If a vector is not finite, or zero.
+    """
+    norms = np.sqrt(np.square(vectors, dtype=np.float64).sum(1))
+    for text, norm in zip(texts, norms, strict=True):
+        if not np.isfinite(norm) or norm == 0:
+            raise MemoryStoreError(f"the embeddings gave a vector of norm {norm} for the text {text[:60]!r}")
+    scaled = (vectors / norms[:, None]).astype(np.float32)
+    return np.where((np.abs(norms - 1) <= _UNIT_ERROR)[:, None], vectors, scaled)
+
+
+def _check_text(text: str, what: str) -> None:
+    """Refuse what is no text, empty or too long."""
+    if not isinstance(text, str) or not text.strip():
+        raise ConfigError(f"{what} must be a text that is not empty, not {text!r:.80}")
+    if len(text) > MAX_TEXT:
+        raise ConfigError(f"{what} may have at most {MAX_TEXT} characters, not {len(text)}")
+
+
+def _whole(number: int, what: str) -> int:
+    """Return a whole number as an int, whatever type of integer it is."""
+    if isinstance(number, bool) or not hasattr(number, "__index__"):
+        raise ConfigError(f"{what} must be a whole number, not {number!r:.80}")
+    return operator.index(number)
