@@ -90,8 +90,7 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     dawn = clock.day * 24
     query = f"What do I do at {clock.label} on a {clock.weekday}?"
     recalled = recall_both(memories, query, clock, since=dawn)
-    lived = [r for r in memories.intentions.latest(24) if dawn <= r.hour < clock.now]
-    today = [as_memory(r.text, r.hour, clock) for r in sorted(lived, key=lambda r: r.hour)]
+    today = [as_memory(r.text, r.hour, clock) for r in memories.intentions.records(since=dawn) if r.hour < clock.now]
     return {"recalled": recalled, "today": today}
 
 

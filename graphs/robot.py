@@ -195,7 +195,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     """Propose tasks for one accepted intention. Reads a `TaskRequest`; adds to `imagined`.
 
     A reply that cannot be read leaves this intention without tasks, and that is said.
-    Tasks with objects that are not in the home are left out, since the robot could not do them.
+    A task with an object that is not in the home stays a candidate; done, it fails with its reason.
     """
     ctx, clock, intention = runtime.context, state["clock"], state["intention"]
     home, count = ctx.home, Numbers.ROBOT_TASKS[ctx.collab]

@@ -1,0 +1,35 @@
+# Everything a newcomer needs: `make run` and `make test` set up .venv on first use.
+PYTHON ?= python3.11
+# Passed to pip. For a GPU build of torch see README, "Set-up".
+PIP_ARGS ?=
+BIN := .venv/bin
+READY := .venv/ready
+
+.PHONY: run test check bench clean
+
+run: $(READY)
+	$(BIN)/coopera run $(ARGS)
+
+test: $(READY)
+	$(BIN)/pytest $(ARGS)
+
+check: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python tests/house.py
+	$(BIN)/pytest $(ARGS)
+
+bench: $(READY)
+	for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
+
+# torch comes first and pinned, so that nothing that depends on it brings another build.
+$(READY): pyproject.toml constraints.txt
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt torch
+	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e '.[dev]'
+	touch $(READY)
+
+clean:
+	rm -rf .venv

@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from evaluation import METHODS, Measure
+from graphs import Services
+from graphs.learning import KINDS, Learner
+from memory import MemoryStream
+from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
+
+MakeServices = Callable[..., Services]
+
+
+@pytest.fixture
+def make_services(tmp_path: Path) -> Iterator[MakeServices]:
+    """Services over fakes, with a real memory; `folder` may be shared by two of them, one after the other."""
+    opened: dict[tuple[Path, str], MemoryStream] = {}
+
+    def make(
+        *,
+        ask: ScriptedAsk | None = None,
+        home: FakeHome | None = None,
+        method: str = "ours",
+        folder: Path = tmp_path,
+        frames: int = 0,
+    ) -> Services:
+        home = home or FakeHome()
+        recorder = FolderRecorder(folder)
+        ask = ask or ScriptedAsk(type2_answers())
+        embeddings = LetterEmbeddings()
+
+        def stream(name: str) -> MemoryStream:
+            if (folder, name) not in opened:
+                opened[folder, name] = MemoryStream.open(folder / "memory", name, embeddings)
+            return opened[folder, name]
+
+        return Services(
+            ask=ask,
+            method=METHODS[method],
+            people={MARA.id: MARA},
+            home=lambda scene: home,
+            stream=stream,
+            embeddings=embeddings,
+            learner=Learner(dict.fromkeys(KINDS, TableClassifier), recorder),
+            recorder=recorder,
+            score=Measure(ask, embeddings),
+            seed=0,
+            frames=frames,
+        )
+
+    yield make
+    for one in opened.values():
+        one.close()

@@ -1,0 +1,189 @@
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import pytest
+from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
+from langgraph.checkpoint.sqlite import SqliteSaver
+
+from core.errors import ModelOutputError
+from core.hour import DayPlan
+from core.household import SceneId
+from graphs import STATE_TYPES, Services, build_day_graph, build_study_graph
+from tests.fakes import MARA, FakeHome, ScriptedAsk, type2_answers
+from tests.graphs.conftest import MakeServices
+
+
+def days(count: int, hours: int = 3) -> list[DayPlan]:
+    return [
+        DayPlan(day=d, episode_day=d, person=MARA.id, scene=SceneId("toy"), hours=[9 + n for n in range(hours)])
+        for d in range(count)
+    ]
+
+
+def saver(folder: Path) -> SqliteSaver:
+    connection = sqlite3.connect(folder / "checkpoints.sqlite", check_same_thread=False)
+    return SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
+
+
+def run_study(services: Services, checkpoints: SqliteSaver | None = None, *, go_on: bool = False, n: int = 2) -> Any:
+    graph = build_study_graph(checkpoints)
+    given: Any = None if go_on else {"schedule": days(n)}
+    return graph.invoke(given, {"configurable": {"thread_id": "study"}}, context=services)
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    kept = [
+        path for path in folder.rglob("*") if path.is_file() and path.parts[len(folder.parts)] in ("trace", "adapters")
+    ]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(kept)}
+
+
+def test_the_nodes_are_those_of_the_design() -> None:
+    nodes = [name for name in build_day_graph().get_graph().nodes if not name.startswith("__")]
+    assert nodes == ["start_day", "hour", "feedback", "infer_traits", "learn", "end_day"]
+
+
+def test_a_day_is_lived_hour_by_hour_and_ends_with_an_evening(make_services: MakeServices) -> None:
+    services = make_services()
+    given = {"plan": days(1)[0], "worlds": {}, "pictures": {}, "learned": []}
+    steps = [name for update in build_day_graph().stream(given, context=services) for name in update]  # type: ignore[arg-type]
+    assert steps == ["start_day", "hour", "hour", "hour", "feedback", "infer_traits", "learn", "end_day"]
+    hours = services.recorder.read_day(0)
+    assert [hour.hour for hour in hours] == [9, 10, 11]
+    assert all(hour.status == "ok" and hour.success and hour.calls for hour in hours)
+    evening = services.recorder.evenings[0]  # type: ignore[attr-defined]
+    assert evening.picture.profile == "Cooks a lot."
+    assert evening.learned["intention"] == {"examples": 9, "positives": 3, "seen": 9.0}
+
+
+def test_streaming_with_subgraphs_shows_the_nodes_of_person_and_robot(make_services: MakeServices) -> None:
+    given = {"plan": days(1, hours=1)[0], "worlds": {}, "pictures": {}, "learned": []}
+    stream = build_day_graph().stream(given, context=make_services(), stream_mode="updates", subgraphs=True)  # type: ignore[arg-type]
+    seen = [name for _, update in stream for name in update]
+    assert seen[:9] == [
+        "start_day",
+        "recall",
+        "propose",
+        "search",
+        "decompose",
+        "reflect_profile",
+        "reflect_scene",
+        "human",
+        "demonstrate",
+    ]
+    assert {"observe", "imagine_intentions", "imagine_tasks", "act", "robot", "finish", "score", "record"} <= set(seen)
+
+
+def test_the_robot_watches_only_the_first_task_and_the_person_does_the_rest(make_services: MakeServices) -> None:
+    home = FakeHome()
+    services = make_services(home=home, frames=2)
+    run_study(services, n=1)
+    recorded = [act for agent, act, record in home.performed if record]
+    assert len(recorded) == 3
+    assert sum(agent == "human" for agent, _, _ in home.performed) == 15
+    [robot] = {hour.robot.observation.model_dump_json() for hour in services.recorder.read_day(0)[:1] if hour.robot}
+    assert "whisk" not in robot
+    assert "frames/day-00/hour-09/robot-0.webp" in robot
+
+
+def test_what_was_learned_on_the_first_day_is_used_on_the_second(make_services: MakeServices) -> None:
+    services = make_services()
+    run_study(services)
+    first, second = (services.recorder.read_day(day)[0] for day in (0, 1))
+    assert first.robot is not None
+    assert second.robot is not None
+    assert [c.accepted for c in first.robot.intentions] == [True, True, True]
+    assert [c.accepted for c in second.robot.intentions] == [True, False, False]
+    assert first.success is not None
+    assert second.success is not None
+    assert (first.success.predicate.f1 or 0) < (second.success.predicate.f1 or 0)
+    assert "Cook a meal" in {m.text for m in second.robot.recalled}
+
+
+def test_a_new_episode_starts_with_a_robot_that_knows_nothing(make_services: MakeServices) -> None:
+    services = make_services()
+    one, two = days(2)
+    other = two.model_copy(update={"episode": 1, "episode_day": 0})
+    build_study_graph().invoke({"schedule": [one, other]}, context=services)
+    again = services.recorder.read_day(1)[0].robot
+    assert again is not None
+    assert [c.probability for c in again.intentions] == [0.5, 0.5, 0.5]
+    assert again.recalled == []
+
+
+def test_an_hour_whose_reply_cannot_be_read_is_failed_with_its_reason_and_the_day_goes_on(
+    make_services: MakeServices,
+) -> None:
+    answers = type2_answers()
+    fine = answers["robot/intentions"]
+
+    def at_ten(variables: dict[str, Any]) -> dict[str, Any]:
+        if variables["hour"] == 10:
+            raise ModelOutputError("robot/intentions", "???", "not JSON")
+        return fine(variables)
+
+    answers["robot/intentions"] = at_ten
+    services = make_services(ask=ScriptedAsk(answers))
+    run_study(services, n=1)
+    hours = services.recorder.read_day(0)
+    assert [hour.status for hour in hours] == ["ok", "failed", "ok"]
+    assert "not JSON" in hours[1].reason
+    assert hours[1].human is not None
+    assert hours[1].success is None
+
+
+def test_feedback_that_cannot_be_read_makes_no_label(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    answers["human/feedback_tasks"] = lambda v: {"verdicts": [{"yes": True}]}
+    services = make_services(ask=ScriptedAsk(answers))
+    run_study(services, n=1)
+    evening = services.recorder.evenings[0]  # type: ignore[attr-defined]
+    assert {item.helpful for item in evening.feedback if item.kind == "task"} == {None}
+    assert evening.learned["task"]["examples"] == 0
+
+
+class Killed(BaseException):
+    """Stands for a process that dies: nothing in the graphs may catch it."""
+
+
+@pytest.mark.parametrize("at", ["propose", "imagine_tasks", "score", "infer_traits"])
+@pytest.mark.parametrize("moment", [1, 4])
+def test_a_study_killed_anywhere_and_resumed_equals_one_that_was_not(
+    make_services: MakeServices, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, at: str, moment: int
+) -> None:
+    monkeypatch.setenv("LANGGRAPH_STRICT_MSGPACK", "true")
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    for folder in (whole, broken):
+        folder.mkdir()
+    run_study(make_services(folder=whole), saver(whole))
+    ask = DyingAsk(at, moment if at != "infer_traits" else min(moment, 2))
+    with pytest.raises(Killed):
+        run_study(make_services(folder=broken, ask=ask), saver(broken))
+    run_study(make_services(folder=broken), saver(broken), go_on=True)
+    assert files(broken) == files(whole)
+
+
+class DyingAsk(ScriptedAsk):
+    """Dies at the n-th call of a node."""
+
+    def __init__(self, node: str, moment: int) -> None:
+        super().__init__(type2_answers())
+        self.node, self.left = node, moment
+
+    def __call__(self, prompt: str, reply: type[Any], /, **given: Any) -> Any:
+        if given["at"].node == self.node:
+            self.left -= 1
+            if self.left == 0:
+                raise Killed
+        return super().__call__(prompt, reply, **given)
+
+
+def test_the_home_is_as_it_was_left_when_a_study_goes_on(make_services: MakeServices) -> None:
+    home = FakeHome()
+    home.movable["mug_1"] = (5, "study")
+    services = make_services(home=home)
+    final = run_study(services, n=1)
+    assert final["worlds"]["toy"]["movable"]["mug_1"] == [5, "study"]

@@ -1,0 +1,126 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from core.clock import Clock
+from core.errors import ModelOutputError
+from core.hour import DayPlan
+from core.household import SceneId
+from graphs import HumanContext, build_human_graph
+from graphs.hour import human_context
+from graphs.human import human_hour
+from tests.fakes import MARA, STIR, FakeHome, ScriptedAsk, moving, placing, type2_answers
+from tests.graphs.conftest import MakeServices
+
+NINE = Clock(day=0, hour=9)
+
+
+def person(make_services: MakeServices, collab: int = 2, **options: Any) -> HumanContext:
+    plan = DayPlan(day=0, episode_day=0, person=MARA.id, scene=SceneId("toy"), hours=[9], collab=collab)  # type: ignore[arg-type]
+    return human_context(make_services(**options), plan)
+
+
+def live(ctx: HumanContext, clock: Clock = NINE) -> Any:
+    return human_hour(build_human_graph().invoke({"clock": clock}, context=ctx))  # type: ignore[arg-type]
+
+
+def test_the_nodes_are_those_of_the_design() -> None:
+    nodes = [name for name in build_human_graph().get_graph().nodes if not name.startswith("__")]
+    assert nodes == ["recall", "propose", "search", "decompose", "reflect_profile", "reflect_scene"]
+
+
+def test_an_hour_ends_with_numbered_tasks_and_two_reflections(make_services: MakeServices) -> None:
+    hour = live(person(make_services))
+    assert hour.intention.text == "Cook a meal"
+    assert [task.id for task in hour.tasks] == ["9.1", "9.2", "9.3", "9.4", "9.5"]
+    assert [r.node for r in hour.reflections] == ["reflect_profile", "reflect_scene"]
+    assert hour.repairs == []
+
+
+def test_the_person_recalls_today_and_not_yesterday(make_services: MakeServices) -> None:
+    ask = ScriptedAsk(type2_answers())
+    ctx = person(make_services, ask=ask)
+    ctx.memories.add("Sleep in", [], now=10)
+    ctx.memories.add("Bake bread", ["knead dough"], now=24 + 9)
+    live(ctx, Clock(day=1, hour=11))
+    [variables] = ask.variables_of("human/intention")
+    assert [m["text"] for m in variables["recalled_intentions"]] == ["Bake bread"]
+    assert variables["today"] == [{"when": "9 am", "hours_ago": 2, "text": "Bake bread"}]
+    assert [m["text"] for m in variables["recalled_tasks"]] == ["knead dough"]
+
+
+def test_what_a_reflection_changes_stands_in_the_trace(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    better = [moving("sofa_1", "novel", "sit and read", 2), *STIR[1:]]
+    answers["human/reflect_profile_type2"] = lambda v: {
+        "verdicts": [{"yes": False, "reason": "tired"}],
+        "tasks": better,
+    }
+    answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": better[:4]}
+    first, second = live(person(make_services, ask=ScriptedAsk(answers))).reflections
+    assert first.changes == [
+        "9.1: stir a pot spoon at the stove with the spoon in hand -> sit and read at the sofa with the novel in hand"
+    ]
+    assert first.verdicts[0].comment == "tired"
+    assert second.changes == ["9.5: stir a pot spatula at the stove with the spatula in hand -> dropped"]
+
+
+def test_the_second_reflection_is_told_what_code_found(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    wrong = [moving("oven_1", "spoon", "stir a pot"), moving("stove_1", "none", "stir a pot", 99), *STIR[2:]]
+    answers["human/reflect_profile_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
+    ask = ScriptedAsk(answers)
+    live(person(make_services, ask=ask))
+    [variables] = ask.variables_of("human/reflect_scene_type2")
+    assert variables["findings"] == [
+        'Task 9.1: there is no fixed object "oven_1".',
+        'Task 9.2: "stove_1" has the id 3, not 99.',
+        'Task 9.2: the thing in hand cannot be "none".',
+    ]
+
+
+def test_what_is_still_wrong_is_mended_to_the_nearest_object_and_said(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    wrong = [moving("stoves", "spoon", "stir a pot"), moving("desk_1", "nothing", "sit", 1), *STIR[2:], STIR[2]]
+    answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
+    hour = live(person(make_services, ask=ScriptedAsk(answers)))
+    assert [(task.act.target, task.act.target_id) for task in hour.tasks] == [("stove_1", 3)] * 4
+    assert [sentence.split(":")[0] for sentence in hour.repairs] == [
+        "Task 9.1",
+        "Task 9.2 was dropped",
+        "Task 9.6 was dropped",
+    ]
+
+
+def test_in_type_1_tasks_use_the_movable_objects_of_the_home(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    tasks = [placing("mug_1", "desk_1", 5, 1), placing("cup", "sofa_1", 9, 2), placing("book_1", "desk_1", 4, 1)]
+    answers["human/tasks_type1"] = lambda v: {"tasks": tasks}
+    for node in ("profile", "scene"):
+        answers[f"human/reflect_{node}_type1"] = lambda v: {"verdicts": [{"yes": True}], "tasks": tasks}
+    ask = ScriptedAsk(answers)
+    hour = live(person(make_services, collab=1, ask=ask))
+    assert ask.variables_of("human/tasks_type1")[0]["movable"] == FakeHome().movable
+    assert all(task.act.object in FakeHome().movable for task in hour.tasks)
+    assert len(hour.repairs) == 1
+
+
+def test_an_hour_without_a_possible_task_ends_with_the_replies_in_the_error(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    nothing = [moving("stove_1", "none", "stir", 3)]
+    answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": nothing}
+    with pytest.raises(ModelOutputError, match="no task can be done"):
+        live(person(make_services, ask=ScriptedAsk(answers)))
+
+
+def test_search_offers_at_most_thirty_objects_with_all_instances_in_reach(make_services: MakeServices) -> None:
+    home = FakeHome()
+    home.fixed = {
+        f"{letter * 3}_{n}": (ord(letter) * 10 + n, "study") for letter in "abcdefghijklmnop" for n in (1, 2, 3)
+    }
+    home.fixed["stove_1"] = (3, "kitchen")
+    hour = live(person(make_services, home=home))
+    assert len(hour.found.fixed) == 30
+    assert "stove_1" in hour.found.fixed

@@ -1,0 +1,165 @@
+from __future__ import annotations
+
+import inspect
+from typing import Any, get_type_hints
+
+import pytest
+
+from core.clock import Clock
+from core.errors import ModelOutputError
+from core.hour import DayPlan, Example, Observation
+from core.household import Percept, SceneId
+from core.people import BigFive, Picture
+from graphs import RobotContext, build_robot_graph
+from graphs.hour import robot_context
+from graphs.robot import RobotInput, robot_hour
+from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
+from tests.graphs.conftest import MakeServices
+
+TEN = Clock(day=1, hour=10)
+SEEN = Observation(percept=Percept(room="kitchen", near=["stove_1"], motion="stirring"))
+KNOWN = Picture(big_five=BigFive(openness=4), profile="Cooks a lot.")
+
+
+def robot(make_services: MakeServices, collab: int = 2, **options: Any) -> RobotContext:
+    plan = DayPlan(day=1, episode_day=1, person=MARA.id, scene=SceneId("toy"), hours=[10], collab=collab)  # type: ignore[arg-type]
+    return robot_context(make_services(**options), plan)
+
+
+def watch(ctx: RobotContext, seen: Observation = SEEN, picture: Picture = KNOWN) -> Any:
+    given = RobotInput(clock=TEN, observation=seen, picture=picture)
+    return robot_hour(build_robot_graph().invoke(given, context=ctx))  # type: ignore[arg-type]
+
+
+def test_the_nodes_are_those_of_the_design() -> None:
+    nodes = [name for name in build_robot_graph().get_graph().nodes if not name.startswith("__")]
+    assert nodes == ["observe", "imagine_intentions", "classify_intentions", "imagine_tasks", "classify_tasks", "act"]
+
+
+def test_untrained_it_accepts_everything_and_imagines_tasks_once_per_intention(make_services: MakeServices) -> None:
+    ask = ScriptedAsk(type2_answers())
+    hour = watch(robot(make_services, ask=ask))
+    assert [(c.text, c.probability, c.accepted) for c in hour.intentions] == [
+        ("Cook a meal", 0.5, True),
+        ("Read quietly", 0.5, True),
+        ("Tidy the home", 0.5, True),
+    ]
+    assert sorted(v["intention"] for v in ask.variables_of("robot/tasks_type2")) == [
+        "Cook a meal",
+        "Read quietly",
+        "Tidy the home",
+    ]
+    draws = sorted(at.draw for name, at, _ in ask.asked if name == "robot/tasks_type2")
+    assert draws == [0, 1, 2]
+
+
+def test_a_thing_imagined_for_two_intentions_counts_once_for_the_likelier(make_services: MakeServices) -> None:
+    tasks = watch(robot(make_services)).tasks
+    assert [(t.act.object, t.intention) for t in tasks] == [
+        ("spoon", "Cook a meal"),
+        ("whisk", "Cook a meal"),
+        ("novel", "Read quietly"),
+        ("broom", "Tidy the home"),
+    ]
+
+
+def test_only_accepted_tasks_are_done_in_the_home(make_services: MakeServices) -> None:
+    ctx = robot(make_services)
+    ctx.learner.classifiers["task"].train(
+        [_labelled("bring the whisk", False), _labelled("bring the novel", True)], seed=0
+    )
+    hour = watch(ctx)
+    assert [o.act.object for o in hour.outcomes] == ["novel", "spoon", "broom"]
+    assert [a.object for _, a, _ in ctx.home.performed] == ["novel", "spoon", "broom"]  # type: ignore[attr-defined]
+
+
+def test_where_no_intention_is_accepted_the_likeliest_goes_on_and_that_is_said(make_services: MakeServices) -> None:
+    ctx = robot(make_services)
+    texts = ("Cook a meal", "Read quietly", "Tidy the home")
+    ctx.learner.classifiers["intention"].train([_labelled(text, False) for text in texts], seed=0)
+    hour = watch(ctx)
+    assert [c.accepted for c in hour.intentions] == [True, False, False]
+    assert hour.fallbacks == ["no intention was accepted: the most probable one went on"]
+
+
+def test_an_unreadable_task_reply_costs_that_intention_alone_and_is_said(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    fine = answers["robot/tasks_type2"]
+
+    def garbled(variables: dict[str, Any]) -> dict[str, Any]:
+        if variables["intention"] == "Read quietly":
+            raise ModelOutputError("robot/tasks_type2", "???", "not JSON")
+        return fine(variables)
+
+    answers["robot/tasks_type2"] = garbled
+    hour = watch(robot(make_services, ask=ScriptedAsk(answers)))
+    assert {t.intention for t in hour.tasks} == {"Cook a meal", "Tidy the home"}
+    [sentence] = hour.fallbacks
+    assert sentence.startswith('no tasks for "Read quietly"')
+
+
+def test_an_unreadable_superset_of_intentions_ends_the_hour(make_services: MakeServices) -> None:
+    answers = type2_answers()
+
+    def garbled(_: dict[str, Any]) -> dict[str, Any]:
+        raise ModelOutputError("robot/intentions", "???", "not JSON")
+
+    answers["robot/intentions"] = garbled
+    with pytest.raises(ModelOutputError, match="robot/intentions"):
+        watch(robot(make_services, ask=ScriptedAsk(answers)))
+
+
+def test_it_recalls_what_it_was_told_of_earlier_days_and_what_it_guessed_today(make_services: MakeServices) -> None:
+    ask = ScriptedAsk(type2_answers())
+    ctx = robot(make_services, ask=ask)
+    ctx.history.add("Bake bread", ["knead dough"], now=10)
+    ctx.guesses.add("A wrong guess of yesterday", [], now=10)
+    ctx.guesses.add("Tidy the home", [], now=24 + 9)
+    hour = watch(ctx)
+    assert {m.text for m in hour.recalled} == {"Bake bread", "knead dough", "Tidy the home"}
+    [variables] = ask.variables_of("robot/intentions")
+    assert {m["when"] for m in variables["recalled_intentions"]} == {"9 am", "day 1, 10 am"}
+
+
+def test_without_traits_and_context_neither_prompts_nor_classifiers_see_them(make_services: MakeServices) -> None:
+    for method, absent in (("no_traits", ("profile", "big_five")), ("no_context", ("recalled_intentions",))):
+        ask = ScriptedAsk(type2_answers())
+        ctx = robot(make_services, ask=ask, method=method)
+        ctx.history.add("Bake bread", [], now=10)
+        watch(ctx)
+        [variables] = ask.variables_of("robot/intentions")
+        assert not any(variables[name] for name in absent)
+
+
+def test_random_accepts_everything_whatever_was_learned(make_services: MakeServices) -> None:
+    ctx = robot(make_services, method="random")
+    ctx.learner.classifiers["intention"].train([_labelled("Cook a meal", False)], seed=0)
+    assert all(c.accepted for c in watch(ctx).intentions)
+
+
+def test_in_type_1_the_robot_is_given_the_first_task_in_words_and_may_use_what_can_be_moved(
+    make_services: MakeServices,
+) -> None:
+    answers = type2_answers()
+    answers["robot/tasks_type1"] = lambda v: {"tasks": [placing("mug_1", "desk_1", 5, 1)]}
+    ask = ScriptedAsk(answers)
+    ctx = robot(make_services, collab=1, ask=ask)
+    watch(ctx, SEEN.model_copy(update={"first_task": "put the mug on the stove"}))
+    variables = ask.variables_of("robot/tasks_type1")[0]
+    assert variables["first_task"] == "put the mug on the stove"
+    assert variables["movable"] == FakeHome().movable
+
+
+def test_nothing_true_about_the_hour_is_an_input_of_the_robot() -> None:
+    """The audit of leaks: these are the robot's input and services, and none of their types holds the truth."""
+    assert set(get_type_hints(RobotInput)) == {"clock", "observation", "picture"}
+    assert set(Observation.model_fields) == {"frames", "percept", "first_task"}
+    services = inspect.get_annotations(RobotContext)
+    assert set(services) == {
+        *("ask", "person", "collab", "method", "home", "history", "guesses", "learner", "images"),
+    }
+    assert "Persona" not in " ".join(map(str, services.values()))
+
+
+def _labelled(candidate: str, yes: bool) -> Example:
+    return Example(person=MARA.id, day=0, hour=9, candidate=candidate, label=yes)
