@@ -1,6 +1,6 @@
 """The LangGraph state machines: the person's hour, the robot's hour, the day, the study."""
 
-from graphs.day import build_day_graph
+from graphs.day import build_day_graph, first_day
 from graphs.human import build_human_graph
 from graphs.method import Method
 from graphs.robot import build_robot_graph
@@ -17,4 +17,5 @@ __all__ = [
     "build_human_graph",
     "build_robot_graph",
     "build_study_graph",
+    "first_day",
 ]

@@ -52,6 +52,11 @@ class DayState(DayInput, total=False):
     measured: dict[str, Any]  # by learn
 
 
+def first_day(plan: DayPlan) -> DayInput:
+    """The input of a day that no other came before."""
+    return DayInput(plan=plan, worlds={}, pictures={}, learned=[])
+
+
 def build_day_graph(
     checkpointer: BaseCheckpointSaver[Any] | None = None,
 ) -> CompiledStateGraph[DayState, Services, DayInput, DayState]:
@@ -66,6 +71,7 @@ def build_day_graph(
         if plan.scene in state["worlds"]:
             home.restore(state["worlds"][plan.scene])
         services.ask.take_calls()
+        runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
         picture = state["pictures"].get(plan.person, Picture())
         done = hours.invoke({"plan": plan, "position": state["position"], "picture": picture}, context=services)
         return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}

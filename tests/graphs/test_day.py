@@ -11,7 +11,7 @@ from langgraph.checkpoint.sqlite import SqliteSaver
 from core.errors import ModelOutputError
 from core.hour import DayPlan
 from core.household import SceneId
-from graphs import STATE_TYPES, Services, build_day_graph, build_study_graph
+from graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
 from tests.fakes import MARA, FakeHome, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -48,8 +48,7 @@ def test_the_nodes_are_those_of_the_design() -> None:
 
 def test_a_day_is_lived_hour_by_hour_and_ends_with_an_evening(make_services: MakeServices) -> None:
     services = make_services()
-    given = {"plan": days(1)[0], "worlds": {}, "pictures": {}, "learned": []}
-    steps = [name for update in build_day_graph().stream(given, context=services) for name in update]  # type: ignore[arg-type]
+    steps = [name for update in build_day_graph().stream(first_day(days(1)[0]), context=services) for name in update]
     assert steps == ["start_day", "hour", "hour", "hour", "feedback", "infer_traits", "learn", "end_day"]
     hours = services.recorder.read_day(0)
     assert [hour.hour for hour in hours] == [9, 10, 11]
@@ -60,8 +59,9 @@ def test_a_day_is_lived_hour_by_hour_and_ends_with_an_evening(make_services: Mak
 
 
 def test_streaming_with_subgraphs_shows_the_nodes_of_person_and_robot(make_services: MakeServices) -> None:
-    given = {"plan": days(1, hours=1)[0], "worlds": {}, "pictures": {}, "learned": []}
-    stream = build_day_graph().stream(given, context=make_services(), stream_mode="updates", subgraphs=True)  # type: ignore[arg-type]
+    day = build_day_graph()
+    given = first_day(days(1, hours=1)[0])
+    stream = day.stream(given, context=make_services(), stream_mode="updates", subgraphs=True)
     seen = [name for _, update in stream for name in update]
     assert seen[:9] == [
         "start_day",

@@ -1,0 +1,129 @@
+"""The rooms wired together: from a configuration to the services that the graphs work with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+
+from langchain_core.embeddings import Embeddings
+
+from coopera.config import Config
+from core.household import SceneId
+from core.people import Persona
+from core.protocols import Ask, Classifier, Home, Recorder, Role
+from evaluation import METHODS, Measure
+from graphs import Method, Services
+from graphs.learning import KINDS, Kind, Learner
+from memory import MemoryStream, Search, bundled
+from models import open_door
+from models.classifiers import Inputs, make_classifier
+from prompts import PromptLibrary
+from simulation import World, load_scene
+
+
+def model_specs(config: Config) -> dict[Role, str]:
+    """Which model plays which role."""
+    return {"human": config.models.human, "robot": config.models.robot, "judge": config.models.judge}
+
+
+def open_embeddings(config: Config) -> Embeddings:
+    """The bundled sentence encoder, with a cache that all runs share."""
+    return bundled(config.data_dir / "embeddings.sqlite")
+
+
+def open_ask(
+    config: Config,
+    *,
+    prompts: PromptLibrary | None = None,
+    embeddings: Embeddings | None = None,
+    cache: Path | None = None,
+) -> Ask:
+    """Open the one door to the configured language models.
+
+    Raises:
+        PromptError: If a prompt file is broken, naming file and line.
+        ConfigError: If a model is unknown or cannot be used here.
+    """
+    return open_door(
+        prompts=prompts or PromptLibrary(config.prompts),
+        specs=model_specs(config),
+        seed=config.seed,
+        embeddings=embeddings or open_embeddings(config),
+        base_url=config.base_url,
+        cache=cache,
+    )
+
+
+@contextmanager
+def open_services(
+    config: Config, recorder: Recorder, people: Mapping[str, Persona], prompts: PromptLibrary | None = None
+) -> Iterator[Services]:
+    """Open everything that a run works with, and close it at the end.
+
+    Args:
+        config: Resolved by `coopera.catalogues.resolve`.
+        recorder: The run directory.
+        people: Those who may take part, by id.
+        prompts: The prompt folder, where it has been read already.
+    """
+    with ExitStack() as stack:
+        embeddings = open_embeddings(config)
+        ask = open_ask(config, prompts=prompts, embeddings=embeddings, cache=recorder.root / "llm_cache.sqlite")
+        method = METHODS[config.method]
+        yield Services(
+            ask=ask,
+            method=method,
+            people={persona.id: persona for persona in people.values()},
+            home=_Homes(stack, config, embeddings),
+            stream=_Streams(stack, recorder.root / "memory", embeddings),
+            embeddings=embeddings,
+            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, recorder),
+            recorder=recorder,
+            score=Measure(ask, embeddings),
+            seed=config.seed,
+            frames=config.frames if config.pictures == "sampled" else 0,
+        )
+
+
+class _Homes:
+    """Opens a home at its first use and keeps it open."""
+
+    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings) -> None:
+        self._stack, self._config, self._embeddings = stack, config, embeddings
+        self._open: dict[SceneId, Home] = {}
+
+    def __call__(self, scene: SceneId) -> Home:
+        if scene not in self._open:
+            layout = load_scene(scene, [self._config.data_dir / "scenes"])
+            world = World(layout, frame_size=self._config.frame_size, match=_nearest_motion(self._embeddings))
+            self._open[scene] = self._stack.enter_context(world)
+        return self._open[scene]
+
+
+class _Streams:
+    """Opens a memory stream at its first use and keeps it open."""
+
+    def __init__(self, stack: ExitStack, folder: Path, embeddings: Embeddings) -> None:
+        self._stack, self._folder, self._embeddings = stack, folder, embeddings
+        self._open: dict[str, MemoryStream] = {}
+
+    def __call__(self, name: str) -> MemoryStream:
+        if name not in self._open:
+            self._open[name] = self._stack.enter_context(MemoryStream.open(self._folder, name, self._embeddings))
+        return self._open[name]
+
+
+def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddings) -> Callable[[], Classifier]:
+    inputs = Inputs(traits=method.traits, context=method.context)
+    return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
+
+
+def _nearest_motion(embeddings: Embeddings) -> Callable[[str, list[str]], str]:
+    """The library motion whose caption is most similar to a free-form text."""
+
+    def match(text: str, captions: list[str]) -> str:
+        return Search(embeddings, captions).top(text, 1)[0][0]
+
+    return match
