@@ -1,6 +1,6 @@
 """Replace one prompt by a folder of your own, without touching code, and see it in the trace.
 
-    .venv/bin/python examples/swap_a_prompt.py
+Run it with `.venv/bin/python examples/swap_a_prompt.py`.
 
 The offline routine model reads a prompt's variables rather than its words, so here only the trace changes; a
 language model (`--model openai:…`) would answer to the new words.
