@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from coopera import humans
+from coopera.claim import refuse_used
 from coopera.config import Config
 from core.errors import ConfigError
 
@@ -54,6 +55,8 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
     _groups("humans", people, n_people, config.setting)
     _groups("scenes", scenes, n_scenes, config.setting)
+    if config.out is not None:
+        refuse_used(config.out)
     for person in people:
         humans.find(person, config.data_dir)
     return config.model_copy(

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-import fcntl
 import importlib.metadata
-import json
-import os
+import platform
 import shutil
-import socket
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Self, TypeVar
+from typing import IO, Any, Self
 
-from pydantic import ValidationError
-
+from coopera import __version__, claim
 from coopera.config import Config, load_config
 from coopera.files import canonical_json, reason, write_atomic
 from coopera.humans import read_persona, write_persona
 from coopera.summary import metrics_csv, metrics_rows, summarise
+from coopera.trace_files import read_json, read_record, write_record
 from core.errors import ConfigError, CooperaError, RunError
 from core.hour import Evening, HourRecord, ModelCall
-from core.people import Frozen, Persona
+from core.people import Persona
 
-Record = TypeVar("Record", bound=Frozen)
 SCHEMA = 1
 _PACKAGES = [
-    "coopera",
     "chromadb",
     "langchain-core",
     "langgraph",
@@ -81,11 +76,13 @@ class RunDir:
         Raises:
             ConfigError: If the folder cannot be written, is not empty or holds another run.
         """
-        root, made = _claim(config.out)
+        if config.out is None:
+            raise ConfigError("out: a folder for the run must be given.")
+        root, made = config.out, claim.make_folder(config.out)
         info = _info(prompts, models)
         lock = None
         try:
-            lock = _locked(root)
+            lock = claim.lock(root)
             write_atomic(root / "config.yaml", config.to_yaml())
             for persona in people:
                 write_persona(persona, root / "people")
@@ -93,7 +90,7 @@ class RunDir:
         except (OSError, CooperaError) as err:
             if lock:
                 lock.close()
-            _clear(root, made)
+            claim.clear(root, made)
             what = reason(err) if isinstance(err, OSError) else str(err)
             raise ConfigError(f"out: {root} cannot be written ({what}).") from err
         return cls(root, config, info, lock)
@@ -108,7 +105,7 @@ class RunDir:
         """
         if not (path / "run.json").is_file():
             raise ConfigError(f"{path}: this folder holds no run (there is no run.json in it).")
-        info = _read_json(path / "run.json")
+        info = read_json(path / "run.json")
         if not isinstance(info, dict) or not isinstance(info.get("schema"), int):
             raise RunError(f"{path / 'run.json'}: the field schema is missing, so this run cannot be read.")
         if info["schema"] > SCHEMA:
@@ -128,12 +125,12 @@ class RunDir:
         run = cls.open(path)
         if run.state == "finished":
             raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
-        _refuse_second_writer(path, run.info)
-        run._lock = _locked(path)
+        claim.refuse_second_writer(path, run.info)
+        run._lock = claim.lock(path)
         for half in path.rglob(".*.tmp"):  # what a killed writer left
             half.unlink(missing_ok=True)
         run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
-        run.info |= {**_writer(), "state": "running", "reason": "", "ended": None}
+        run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
         run._write_info()
         return run
 
@@ -172,16 +169,16 @@ class RunDir:
 
     def write_hour(self, record: HourRecord) -> None:
         """Write trace/day-DD/hour-HH.json."""
-        self._write(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
+        write_record(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
         self._rows[record.day, record.hour] = metrics_rows(record)
 
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
-        return [_read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
+        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
 
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
-        self._write(self._day(evening.day) / "evening.json", evening)
+        write_record(self._day(evening.day) / "evening.json", evening)
         self._write_metrics()
 
     def adapters_folder(self, day: int) -> Path:
@@ -203,7 +200,7 @@ class RunDir:
     def read_evening(self, day: int) -> Evening | None:
         """A day's evening, or None where the day has not ended."""
         path = self._day(day) / "evening.json"
-        return _read_record(path, Evening) if path.is_file() else None
+        return read_record(path, Evening) if path.is_file() else None
 
     def evenings(self) -> list[Evening]:
         """All evenings of the run, in order."""
@@ -239,81 +236,8 @@ class RunDir:
         rows = [row for key in sorted(self._rows) for row in self._rows[key]]
         write_atomic(self.root / "metrics.csv", metrics_csv(rows))
 
-    def _write(self, path: Path, record: Frozen) -> None:
-        try:
-            write_atomic(path, canonical_json(record.model_dump(mode="json")))
-        except OSError as err:
-            raise RunError(f"{path}: the trace cannot be written ({reason(err)}).") from err
-
     def _day(self, day: int) -> Path:
         return self.root / "trace" / f"day-{day:02d}"
-
-
-def _claim(out: Path | None) -> tuple[Path, list[Path]]:
-    """Make the run's folder, and say which folders were made for it, innermost first."""
-    if out is None:
-        raise ConfigError("out: a folder for the run must be given.")
-    if (out / "run.json").exists():
-        raise ConfigError(f"out: {out} already holds another run; choose another folder, or `coopera resume {out}`.")
-    if out.exists() and not out.is_dir():
-        raise ConfigError(f"out: {out} must be a folder, and it is a file.")
-    missing = [folder for folder in (out, *out.parents) if not folder.exists()]
-    try:
-        if out.is_dir() and any(out.iterdir()):
-            raise ConfigError(f"out: {out} is not empty; a new run needs an empty folder or a new one.")
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as err:
-        _clear(out, missing)
-        raise ConfigError(f"out: {out} cannot be written ({reason(err)}).") from err
-    return out, missing
-
-
-def _clear(root: Path, made: Sequence[Path]) -> None:
-    """Undo a start that failed: our files go, and so do the folders that were made for them."""
-    for name in ("config.yaml", "run.json", "lock"):
-        _forget(root / name)
-    shutil.rmtree(root / "people", ignore_errors=True)
-    for folder in made:
-        if folder.is_dir() and not any(folder.iterdir()):
-            folder.rmdir()
-
-
-def _forget(path: Path) -> None:
-    if path.is_file():
-        path.unlink()
-
-
-def _locked(root: Path) -> IO[str]:
-    """Take the run's lock, which the system frees when this process ends, however it ends."""
-    file = (root / "lock").open("w")
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        file.close()
-        raise RunError(f"{root}: another process is writing this run.") from None
-    return file
-
-
-def _refuse_second_writer(path: Path, info: Mapping[str, Any]) -> None:
-    """Refuse a run whose writer lives; on another machine only the lock can tell."""
-    pid = info.get("pid")
-    if info["state"] != "running" or info.get("host") != socket.gethostname() or not isinstance(pid, int):
-        return
-    if pid != os.getpid() and _start_of(pid) is not None and _start_of(pid) == info.get("pid_start", _start_of(pid)):
-        raise RunError(f"{path}: the process {pid} is still writing this run; stop it first, or wait for its end.")
-
-
-def _start_of(pid: int) -> int | None:
-    """When a process started, in clock ticks since boot, so that a reused number is not taken for it; None if gone."""
-    try:
-        return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[19])
-    except (OSError, ValueError, IndexError):
-        return None
-
-
-def _writer() -> dict[str, Any]:
-    pid = os.getpid()
-    return {"pid": pid, "pid_start": _start_of(pid), "host": socket.gethostname()}
 
 
 def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
@@ -321,10 +245,14 @@ def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, An
         "schema": SCHEMA,
         "state": "running",
         "reason": "",
-        **_writer(),
+        **claim.writer(),
         "started": _now(),
         "ended": None,
-        "versions": {name: version for name in _PACKAGES if (version := _version(name))},
+        "versions": {
+            "coopera": __version__,
+            "python": platform.python_version(),
+            **{name: version for name in _PACKAGES if (version := _version(name))},
+        },
         "prompts": dict(prompts),
         "models": dict(models),
     }
@@ -339,21 +267,3 @@ def _version(package: str) -> str | None:
 
 def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
-
-
-def _read_json(path: Path) -> Any:
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as err:
-        raise RunError(f"{path}: the file cannot be read ({reason(err)}).") from err
-    except ValueError as err:
-        raise RunError(f"{path}: the file is damaged ({err}).") from err
-
-
-def _read_record(path: Path, kind: type[Record]) -> Record:
-    try:
-        return kind.model_validate(_read_json(path))
-    except ValidationError as err:
-        first = err.errors(include_url=False)[0]
-        field = ".".join(str(part) for part in first["loc"])
-        raise RunError(f"{path}: the field {field} is damaged ({first['msg'].lower()}).") from err
