@@ -1,0 +1,77 @@
+"""Replies of language models by content, in SQLite: methods and reruns that ask the same share the answer."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sqlite3
+import threading
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from core.errors import RunError
+
+_PATIENCE = 60.0  # seconds that a process waits for another one's write
+
+
+class CachedReply(NamedTuple):
+    """A model's raw reply, and the tokens that it took."""
+
+    text: str
+    tokens_in: int = 0
+    tokens_out: int = 0
+    cut: bool = False
+    """Whether the reply ended at the length limit."""
+
+
+def key_of(model: str, messages: Sequence[object], images: Iterable[bytes], temperature: float, seed: int) -> str:
+    """SHA-256 over all that decides a reply; `messages` is plain JSON data without the pictures."""
+    hashed = [hashlib.sha256(image).hexdigest() for image in images]
+    content = json.dumps([model, messages, hashed, temperature, seed], ensure_ascii=False, sort_keys=True)
+    return hashlib.sha256(content.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+class ReplyCache:
+    """A table from key to reply. Threads and processes may share the file."""
+
+    def __init__(self, path: Path) -> None:
+        """Open or create the file.
+
+        Raises:
+            RunError: If the file cannot be opened or is something else.
+        """
+        self._path = path
+        self._lock = threading.Lock()
+        with self._guarded():
+            self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
+            self._db.execute("PRAGMA journal_mode=WAL")
+            self._db.execute(
+                "CREATE TABLE IF NOT EXISTS replies"
+                " (key TEXT PRIMARY KEY, reply TEXT, tokens_in INTEGER, tokens_out INTEGER, cut INTEGER) WITHOUT ROWID"
+            )
+
+    def get(self, key: str) -> CachedReply | None:
+        """The reply of a key, or None."""
+        with self._lock, self._guarded():
+            query = "SELECT reply, tokens_in, tokens_out, cut FROM replies WHERE key = ?"
+            row = self._db.execute(query, (key,)).fetchone()
+        return CachedReply(row[0], row[1], row[2], bool(row[3])) if row else None
+
+    def put(self, replies: Iterable[tuple[str, CachedReply]]) -> None:
+        """Keep replies; what is there already stays."""
+        rows = [(key, *reply) for key, reply in replies]
+        with self._lock, self._guarded():
+            self._db.executemany("INSERT OR IGNORE INTO replies VALUES (?, ?, ?, ?, ?)", rows)
+
+    def close(self) -> None:
+        """Close the file."""
+        self._db.close()
+
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as err:
+            raise RunError(f"{self._path}: the cache of model replies cannot be used: {err}") from err

@@ -1,0 +1,298 @@
+"""The one door to language models: prompt name and variables in, a validated reply out, and a record of the call.
+
+Every call renders a prompt file, says which JSON is wanted, parses the answer strictly, shows the model what is wrong
+with a bad one and asks again, a bounded number of times. Nothing else in coopera touches a chat model.
+"""
+
+from __future__ import annotations
+
+import base64
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from langchain_core.embeddings import Embeddings
+from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
+
+from core.errors import CooperaError, ModelCallError, ModelOutputError, RunError
+from core.hour import ModelCall
+from core.protocols import Prompts, Rendered, Reply, Role
+from core.randomness import Address, seed_at
+from models.backends import Backend, open_backends
+from models.cache import CachedReply, ReplyCache, key_of
+from models.parsing import BadReplyError, read_reply, schema_of
+
+SHOWN = 4000  # characters of a bad reply that the model is shown again
+SEEDS = 2**31  # servers take seeds of 31 bits
+_ANSWER = "Answer with one JSON object and nothing else. It must fit this JSON schema:"
+_AGAIN = (
+    "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
+)
+_PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
+
+
+def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decides
+    *,
+    prompts: Prompts,
+    specs: Mapping[Role, str],
+    seed: int,
+    embeddings: Embeddings,
+    base_url: str | None = None,
+    cache: Path | None = None,
+    max_attempts: int = 3,
+    root: Path | None = None,
+) -> Door:
+    """Open the models of all roles, and the door before them.
+
+    Args:
+        prompts: The prompt folder.
+        specs: Model of each role (`models.backends`); a role that is not there is played by the offline model.
+        seed: The run's seed; each call's seed derives from it and the call's address.
+        embeddings: What the offline model compares texts with.
+        base_url: Where an OpenAI-compatible server listens.
+        cache: SQLite file of replies by content; None keeps none. The offline model is faster than any cache.
+        max_attempts: Answers asked for before a bad one is an error.
+        root: The run directory, relative to which the record names pictures; without it, by their file names.
+
+    Raises:
+        ConfigError: If a model cannot be opened.
+    """
+    backends = open_backends(specs, embeddings, base_url)
+    caches = cache is not None and not all(backend.reads_variables for backend in backends.values())
+    replies = ReplyCache(cache) if cache is not None and caches else None
+    return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, max_attempts=max_attempts, root=root)
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture to be shown to a model."""
+
+    name: str
+    mime: str
+    data: bytes
+
+
+@dataclass(slots=True)
+class _Talk:
+    """One call as it goes: what was said so far, and what it took."""
+
+    rendered: Rendered
+    backend: Backend
+    messages: list[BaseMessage]
+    written: list[dict[str, Any]]
+    reply: str = ""
+    tokens_in: int = 0
+    tokens_out: int = 0
+    attempts: int = 0
+    cached: int = 0
+    faults: list[str] = field(default_factory=list)
+    fresh: list[tuple[str, CachedReply]] = field(default_factory=list)
+
+    def fault(self, reason: str) -> None:
+        """Note what was wrong with the latest attempt."""
+        self.faults.append(f"attempt {self.attempts}: {reason}")
+
+    def bad(self, reason: str, *, more: bool) -> None:
+        """Note a reply that cannot be used; if there are more attempts it is shown to the model again."""
+        self.fault(reason)
+        if more:
+            shown = self.reply[:SHOWN] or "(an empty answer)"
+            self.messages.append(AIMessage(content=shown))
+            self.written.append({"role": "assistant", "content": shown})
+
+
+@dataclass(slots=True)
+class Door:
+    """The one door; implements `core.protocols.Ask`. Threads may call it at the same time."""
+
+    prompts: Prompts
+    backends: Mapping[Role, Backend]
+    seed: int
+    cache: ReplyCache | None = None
+    max_attempts: int = 3
+    root: Path | None = None
+    _calls: list[tuple[Address, ModelCall]] = field(init=False, default_factory=list)
+    _lock: threading.Lock = field(init=False, default_factory=threading.Lock)
+
+    def __call__(
+        self,
+        prompt: str,
+        reply: type[Reply],
+        /,
+        *,
+        at: Address,
+        variables: Mapping[str, Any],
+        images: Sequence[Path] = (),
+    ) -> Reply:
+        """Ask the model of the prompt's role.
+
+        Args:
+            prompt: Name of the prompt, such as "human/intention".
+            reply: Type of the answer.
+            at: Where the call happens; its seed derives from it.
+            variables: What the prompt is filled with.
+            images: Pictures to show; only for roles whose model `sees`.
+
+        Raises:
+            ModelOutputError: If no attempt gave a valid reply.
+            ModelCallError: If the model could not be reached, or the server gave no reply at all.
+            PromptError: If the prompt cannot be filled.
+        """
+        rendered = self.prompts.render(prompt, variables)
+        backend = self.backends[rendered.role]
+        if images and not backend.sees:
+            raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
+        pictures = [self._picture(path) for path in images]
+        text = rendered.text if backend.reads_variables else f"{rendered.text}\n\n{_ANSWER}\n{schema_of(reply)}"
+        talk = _Talk(rendered, backend, [], [])
+        started = time.perf_counter()
+        try:
+            return self._converse(talk, text, pictures, reply, at, dict(variables))
+        except CooperaError as err:
+            if not isinstance(err, ModelOutputError):
+                talk.fault(str(err))
+            raise
+        finally:
+            self._record(at, talk, time.perf_counter() - started)
+
+    def sees(self, role: Role) -> bool:
+        """Whether this role's model looks at pictures itself."""
+        return self.backends[role].sees
+
+    def take_calls(self) -> list[ModelCall]:
+        """Return the calls made since the last time, and forget them.
+
+        The order is that of the nodes' first calls; within a node, that of the draws, since those of nodes that ran
+        in parallel end in any order.
+        """
+        with self._lock:
+            calls, self._calls = self._calls, []
+        first: dict[tuple[object, ...], int] = {}
+        for n, (at, _) in enumerate(calls):
+            first.setdefault(at[:4], n)
+        return [call for at, call in sorted(calls, key=lambda entry: (first[entry[0][:4]], entry[0].draw))]
+
+    def _converse(
+        self,
+        talk: _Talk,
+        text: str,
+        pictures: list[Picture],
+        reply: type[Reply],
+        at: Address,
+        variables: dict[str, Any],
+    ) -> Reply:
+        """Ask until an answer is valid, showing the model what was wrong with the one before."""
+        name, reason = talk.rendered.name, None
+        for attempt in range(self.max_attempts):
+            talk.attempts = attempt + 1
+            seed = seed_at(self.seed, *at, name, *([attempt] if attempt else []))
+            if attempt == 0:
+                self._say(talk, text, pictures, variables, seed)
+            elif reason is not None and talk.written[-1]["role"] == "assistant":
+                self._say(talk, _AGAIN.format(reason=reason), [], variables, seed)
+            answer = self._send(talk, seed, pictures)
+            if answer is None:
+                continue
+            talk.reply = answer.text
+            try:
+                valid = read_reply(answer.text, reply)
+            except BadReplyError as err:
+                reason = f"it was cut off at the length limit; {err}" if answer.cut else str(err)
+                talk.bad(reason, more=attempt + 1 < self.max_attempts)
+                continue
+            if self.cache is not None:
+                self.cache.put(talk.fresh)
+            return valid
+        if reason is None:
+            raise ModelCallError(f"{name}: {talk.backend.name} gave no reply: {talk.faults[-1]}")
+        raise ModelOutputError(name, talk.reply, reason)
+
+    def _say(self, talk: _Talk, text: str, pictures: list[Picture], variables: dict[str, Any], seed: int) -> None:
+        extra: dict[str, Any] = {}
+        if talk.backend.reads_variables:
+            temperature = talk.rendered.temperature
+            told = {"prompt": talk.rendered.name, "variables": variables, "seed": seed, "temperature": temperature}
+            extra = {"additional_kwargs": {"coopera": told}}
+        shown = [{"type": "image", "base64": base64.b64encode(p.data).decode(), "mime_type": p.mime} for p in pictures]
+        content: Any = [*shown, {"type": "text", "text": text}] if shown else text
+        talk.messages.append(HumanMessage(content=content, **extra))
+        names = {"images": [p.name for p in pictures]} if pictures else {}
+        talk.written.append({"role": "user", "content": text, **names})
+
+    def _send(self, talk: _Talk, seed: int, pictures: list[Picture]) -> CachedReply | None:
+        """Get one answer, from the cache or from the model; None if what came back was no answer at all.
+
+        Raises:
+            ModelCallError: If the model could not be reached.
+        """
+        backend, temperature = talk.backend, talk.rendered.temperature
+        key = None
+        if self.cache is not None and not backend.reads_variables:
+            said = [[m["role"], m["content"]] for m in talk.written]
+            key = key_of(backend.name, said, [p.data for p in pictures], temperature, seed)
+        answer = self.cache.get(key) if self.cache is not None and key is not None else None
+        if answer is not None:
+            talk.cached += 1
+        else:
+            options: dict[str, Any] = {} if backend.reads_variables else {"temperature": temperature}
+            if backend.seeded and options:
+                options["seed"] = seed % SEEDS
+            try:
+                answer = _answer(backend.model.invoke(talk.messages, **options))
+            except backend.unreachable as err:
+                raise ModelCallError(f"{talk.rendered.name}: {backend.name} cannot be asked: {_line(err)}") from err
+            except backend.garbled as err:
+                talk.fault(f"what the server sent is no reply: {_line(err)}")
+                return None
+            if key is not None:
+                talk.fresh.append((key, answer))
+        talk.tokens_in += answer.tokens_in
+        talk.tokens_out += answer.tokens_out
+        return answer
+
+    def _record(self, at: Address, talk: _Talk, seconds: float) -> None:
+        call = ModelCall(
+            node=at.node,
+            prompt=talk.rendered.name,
+            prompt_sha=talk.rendered.sha,
+            model=talk.backend.name,
+            messages=talk.written,
+            reply=talk.reply,
+            seconds=round(seconds, 6),
+            tokens_in=talk.tokens_in,
+            tokens_out=talk.tokens_out,
+            attempts=max(1, talk.attempts),
+            cached=0 < talk.attempts == talk.cached,
+            faults=talk.faults,
+        )
+        with self._lock:
+            self._calls.append((at, call))
+
+    def _picture(self, path: Path) -> Picture:
+        mime = _PICTURES.get(path.suffix.lower())
+        if mime is None:
+            raise RunError(f"{path}: a picture for a model must end in one of {', '.join(_PICTURES)}")
+        inside = self.root is not None and path.is_relative_to(self.root)
+        name = path.relative_to(self.root).as_posix() if self.root is not None and inside else path.name
+        try:
+            return Picture(name, mime, path.read_bytes())
+        except OSError as err:
+            raise RunError(f"{path}: the picture cannot be read: {err.strerror}") from err
+
+
+def _answer(message: AIMessage) -> CachedReply:
+    usage: Mapping[str, Any] = message.usage_metadata or {}
+    reason = message.response_metadata.get("finish_reason")
+    return CachedReply(
+        text=message.text.encode("utf-8", "replace").decode(),
+        tokens_in=int(usage.get("input_tokens") or 0),
+        tokens_out=int(usage.get("output_tokens") or 0),
+        cut=reason in {"length", "max_tokens"},
+    )
+
+
+def _line(err: BaseException) -> str:
+    return " ".join(str(err).split())[:500] or type(err).__name__
