@@ -1,0 +1,87 @@
+"""Frames as data URIs, as many as fit, so that the report is one file that stays quick to open."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+
+SMALL = (160, 120)  # pixels, where even one full frame per view and hour is too much
+_TYPES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
+
+
+class Album(NamedTuple):
+    """Frames by hour and view, each a data URI in order of time.
+
+    `kept` of `taken` frames per view are in it; `small` says that they were made smaller to fit.
+    """
+
+    views: dict[tuple[int, int], dict[str, list[str]]]
+    kept: int
+    taken: int
+    small: bool
+
+
+def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: int) -> Album:
+    """Embed the frames of all hours within `budget` characters, evenly thinned where there are too many.
+
+    Args:
+        root: The run directory, to which the frames' paths are relative.
+        frames: Paths by (day, hour), in order of time; the file name's first part is the view ("robot-3.webp").
+        budget: Most characters that all data URIs together may take.
+    """
+    hours = {key: _by_view(root, paths) for key, paths in frames.items()}
+    taken = max((len(files) for views in hours.values() for files in views.values()), default=0)
+    sizes = {path: path.stat().st_size for views in hours.values() for files in views.values() for path in files}
+    for kept in range(taken, 0, -1):
+        chosen = [path for views in hours.values() for files in views.values() for path in thin(files, kept)]
+        if sum(sizes[path] * 4 // 3 + 32 for path in chosen) <= budget:
+            return Album(_encoded(hours, kept, small=False), kept, taken, small=False)
+    if taken and len(sizes) // taken * 3000 <= budget:
+        return Album(_encoded(hours, 1, small=True), 1, taken, small=True)
+    return Album({}, 0, taken, small=False)
+
+
+def thin(files: Sequence[Path], count: int) -> list[Path]:
+    """Keep `count` files, evenly spread, the first and the last among them where there are two or more."""
+    if count >= len(files):
+        return list(files)
+    if count == 1:
+        return [files[len(files) // 2]]
+    return [files[round(index * (len(files) - 1) / (count - 1))] for index in range(count)]
+
+
+def _by_view(root: Path, paths: Sequence[str]) -> dict[str, list[Path]]:
+    views: dict[str, list[Path]] = defaultdict(list)
+    for path in paths:
+        pure = PurePosixPath(path)
+        # a trace from elsewhere must not make the report read files outside the run
+        if pure.is_absolute() or ".." in pure.parts or pure.suffix not in _TYPES or not (root / pure).is_file():
+            continue
+        views[pure.stem.partition("-")[0]].append(root / pure)
+    return dict(views)
+
+
+def _encoded(
+    hours: Mapping[tuple[int, int], Mapping[str, Sequence[Path]]], kept: int, *, small: bool
+) -> dict[tuple[int, int], dict[str, list[str]]]:
+    return {
+        key: {view: [_data_uri(path, small=small) for path in thin(files, kept)] for view, files in views.items()}
+        for key, views in hours.items()
+    }
+
+
+def _data_uri(path: Path, *, small: bool) -> str:
+    data, kind = path.read_bytes(), _TYPES[path.suffix]
+    if small:
+        from PIL import Image  # noqa: PLC0415  (most reports never need it)
+
+        with Image.open(io.BytesIO(data)) as image:
+            image.thumbnail(SMALL)
+            out = io.BytesIO()
+            image.save(out, "WEBP", quality=40)
+        data, kind = out.getvalue(), "image/webp"
+    return f"data:{kind};base64,{base64.b64encode(data).decode()}"
