@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import humans, reports, run, scenes
+from coopera.commands import humans, prompts, reports, run, scenes
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.command()(reports.trace)
 app.command()(reports.report)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
+app.add_typer(prompts.app, name="prompts")
 
 
 def main(args: Sequence[str] | None = None) -> int:

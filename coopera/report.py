@@ -22,7 +22,7 @@ from core.clock import hour_label
 from core.errors import RunError
 from core.hour import Evening, FeedbackItem, HourRecord, IntentionCandidate, RobotHour, TaskCandidate
 from core.household import Outcome
-from core.people import Persona
+from core.people import BigFive, Persona
 
 MAX_BYTES = 24_000_000
 TEXT_PER_HOUR = 24_000  # characters of an hour's section without its frames, an upper estimate
@@ -117,6 +117,7 @@ def render(run: RunDir) -> str:
         summary=run.summary(),
         overall={measure: pooled(records, measure) for measure in MEASURES},
         curve=_curve(days),
+        ends=_ends(records),
         by_hour=_by_hour(records, run.config.day_hours),
         album=album,
         offline=_offline_roles(run.info.get("models", {})),
@@ -126,7 +127,8 @@ def render(run: RunDir) -> str:
 
 
 def _days(run: RunDir, records: Sequence[HourRecord], album: Album, people: Mapping[str, Persona]) -> list[DayView]:
-    views, before = [], {}
+    views: list[DayView] = []
+    before: dict[tuple[int, str], BigFive | None] = {}
     for day in run.days():
         of_day = [record for record in records if record.day == day]
         if not of_day:
@@ -147,7 +149,7 @@ def hour_view(record: HourRecord, evening: Evening | None, album: Album) -> Hour
     """Gather what is known of an hour: its candidates joined with the evening's answers and with what was done."""
     guesses = _guesses(record.robot, evening, record.hour) if record.robot else []
     kinds = {task.kind for guess in guesses for task in guess.tasks}
-    flags = [kind for kind in ("wrong", "miss") if kind in kinds]
+    flags: list[str] = [kind for kind in ("wrong", "miss") if kind in kinds]
     flags += ["failed"] if record.status == "failed" else []
     judged = [guess.right for guess in guesses if guess.right is not None]
     flags += ["unimagined"] if judged and not any(judged) else []
@@ -195,6 +197,16 @@ def _kind(task: TaskCandidate) -> str:
     if task.accepted:
         return "hit" if task.correct else "wrong"
     return "miss" if task.correct else "declined"
+
+
+def _ends(records: Sequence[HourRecord]) -> tuple[float | None, float | None]:
+    """Predicate F1 on the first and on the last day, each pooled over the episodes."""
+    ages = [record.episode_day for record in records] or [0]
+    first, last = (
+        pooled((record for record in records if record.episode_day == age), "predicate").f1
+        for age in (min(ages), max(ages))
+    )
+    return first, last
 
 
 def _curve(days: Sequence[DayView]) -> Markup:

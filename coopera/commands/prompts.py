@@ -1,0 +1,73 @@
+"""`coopera prompts`: the texts that language models are asked with."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from coopera.commands.options import AsJson, PromptFolder
+
+app = typer.Typer(help="The prompts that language models are asked with.", no_args_is_help=True)
+
+
+@app.command("list")
+def list_prompts(prompts: PromptFolder = None, as_json: AsJson = False) -> None:
+    """List the prompts: whose model is asked, how warm, and what the reply must be."""
+    from coopera.tables import print_table
+    from prompts import PromptLibrary
+
+    library = PromptLibrary(prompts)
+    heads = {name: library.head(name) for name in library.names()}
+    if as_json:
+        found = [
+            {**head.model_dump(mode="json"), "sha": library.hashes()[name], "file": str(library.path(name))}
+            for name, head in heads.items()
+        ]
+        typer.echo(json.dumps(found, ensure_ascii=False))
+        return
+    rows = [
+        [name, head.model_role, f"{head.temperature:g}", head.reply, str(head.version), head.paper]
+        for name, head in heads.items()
+    ]
+    print_table(["id", "asks", "temperature", "reply", "version", "paper"], rows)
+
+
+@app.command()
+def show(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="A prompt's id, such as human/intention.")],
+    filled: Annotated[bool, typer.Option("--filled", help="Fill it with an example, as a model would see it.")] = False,
+    prompts: PromptFolder = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show one prompt's file, or what becomes of it."""
+    from prompts import PromptLibrary
+
+    library = PromptLibrary(prompts)
+    text = library.show(name, filled=filled)
+    typer.echo(json.dumps({"id": name, "file": str(library.path(name)), "text": text}) if as_json else text)
+
+
+@app.command()
+def check(
+    folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", help="A folder of replacing prompt files.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Say whether the prompts of a folder (or the shipped ones) can be used, and if not, why."""
+    from core.errors import ConfigError
+    from prompts import PromptLibrary
+    from prompts import check as faults_of
+
+    faults = faults_of(folder) if folder else []
+    count = 0 if faults else len(PromptLibrary(folder).names())
+    if as_json:
+        typer.echo(json.dumps({"faults": faults, "prompts": count}, ensure_ascii=False))
+    if faults:
+        if not as_json:
+            for fault in faults[1:]:
+                typer.echo(f"coopera: {fault}", err=True)
+        raise ConfigError(faults[0])
+    if not as_json:
+        typer.echo(f"{count} prompts can be used.")
