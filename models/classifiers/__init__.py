@@ -20,6 +20,7 @@ __all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
 
 CLASSIFIERS: dict[str, str] = {
     "kernel": "ridge regression on a product kernel over frozen sentence embeddings; learns in a fraction of a second",
+    "lora": "LoRA adapters on the bundled sentence encoder with a classification head; learns in minutes",
 }
 """Every classifier's name and what it is."""
 
@@ -41,4 +42,8 @@ def make_classifier(name: str, *, kind: Kind, embeddings: Embeddings, inputs: In
         from models.classifiers.kernel import KernelClassifier  # noqa: PLC0415 - scikit-learn is heavy
 
         return KernelClassifier(kind=kind, embeddings=embeddings, inputs=inputs)
+    if name == "lora":
+        from models.classifiers.lora import LoraClassifier  # noqa: PLC0415 - torch is heavier
+
+        return LoraClassifier(kind=kind, inputs=inputs)
     raise ConfigError(f"there is no classifier {name!r}; known: {', '.join(CLASSIFIERS)}")

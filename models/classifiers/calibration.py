@@ -43,19 +43,25 @@ def scale(scores: Floats, labels: npt.NDArray[np.bool_], *, days: int) -> Scale:
         labels: Shape (n,); both labels occur.
         days: How many days the examples are from.
     """
-    base = float(labels.mean())
+    share = best_share(scores, labels, days=days)
+    return Scale(_platt_slope(scores, labels), score_at(scores, share * float(labels.mean())))
+
+
+def best_share(scores: Floats, labels: npt.NDArray[np.bool_], *, days: int) -> float:
+    """Return how often to say yes, in multiples of the share of yes among the labels; see `scale`."""
     shares = _SHARES if days > 1 else np.array([_USUAL_SHARE])
-    tried = [(_f1_at(scores, labels, share * base), -abs(share - _USUAL_SHARE), share) for share in shares]
-    _, _, share = max(tried)
-    return Scale(_platt_slope(scores, labels), _score_at(scores, share * base))
+    base = float(labels.mean())
+    tried = [(_f1_at(scores, labels, share * base), -abs(share - _USUAL_SHARE), float(share)) for share in shares]
+    return max(tried)[2]
 
 
-def _score_at(scores: Floats, share: float) -> float:
+def score_at(scores: Floats, share: float) -> float:
+    """Return the score that this share of all scores reaches."""
     return float(np.quantile(scores, max(0.0, 1.0 - share)))
 
 
 def _f1_at(scores: Floats, labels: npt.NDArray[np.bool_], share: float) -> float:
-    yes = scores >= _score_at(scores, share)
+    yes = scores >= score_at(scores, share)
     return float(2 * (yes & labels).sum() / (yes.sum() + labels.sum()))
 
 

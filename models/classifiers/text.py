@@ -9,12 +9,13 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from core.clock import hour_label
 from core.hour import Example
-from core.people import PersonId
+from core.people import TRAITS, BigFive, PersonId
 
 Kind: TypeAlias = Literal["intention", "task"]
 
 _NOBODY = PersonId("")
 _NO_HOUR = 12
+_HIGH, _LOW = 3.75, 2.25  # of 1 to 5
 _SENTENCE_END = re.compile(r"(?<=[.!?])\s+")
 
 
@@ -111,12 +112,20 @@ def sentence_pair(example: Example) -> tuple[str, str]:
     """
     parts = [f"{hour_label(example.hour)}."]
     if example.intentions:
-        parts.append(f"Before: {'; '.join(example.intentions)}.")
-    if example.tasks:
-        parts.append(f"With: {'; '.join(example.tasks)}.")
+        parts.append(f"Earlier: {'; '.join(example.intentions)}.")
     if example.profile:
         parts.append(example.profile)
-    if example.big_five is not None:
-        parts.append(f"Traits: {example.big_five}.")
+    if example.big_five is not None and (words := _big_five_words(example.big_five)):
+        parts.append(f"{words}.")
+    if example.tasks:
+        parts.append(f"With: {'; '.join(example.tasks)}.")
     what = f"{example.candidate}, to {example.intention}" if example.intention else example.candidate
     return " ".join(parts), what
+
+
+def _big_five_words(big_five: BigFive) -> str:
+    """Name the traits that stand out, since an encoder does not read numbers."""
+    scores = {trait: getattr(big_five, trait) for trait in TRAITS}
+    high = [f"high {trait}" for trait, score in scores.items() if score >= _HIGH]
+    low = [f"low {trait}" for trait, score in scores.items() if score <= _LOW]
+    return ", ".join([*high, *low])
