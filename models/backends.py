@@ -81,7 +81,7 @@ def open_backend(spec: str, role: Role, embeddings: Embeddings, base_url: str | 
 
 
 def _offline(role: Role, embeddings: Embeddings) -> Backend:
-    offline = importlib.import_module("models.offline")
+    offline = importlib.import_module("models.offline.chat")
     return Backend("offline", offline.OfflineChatModel(role=role, embeddings=embeddings), reads_variables=True)
 
 

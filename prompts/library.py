@@ -97,10 +97,10 @@ class PromptLibrary:
         missing = [f'"{i}"' for i in prompt.head.inputs if i not in variables]
         surplus = [f'"{given}"' for given in sorted(set(variables) - ASKS[name].variables)]
         if missing or surplus:
-            wrong = [f"{', '.join(missing)} not given"] * bool(missing) + [f"{', '.join(surplus)} unknown"] * bool(
-                surplus
+            wrong = (
+                f"{', '.join(missing)} was not given" if missing else f"{', '.join(surplus)} is not a variable of it"
             )
-            raise PromptError(f"{prompt.path}:{_line_of('inputs', prompt.text)}: {' and '.join(wrong)}")
+            raise PromptError(f"{prompt.path}:{_line_of('inputs', prompt.text)}: {wrong}")
         return Rendered(
             name=name,
             role=prompt.head.model_role,

@@ -6,6 +6,7 @@ or run on and on. What is allowed is listed; everything else is refused when the
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import TracebackType
@@ -86,6 +87,7 @@ class Template:
         return "".join(pieces).strip()
 
 
+@functools.lru_cache(maxsize=256)
 def compile_template(file: str, body: str, first_line: int) -> Template:
     """Parse and check a template whose first line is line `first_line` (from 1) of its file.
 
@@ -98,7 +100,7 @@ def compile_template(file: str, body: str, first_line: int) -> Template:
         tree = environment.parse(source, filename=file)
         _refuse_what_is_not_allowed(file, tree)
         names = find_undeclared_variables(tree) - set(environment.globals)
-        code = environment.compile(source, name=file, filename=file)
+        code = environment.compile(tree, name=file, filename=file)
     except TemplateSyntaxError as err:
         raise PromptError(f"{file}:{err.lineno}: {_sentence(err)}") from err
     except RecursionError as err:
@@ -107,6 +109,7 @@ def compile_template(file: str, body: str, first_line: int) -> Template:
     return Template(file, dict(sorted(used.items())), JinjaTemplate.from_code(environment, code, environment.globals))
 
 
+@functools.cache
 def _environment() -> ImmutableSandboxedEnvironment:
     environment = ImmutableSandboxedEnvironment(
         undefined=StrictUndefined, finalize=_sayable, autoescape=False, trim_blocks=True, lstrip_blocks=True
