@@ -6,7 +6,7 @@ import sqlite3
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
@@ -119,7 +119,7 @@ def _stream(
     )
     now: dict[str, Any] = {"day": 0, "hour": None}
     scored: list[Counts] = []
-    for _, mode, data in stream:
+    for _, mode, data in cast(Iterator[tuple[Any, str, dict[str, Any]]], stream):
         if mode == "custom":
             now = {"day": data["day"], "hour": data["hour"]}
             if data["success"]:
