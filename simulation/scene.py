@@ -145,8 +145,7 @@ class SceneObject(Frozen):
     @property
     def rgb(self) -> tuple[float, float, float]:
         """The main colour, each channel in [0, 1]."""
-        red, green, blue = (int(self.colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-        return red, green, blue
+        return rgb_of(self.colour)
 
     @property
     def bounds(self) -> Bounds:
@@ -167,6 +166,12 @@ class SceneObject(Frozen):
         dx, dy = x - self.position[0], y - self.position[1]
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return dx * cos + dy * sin, dy * cos - dx * sin
+
+
+def rgb_of(colour: str) -> tuple[float, float, float]:
+    """Turn "#rrggbb" into channels in [0, 1]."""
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue
 
 
 class Scene(Frozen):

@@ -1,0 +1,240 @@
+"""Make a home from a seed: rooms, doors, furniture, and things on it. The same seed gives the same file."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from core.errors import ConfigError
+from core.household import SceneId
+from core.randomness import rng_at
+from simulation.catalogue import catalogue
+from simulation.furnish import Piece, RoomPlan
+from simulation.layout import USUAL_ROOMS, Layout, lay_out
+from simulation.navigation import RADIUS, REACH, Navigator
+from simulation.scene import Room, Scene, SceneObject
+from simulation.shapes import Size
+from simulation.spots import Spot, Taken, furniture_on, is_free, spots, taken_at, taken_by
+
+MOST_ROOMS = 24
+_ATTEMPTS = 12
+_COMFORTABLE = 0.68
+"""Things are put this near to where one can stand if they can be, in metres."""
+
+
+class _Draft(NamedTuple):
+    layout: Layout
+    pieces: list[list[Piece]]
+    missing: int
+
+
+def generate(
+    seed: int, rooms: int | Sequence[str] = 7, id: str = "home", *, things: Sequence[str] | None = None
+) -> Scene:
+    """Generate a home.
+
+    Args:
+        seed: Any integer; the same gives the same home on every machine.
+        rooms: How many rooms (1 to 24), or their kinds in words.
+        id: The home's id.
+        things: Classes of movable things to put in it, one each, repeats allowed; without it each known class once.
+            Things that find no fitting support are left out.
+
+    Raises:
+        ConfigError: If the number of rooms, a kind of room, or a class of thing is not known.
+    """
+    kinds = _room_kinds(rooms)
+    wanted = list(things) if things is not None else sorted(catalogue().movable)
+    unknown = sorted(set(wanted) - set(catalogue().movable))
+    if unknown:
+        raise ConfigError(f"There is no movable class {unknown[0]!r} in the catalogue.")
+    draft = _best_draft(seed, kinds)
+    furniture = _name_furniture(draft, rng_at(seed, "colours"))
+    empty = Scene(id=SceneId(id), seed=seed, rooms=draft.layout.rooms, doors=draft.layout.doors, objects=furniture)
+    placed = _place_things(empty, wanted, rng_at(seed, "things"))
+    return empty.model_copy(update={"objects": [*furniture, *placed]})
+
+
+def _room_kinds(rooms: int | Sequence[str]) -> list[str]:
+    known = catalogue().rooms
+    if isinstance(rooms, int):
+        if not 1 <= rooms <= MOST_ROOMS:
+            raise ConfigError(f"A home has 1 to {MOST_ROOMS} rooms, not {rooms}.")
+        return [USUAL_ROOMS[i % len(USUAL_ROOMS)] for i in range(rooms)]
+    for kind in rooms:
+        if kind not in known:
+            raise ConfigError(f"There is no kind of room {kind!r}; known are {', '.join(sorted(known))}.")
+    if not 1 <= len(rooms) <= MOST_ROOMS:
+        raise ConfigError(f"A home has 1 to {MOST_ROOMS} rooms, not {len(rooms)}.")
+    return list(rooms)
+
+
+def _best_draft(seed: int, kinds: Sequence[str]) -> _Draft:
+    """Furnish several layouts and keep the one that holds most; stop at one that holds everything."""
+    best: _Draft | None = None
+    for attempt in range(_ATTEMPTS):
+        draft = _furnish(lay_out(kinds, rng_at(seed, "layout", attempt)), seed, attempt)
+        if best is None or draft.missing < best.missing:
+            best = draft
+        if best.missing == 0:
+            break
+    assert best is not None
+    return best
+
+
+def _furnish(layout: Layout, seed: int, attempt: int) -> _Draft:
+    outer = Scene(id=SceneId("draft"), rooms=layout.rooms).bounds
+    pieces, missing = [], 0
+    for room in layout.rooms:
+        doors = [door for door in layout.doors if room.name in door.between]
+        plan = RoomPlan(room, doors, outer, rng_at(seed, "furniture", attempt, room.name))
+        for cls in catalogue().rooms[room.kind].furniture:
+            missing += not plan.add(cls)
+        pieces.append(plan.pieces)
+    return _Draft(layout, pieces, missing)
+
+
+def _name_furniture(draft: _Draft, rng: np.random.Generator) -> list[SceneObject]:
+    count: Counter[str] = Counter()
+    objects: list[SceneObject] = []
+    start = {cls: int(rng.integers(len(kind.colours))) for cls, kind in catalogue().fixed.items()}
+    for room, pieces in zip(draft.layout.rooms, draft.pieces, strict=True):
+        for piece in pieces:
+            kind = catalogue().fixed[piece.cls]
+            colour = kind.colours[(start[piece.cls] + count[piece.cls]) % len(kind.colours)]
+            count[piece.cls] += 1
+            objects.append(
+                SceneObject(
+                    id=len(objects),
+                    name=f"{piece.cls}_{count[piece.cls]}",
+                    cls=piece.cls,
+                    category=kind.category,
+                    fixed=True,
+                    room=room.name,
+                    position=(piece.x, piece.y, piece.z),
+                    yaw=piece.yaw,
+                    size=piece.size,
+                    colour=colour,
+                )
+            )
+    return objects
+
+
+def _place_things(scene: Scene, wanted: Sequence[str], rng: np.random.Generator) -> list[SceneObject]:
+    """Put things on fitting furniture, near a place to stand; large ones first, so that they find room."""
+    navigator = Navigator(scene)
+    known = catalogue().movable
+    order = sorted(wanted, key=lambda cls: (-known[cls].size[0] * known[cls].size[1], cls))
+    taken: dict[str, list[Taken]] = {thing.name: furniture_on(scene, thing) for thing in scene.fixed}
+    placed: list[SceneObject] = []
+    count: Counter[str] = Counter()
+    for cls in order:
+        kind = known[cls]
+        where = _somewhere(scene, navigator, cls, taken, placed, rng)
+        if where is None:
+            continue
+        carrier, room, spot = where
+        count[cls] += 1
+        if carrier is not None:
+            taken[carrier.name].append(taken_at(spot, kind.size))
+        placed.append(
+            SceneObject(
+                id=0,
+                name=f"{cls}_{count[cls]}",
+                cls=cls,
+                category=kind.category,
+                fixed=False,
+                room=room,
+                position=(spot.x, spot.y, spot.z),
+                yaw=spot.yaw,
+                size=kind.size,
+                colour=kind.colours[int(rng.integers(len(kind.colours)))],
+                on=carrier.name if carrier is not None else None,
+            )
+        )
+    placed.sort(key=lambda thing: thing.name)
+    first = len(scene.objects)
+    return [thing.model_copy(update={"id": first + i}) for i, thing in enumerate(placed)]
+
+
+def _somewhere(
+    scene: Scene,
+    navigator: Navigator,
+    cls: str,
+    taken: dict[str, list[Taken]],
+    placed: Sequence[SceneObject],
+    rng: np.random.Generator,
+) -> tuple[SceneObject | None, str, Spot] | None:
+    """A carrier, its room and a spot for a thing: among the fitting carriers the emptier ones come first."""
+    kind = catalogue().movable[cls]
+    load = Counter(thing.on for thing in placed)
+    carriers = [thing for thing in scene.fixed if thing.cls in kind.put]
+    rank = {
+        thing.name: load[thing.name] / max(0.3, thing.size[0])
+        + kind.put.index(thing.cls) / 2
+        + float(rng.uniform(0, 2.5))
+        for thing in carriers
+    }
+    carriers.sort(key=lambda thing: (rank[thing.name], thing.name))
+    if "floor" in kind.put and (kind.put[0] == "floor" or not carriers):
+        found = _on_floor(scene, navigator, kind.size, placed, rng)
+        if found is not None:
+            return None, found[0], found[1]
+    for carrier in carriers:
+        spot = _reachable_spot(navigator, carrier, kind.size, taken[carrier.name], rng)
+        if spot is not None:
+            return carrier, carrier.room, spot
+    found = _on_floor(scene, navigator, kind.size, placed, rng) if "floor" in kind.put else None
+    return (None, *found) if found is not None else None
+
+
+def _reachable_spot(
+    navigator: Navigator, carrier: SceneObject, size: Size, taken: Sequence[Taken], rng: np.random.Generator
+) -> Spot | None:
+    stands = navigator.approach(carrier, most=40)
+    ranked = []
+    for spot in spots(carrier, size, taken):
+        near = min((math.dist((spot.x, spot.y), (stand.x, stand.y)) for stand in stands), default=math.inf)
+        if near <= REACH - 0.04:
+            ranked.append((max(0.0, near - _COMFORTABLE) * 20 + float(rng.uniform()), spot))
+    return min(ranked, default=(0.0, None))[1]
+
+
+def _on_floor(
+    scene: Scene, navigator: Navigator, size: Size, placed: Sequence[SceneObject], rng: np.random.Generator
+) -> tuple[str, Spot] | None:
+    """A spot on the floor that is in nobody's way: nearer to a wall than a body can walk."""
+    filled = [taken_by(thing) for thing in [*scene.objects, *placed] if thing.position[2] < 0.5]
+    order = [scene.rooms[int(i)] for i in rng.permutation(len(scene.rooms))]
+    for room in order:
+        options = [spot for spot in _along_skirting(room, size) if is_free(taken_at(spot, size), filled)]
+        for index in rng.permutation(len(options)):
+            spot = options[int(index)]
+            if _is_aside(scene, room, spot) and navigator.approach((spot.x, spot.y), reach=0.6, most=1):
+                return room.name, spot
+    return None
+
+
+def _along_skirting(room: Room, size: Size) -> list[Spot]:
+    off = 0.07 + size[1] / 2
+    half = size[0] / 2 + 0.08
+    found = []
+    for x in np.arange(room.x0 + half, room.x1 - half, 0.1):
+        found += [Spot(round(float(x), 3), round(room.y0 + off, 3), 0.0, 0.0)]
+        found += [Spot(round(float(x), 3), round(room.y1 - off, 3), 0.0, 3.1416)]
+    for y in np.arange(room.y0 + half, room.y1 - half, 0.1):
+        found += [Spot(round(room.x0 + off, 3), round(float(y), 3), 0.0, -1.5708)]
+        found += [Spot(round(room.x1 - off, 3), round(float(y), 3), 0.0, 1.5708)]
+    return found
+
+
+def _is_aside(scene: Scene, room: Room, spot: Spot) -> bool:
+    return all(
+        math.dist((door.x, door.y), (spot.x, spot.y)) > door.width / 2 + 2 * RADIUS
+        for door in scene.doors
+        if room.name in door.between
+    )

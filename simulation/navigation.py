@@ -1,0 +1,357 @@
+"""Where a body can stand and walk: a clearance grid of the home, shortest paths on it, and places to act from.
+
+Bodies are discs of radius 0.30 m. Small objects are no obstacles; the other agent may be given as one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import label
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from core.errors import SimulationError
+from simulation.catalogue import blocks
+from simulation.scene import Bounds, Point, Scene, SceneObject, Wall
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+CELL = 0.05
+RADIUS = 0.30  # PAPER App. A uses Habitat's agents, whose radius this is
+WALL_THICKNESS = 0.10
+REACH = 0.80
+"""Farthest a thing may lie from where one stands: both bodies can then take it."""
+STOP = 0.55
+"""Farthest from a piece of furniture (its rectangle on the floor) at which one acts on it."""
+_COMFORT = 0.45
+_DISLIKE = 1.5
+"""Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
+
+
+class Route(NamedTuple):
+    """A way to walk: corner points from start to goal, its length in metres, or why there is none."""
+
+    points: list[Point] | None
+    length: float = math.inf
+    reason: str = ""
+
+
+class Stand(NamedTuple):
+    """A place to act from: where, the heading that faces the target, walking distance, and distance to it."""
+
+    x: float
+    y: float
+    yaw: float
+    walk: float
+    gap: float
+
+
+class Disc(NamedTuple):
+    """A round obstacle, such as the other agent."""
+
+    x: float
+    y: float
+    radius: float = RADIUS
+
+
+def wall_bounds(wall: Wall) -> Bounds:
+    """The rectangle a wall covers on the floor; ends are as long as the wall is thick."""
+    half = WALL_THICKNESS / 2
+    if wall.axis == "x":
+        return Bounds(wall.start, wall.at - half, wall.end, wall.at + half)
+    return Bounds(wall.at - half, wall.start, wall.at + half, wall.end)
+
+
+def obstacle_boxes(things: Iterable[SceneObject], walls: Iterable[Wall]) -> Array:
+    """Return obstacles as rows (x, y, half width, half depth, yaw), shape (n, 5)."""
+    rows = [(*thing.xy, thing.size[0] / 2, thing.size[1] / 2, thing.yaw) for thing in things]
+    for wall in walls:
+        b = wall_bounds(wall)
+        rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, (b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, 0.0))
+    return np.array(rows, dtype=float).reshape(-1, 5)
+
+
+def clearance(x: Array, y: Array, boxes: Array) -> Array:
+    """Distance from each point to the nearest box (0 inside one); inf without boxes. Any shape in, same out."""
+    nearest = np.full(np.shape(x), np.inf)
+    for cx, cy, half_x, half_y, yaw in boxes:
+        dx, dy = x - cx, y - cy
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        out_x = np.maximum(np.abs(dx * cos + dy * sin) - half_x, 0.0)
+        out_y = np.maximum(np.abs(dy * cos - dx * sin) - half_y, 0.0)
+        np.minimum(nearest, np.hypot(out_x, out_y), out=nearest)
+    return nearest
+
+
+class Navigator:
+    """Paths and standing places in one home. Built once; holds no state that changes what it answers."""
+
+    def __init__(self, scene: Scene) -> None:
+        """Build the grid: about 20 ms for a home of 100 square metres.
+
+        Raises:
+            SimulationError: If nowhere in the home is room to stand.
+        """
+        self.scene = scene
+        edge = scene.bounds.grown(CELL)
+        self._x0, self._y0 = edge.x0, edge.y0
+        self._xs = np.arange(edge.x0, edge.x1 + CELL, CELL)
+        self._ys = np.arange(edge.y0, edge.y1 + CELL, CELL)
+        grid_x, grid_y = np.meshgrid(self._xs, self._ys, indexing="ij")
+        boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
+        self._clear = clearance(grid_x, grid_y, boxes)
+        self._room = np.full(grid_x.shape, -1)
+        for index, room in enumerate(scene.rooms):
+            self._room[(grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)] = index
+        self._clear[self._room < 0] = 0.0
+        free = self._clear >= RADIUS
+        parts, count = label(free)
+        if not count:
+            raise SimulationError(f"In the home {scene.id!r} there is no room to stand anywhere.")
+        sizes = np.bincount(parts.ravel())
+        sizes[0] = 0
+        self._free: Mask = parts == int(sizes.argmax())
+        self._number = np.full(free.shape, -1)
+        self._number[self._free] = np.arange(int(self._free.sum()))
+        self._cells = np.argwhere(self._free)
+        self._centres = np.stack([self._xs[self._cells[:, 0]], self._ys[self._cells[:, 1]]], axis=1)
+        self._edges = self._build_edges()
+        self._graph = self._as_graph(np.ones(len(self._edges[2]), dtype=bool))
+
+    def path(self, start: Point, goal: Point, *, avoid: Disc | None = None) -> list[Point] | None:
+        """Corner points from start to goal, or None; `route` also says why."""
+        return self.route(start, goal, avoid=avoid).points
+
+    def route(self, start: Point, goal: Point, *, avoid: Disc | None = None) -> Route:
+        """Return the shortest comfortable way between two points, pulled straight where nothing is in the way.
+
+        Start and goal are moved to the nearest place where one can stand, at most 0.6 m away.
+        """
+        first, last = self._nearest(start, avoid), self._nearest(goal, avoid)
+        if first is None or last is None:
+            what = "start" if first is None else "goal"
+            place = start if first is None else goal
+            return Route(None, reason=f"there is no room to stand at the {what} ({place[0]:.2f}, {place[1]:.2f})")
+        graph = self._graph if avoid is None else self._as_graph(self._open_edges(avoid))
+        cost, before = dijkstra(graph, indices=first, return_predecessors=True)
+        if not math.isfinite(cost[last]):
+            reason = "the way is blocked" if avoid is None else "the other one stands in the way"
+            return Route(None, reason=reason)
+        chain = [last]
+        while chain[-1] != first:
+            chain.append(int(before[chain[-1]]))
+        corners = self._pull([self._point(node) for node in reversed(chain)], avoid)
+        points = [start, *corners] if math.dist(start, corners[0]) > CELL else [start, *corners[1:]]
+        points = points if len(points) > 1 else [start, corners[-1]]
+        return Route(points, sum(math.dist(a, b) for a, b in zip(points, points[1:], strict=False)))
+
+    def distance(self, start: Point, goal: Point) -> float:
+        """Length of the way between two points in metres; inf where there is none."""
+        return self.route(start, goal).length
+
+    def approach(
+        self,
+        target: SceneObject | Point,
+        start: Point | None = None,
+        *,
+        point: Point | None = None,
+        reach: float = REACH,
+        avoid: Disc | None = None,
+        most: int = 12,
+    ) -> list[Stand]:
+        """Places to act from, best first: a short walk, near the target, and in front of it.
+
+        A target that is a piece of furniture is stood at within `STOP` of its rectangle; with `point` (a thing
+        on it) also within `reach` of that point. A target that is a point is stood at within `reach`. Places lie
+        in the target's room, at least 0.15 m apart. Empty where there is none, or none that `start` leads to.
+        """
+        near, face, room = self._near(target, point, reach)
+        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
+        near &= self._room[self._cells[:, 0], self._cells[:, 1]] == index
+        if avoid is not None:
+            near &= self._outside(avoid)
+        nodes = np.flatnonzero(near)
+        if not len(nodes):
+            return []
+        walk = np.zeros(len(nodes))
+        if start is not None:
+            first = self._nearest(start, avoid)
+            if first is None:
+                return []
+            graph = self._graph if avoid is None else self._as_graph(self._open_edges(avoid))
+            walk = dijkstra(graph, indices=first)[nodes]
+        places = self._centres[nodes]
+        gap = self._gaps(target, places) if point is None else np.hypot(*(places - np.array(point)).T)
+        cost = walk + 2 * gap + self._off_front(target, places)
+        order = [int(i) for i in np.lexsort((nodes, cost)) if math.isfinite(cost[i])]
+        stands: list[Stand] = []
+        for i in order:
+            x, y = float(places[i, 0]), float(places[i, 1])
+            if all(math.hypot(x - other.x, y - other.y) >= 0.15 for other in stands):
+                fx, fy = face if point is not None or isinstance(target, tuple) else _facing_point(target, x, y)
+                stands.append(Stand(x, y, math.atan2(fy - y, fx - x), float(walk[i]), float(gap[i])))
+            if len(stands) == most:
+                break
+        return stands
+
+    def give_way(self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS) -> Point | None:
+        """The nearest place (straight line) to step to so that a walker on `route` passes; None without one."""
+        away = np.full(len(self._centres), np.inf)
+        for a, b in zip(route, route[1:], strict=False):
+            away = np.minimum(away, _to_segment(self._centres, a, b))
+        open_nodes = np.flatnonzero(away >= space + 0.05)
+        if not len(open_nodes):
+            return None
+        steps = np.hypot(*(self._centres[open_nodes] - np.array(here)).T)
+        return self._point(int(open_nodes[int(steps.argmin())]))
+
+    def can_stand(self, x: float, y: float) -> bool:
+        """Whether a body fits at a point and the rest of the home can be reached from there."""
+        node = self._nearest((x, y), None, within=CELL)
+        return node is not None and float(self._clear_at(np.array([[x, y]]))[0]) >= RADIUS - 0.01
+
+    def free_in(self, room: str) -> list[Point]:
+        """Centres of all cells of a room where one can stand, in fixed order."""
+        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
+        inside = self._room[self._cells[:, 0], self._cells[:, 1]] == index
+        return [(float(x), float(y)) for x, y in self._centres[inside]]
+
+    def middle_of(self, room: str) -> Point | None:
+        """The place of a room with most space around it; None where one cannot stand in it."""
+        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
+        space = np.where(self._free & (self._room == index), self._clear, -1.0)
+        best = int(space.argmax())
+        if space.flat[best] < 0:
+            return None
+        i, j = np.unravel_index(best, space.shape)
+        return float(self._xs[i]), float(self._ys[j])
+
+    def _near(self, target: SceneObject | Point, point: Point | None, reach: float) -> tuple[Mask, Point, str]:
+        if isinstance(target, tuple):
+            near: Mask = np.hypot(*(self._centres - np.array(target)).T) <= reach
+            return near, target, self.scene.room_at(*target).name
+        standing_on_something = target.position[2] > 0.2  # a microwave on a counter: its support keeps one away
+        near = self._gaps(target, self._centres) <= (REACH - 0.05 if standing_on_something else STOP)
+        if point is not None:
+            near &= np.hypot(*(self._centres - np.array(point)).T) <= reach
+        return near, point or target.xy, target.room
+
+    def _gaps(self, target: SceneObject | Point, places: Array) -> Array:
+        if isinstance(target, tuple):
+            return np.asarray(np.hypot(*(places - np.array(target)).T))
+        return clearance(places[:, 0], places[:, 1], obstacle_boxes([target], []))
+
+    def _off_front(self, target: SceneObject | Point, places: Array) -> Array:
+        """0.6 for places behind or beside a piece of furniture, 0 for those in front of it."""
+        if isinstance(target, tuple) or not blocks(target):
+            return np.zeros(len(places))
+        ahead = (places - np.array(target.xy)) @ np.array([math.cos(target.facing), math.sin(target.facing)])
+        return np.where(ahead > target.size[1] / 2, 0.0, 0.6)
+
+    def _build_edges(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+        heads, tails, weights = [], [], []
+        for dx, dy in ((1, 0), (0, 1), (1, 1), (1, -1)):
+            here = self._cells
+            there = here + np.array([dx, dy])
+            inside = (there >= 0).all(1) & (there < np.array(self._free.shape)).all(1)
+            here, there = here[inside], there[inside]
+            ok = self._free[there[:, 0], there[:, 1]]
+            if dx and dy:  # no cutting of corners
+                ok &= self._free[there[:, 0], here[:, 1]] & self._free[here[:, 0], there[:, 1]]
+            here, there = here[ok], there[ok]
+            tight = np.minimum(self._clear[here[:, 0], here[:, 1]], self._clear[there[:, 0], there[:, 1]])
+            dislike = np.clip((_COMFORT - tight) / (_COMFORT - RADIUS), 0.0, 1.0) * (_DISLIKE - 1.0)
+            heads.append(self._number[here[:, 0], here[:, 1]])
+            tails.append(self._number[there[:, 0], there[:, 1]])
+            weights.append(CELL * math.hypot(dx, dy) * (1.0 + dislike))
+        return np.concatenate(heads), np.concatenate(tails), np.concatenate(weights)
+
+    def _as_graph(self, keep: Mask) -> csr_matrix:
+        heads, tails, weights = (column[keep] for column in self._edges)
+        size = len(self._cells)
+        return csr_matrix(
+            (np.concatenate([weights, weights]), (np.concatenate([heads, tails]), np.concatenate([tails, heads]))),
+            shape=(size, size),
+        )
+
+    def _outside(self, avoid: Disc) -> Mask:
+        outside: Mask = np.hypot(*(self._centres - np.array([avoid.x, avoid.y])).T) >= avoid.radius + RADIUS
+        return outside
+
+    def _open_edges(self, avoid: Disc) -> Mask:
+        outside = self._outside(avoid)
+        heads, tails, _ = self._edges
+        keep: Mask = outside[heads] & outside[tails]
+        return keep
+
+    def _nearest(self, place: Point, avoid: Disc | None, within: float = 0.6) -> int | None:
+        away = np.hypot(*(self._centres - np.array(place)).T)
+        room = next((i for i, known in enumerate(self.scene.rooms) if known.contains(*place)), None)
+        if room is not None:  # not through a wall, unless this side has no room at all
+            other = self._room[self._cells[:, 0], self._cells[:, 1]] != room
+            away = np.where(other, away + 0.3, away)
+        if avoid is not None:
+            away = np.where(self._outside(avoid), away, np.inf)
+        best = int(away.argmin())
+        return best if away[best] <= within else None
+
+    def _point(self, node: int) -> Point:
+        return float(self._centres[node, 0]), float(self._centres[node, 1])
+
+    def _clear_at(self, places: Array) -> Array:
+        """Clearance between cell centres, bilinear."""
+        u = np.clip((places[:, 0] - self._xs[0]) / CELL, 0, len(self._xs) - 1.001)
+        v = np.clip((places[:, 1] - self._ys[0]) / CELL, 0, len(self._ys) - 1.001)
+        i, j = u.astype(int), v.astype(int)
+        s, t = u - i, v - j
+        c = self._clear
+        low = c[i, j] * (1 - s) + c[i + 1, j] * s
+        high = c[i, j + 1] * (1 - s) + c[i + 1, j + 1] * s
+        return np.asarray(low * (1 - t) + high * t)
+
+    def _straight(self, a: Point, b: Point, avoid: Disc | None) -> bool:
+        steps = max(2, math.ceil(math.dist(a, b) / (CELL / 2)) + 1)
+        line = np.linspace(a, b, steps)
+        if avoid is not None and (np.hypot(line[:, 0] - avoid.x, line[:, 1] - avoid.y) < avoid.radius + RADIUS).any():
+            return False
+        return bool((self._clear_at(line) >= RADIUS).all())
+
+    def _pull(self, points: list[Point], avoid: Disc | None) -> list[Point]:
+        """Drop every corner that a straight walk can skip (greedy from the start, galloping ahead)."""
+        pulled, here, last = [points[0]], 0, len(points) - 1
+        while here < last:
+            step, good = 1, here + 1
+            while here + step <= last and self._straight(points[here], points[here + step], avoid):
+                good = here + step
+                step *= 2
+            low, high = good, min(here + step, last)
+            while low < high:
+                middle = (low + high + 1) // 2
+                if self._straight(points[here], points[middle], avoid):
+                    low = middle
+                else:
+                    high = middle - 1
+            here = low
+            pulled.append(points[here])
+        return pulled
+
+
+def _facing_point(target: SceneObject, x: float, y: float) -> Point:
+    """The point of a piece of furniture to look at: its middle, but no more than half a metre to the side."""
+    bounds = target.bounds
+    cx, cy = target.xy
+    nearest_x, nearest_y = min(max(x, bounds.x0), bounds.x1), min(max(y, bounds.y0), bounds.y1)
+    return (cx + nearest_x) / 2, (cy + nearest_y) / 2
+
+
+def _to_segment(places: Array, a: Point, b: Point) -> Array:
+    start, along = np.array(a), np.array(b) - np.array(a)
+    length = float(along @ along)
+    share = np.clip(((places - start) @ along) / length, 0.0, 1.0) if length > 0 else np.zeros(len(places))
+    return np.asarray(np.hypot(*(places - start - share[:, None] * along).T))

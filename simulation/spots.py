@@ -1,0 +1,99 @@
+"""Where a thing of a generated home can stand: free spots on the surfaces of furniture, and what fills them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from simulation.catalogue import Surface, surfaces
+from simulation.scene import Bounds, Scene, SceneObject
+from simulation.shapes import Size
+
+APART = 0.015
+"""Things put down keep this distance, in metres."""
+_STEP = 0.04
+_OVERHANG = 0.6
+
+
+class Spot(NamedTuple):
+    """A pose for a thing: base centre and yaw."""
+
+    x: float
+    y: float
+    z: float
+    yaw: float
+
+
+class Taken(NamedTuple):
+    """A space that is already filled: a rectangle on the floor plan from one height to another."""
+
+    bounds: Bounds
+    low: float
+    high: float
+
+
+def taken_by(thing: SceneObject) -> Taken:
+    """The space that an object fills in its initial place."""
+    return Taken(thing.bounds, thing.position[2], thing.top)
+
+
+def taken_at(spot: Spot, size: Size) -> Taken:
+    """The space that a thing of this size fills at a spot."""
+    half_x, half_y = _half_extents(size, spot.yaw)
+    bounds = Bounds(spot.x - half_x, spot.y - half_y, spot.x + half_x, spot.y + half_y)
+    return Taken(bounds, spot.z, spot.z + size[2])
+
+
+def furniture_on(scene: Scene, carrier: SceneObject) -> list[Taken]:
+    """Spaces on, over or beside a piece of furniture that other furniture fills, such as a microwave on a counter."""
+    around = carrier.bounds.grown(_OVERHANG)
+    near = [other for other in scene.fixed if other.name != carrier.name and other.bounds.overlaps(around)]
+    return [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
+
+
+def spots(carrier: SceneObject, size: Size, taken: Iterable[Taken]) -> list[Spot]:
+    """All free spots for a thing on a piece of furniture, on a 4 cm raster, the usual surface first.
+
+    A thing that is larger than a surface may hang over its edge, centred. Two yaws are tried: the carrier's
+    own and a quarter turn.
+    """
+    taken = list(taken)
+    found: list[Spot] = []
+    for surface in surfaces(carrier):
+        if surface.clear < size[2]:
+            continue
+        for turn in (0.0, math.pi / 2):
+            half = _half_extents(size, turn)
+            for x in _raster(surface.x0, surface.x1, half[0]):
+                for y in _raster(surface.y0, surface.y1, half[1]):
+                    spot = _spot(carrier, surface, x, y, turn)
+                    if is_free(taken_at(spot, size), taken):
+                        found.append(spot)
+    return found
+
+
+def is_free(space: Taken, taken: Iterable[Taken]) -> bool:
+    """Whether a space keeps clear of all those already filled."""
+    return not any(
+        space.low < other.high - 1e-3 and other.low < space.high - 1e-3 and space.bounds.overlaps(other.bounds, APART)
+        for other in taken
+    )
+
+
+def _spot(carrier: SceneObject, surface: Surface, x: float, y: float, turn: float) -> Spot:
+    wx, wy, wz = carrier.to_world(x, y, surface.z)
+    return Spot(round(wx, 3), round(wy, 3), round(wz, 3), round(math.remainder(carrier.yaw + turn, math.tau), 4))
+
+
+def _half_extents(size: Size, yaw: float) -> tuple[float, float]:
+    cos, sin = abs(math.cos(yaw)), abs(math.sin(yaw))
+    return (size[0] * cos + size[1] * sin) / 2, (size[0] * sin + size[1] * cos) / 2
+
+
+def _raster(low: float, high: float, half: float) -> list[float]:
+    low, high = low + half, high - half
+    if low >= high:
+        return [(low + high) / 2]
+    count = max(1, math.floor((high - low) / _STEP))
+    return [low + (high - low) * i / count for i in range(count + 1)]
