@@ -1,0 +1,115 @@
+"""The offline routine model as a LangChain chat model. It is not a language model."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from threading import RLock
+from typing import Any
+
+import numpy as np
+from langchain_core.callbacks import CallbackManagerForLLMRun
+from langchain_core.embeddings import Embeddings
+from langchain_core.language_models.chat_models import BaseChatModel
+from langchain_core.messages import AIMessage, BaseMessage
+from langchain_core.outputs import ChatGeneration, ChatResult
+from pydantic import ConfigDict, PrivateAttr
+from typing_extensions import override
+
+from core.asks import ASKS
+from core.errors import ModelCallError
+from core.protocols import Role
+from core.replies import REPLIES
+from models.offline.human import Human
+from models.offline.judge import Judge
+from models.offline.knowledge import shipped
+from models.offline.robot import Robot
+from models.offline.sense import CommonSense
+
+RULES = "1"
+"""Raised whenever the same question may get another answer; it enters every cache key."""
+
+_SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}
+
+
+class OfflineChatModel(BaseChatModel):
+    """A routine model that answers coopera's prompts without any language model, network or GPU.
+
+    It is not a language model and reads no prompt text: it answers from the prompt's variables, by rules over a
+    household knowledge file and by MiniLM similarity of texts. `messages[-1].additional_kwargs["coopera"]` must
+    hold {"prompt", "variables", "seed", "temperature"}, with variables as `core.asks` lists them. The reply is
+    the JSON of the prompt's reply type. The same question with the same seed gets the same answer on every machine.
+
+    The three roles share common sense, as language models would. What is private to a person is reachable from
+    the role "human" only. docs/offline-model.md says what all this is good for, and what not.
+    """
+
+    model_config = ConfigDict(arbitrary_types_allowed=True)
+
+    role: Role
+    embeddings: Embeddings
+
+    _side: Human | Robot | Judge = PrivateAttr()
+    _lock: RLock = PrivateAttr(default_factory=RLock)
+
+    @override
+    def model_post_init(self, context: Any, /) -> None:
+        """Build this role's side; texts are encoded when first needed."""
+        self._side = _SIDES[self.role](CommonSense(shipped(), self.embeddings))
+
+    @property
+    @override
+    def _llm_type(self) -> str:
+        return "coopera-offline"
+
+    @property
+    @override
+    def _identifying_params(self) -> Mapping[str, Any]:
+        return {"model_name": "offline", "role": self.role, "rules": RULES}
+
+    @override
+    def _generate(
+        self,
+        messages: list[BaseMessage],
+        stop: list[str] | None = None,
+        run_manager: CallbackManagerForLLMRun | None = None,
+        **kwargs: Any,
+    ) -> ChatResult:
+        """Answer the last message.
+
+        Raises:
+            ModelCallError: If the message carries no question, one of another role, or one that lacks a variable.
+        """
+        asked = messages[-1].additional_kwargs.get("coopera") if messages else None
+        if not isinstance(asked, Mapping):
+            raise ModelCallError("the offline model answers coopera's own prompts only, and this message carries none")
+        content = self._answer(asked)
+        words_in = sum(len(str(message.content).split()) for message in messages)
+        words_out = len(content.split())
+        message = AIMessage(
+            content=content,
+            response_metadata={"model_name": "offline"},
+            usage_metadata={
+                "input_tokens": words_in,  # words: it has no tokens
+                "output_tokens": words_out,
+                "total_tokens": words_in + words_out,
+            },
+        )
+        return ChatResult(generations=[ChatGeneration(message=message)])
+
+    def _answer(self, asked: Mapping[str, Any]) -> str:
+        if missing := [name for name in ("prompt", "variables", "seed", "temperature") if name not in asked]:
+            raise ModelCallError(f"the question to the offline model lacks its {missing[0]}")
+        prompt, variables = str(asked["prompt"]), asked["variables"]
+        spec = ASKS.get(prompt)
+        if spec is None or spec.role != self.role:
+            known = f"is for the role {spec.role}" if spec else "is not known to it"
+            raise ModelCallError(f"{prompt}: the offline model in the role {self.role} cannot answer this: it {known}")
+        if lacking := sorted(spec.variables - set(variables)):
+            raise ModelCallError(f"{prompt}: the variable {lacking[0]!r} is missing")
+        rng = np.random.default_rng(int(asked["seed"]))
+        with self._lock:
+            reply = self._side.answer(prompt, variables, rng, float(asked["temperature"]))
+        if not isinstance(reply, REPLIES[spec.reply]):
+            raise ModelCallError(f"{prompt}: the offline model made a {type(reply).__name__}, not a {spec.reply}")
+        return json.dumps(reply.model_dump(mode="json"), ensure_ascii=False)

@@ -1,0 +1,176 @@
+"""The shared common sense as data: reads and checks household.yaml. Nothing here is about a particular person."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+from pydantic import Field, ValidationError, field_validator
+
+from core.errors import ConfigError
+from core.people import TRAITS, BigFive, Frozen
+
+SHIPPED = Path(__file__).parent / "household.yaml"
+FIRST, LAST = 9, 21
+"""The hours of day that the activities' curves cover, both inclusive."""
+
+Floats = NDArray[np.float64]
+Text = Annotated[str, Field(min_length=2, max_length=200)]
+Weight = Annotated[float, Field(ge=0, le=50)]
+Loading = Annotated[float, Field(ge=-1, le=1)]
+
+
+class Activity(Frozen):
+    """One thing that people do at home; the fields are explained at the head of household.yaml."""
+
+    id: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+    wordings: Annotated[tuple[Text, ...], Field(min_length=2)]
+    statement: Text
+    hours: Annotated[tuple[Weight, ...], Field(min_length=LAST - FIRST + 1, max_length=LAST - FIRST + 1)]
+    rooms: Annotated[tuple[Text, ...], Field(min_length=1)]
+    fixed: Annotated[tuple[Text, ...], Field(min_length=1)]
+    things: Annotated[dict[Text, Text], Field(min_length=5)]
+    motions: tuple[Text, ...] = ()
+    places: Annotated[tuple[tuple[Text, Text], ...], Field(min_length=3)]
+    follows: tuple[str, ...] = ()
+    big_five: dict[str, Loading] = {}
+    source: Text
+    repeatable: bool = False
+    need: bool = False
+
+    @field_validator("hours")
+    @classmethod
+    def _some_hour(cls, hours: tuple[float, ...]) -> tuple[float, ...]:
+        if not any(hours):
+            raise ValueError("at least one of the weights must be above 0")
+        return hours
+
+    @field_validator("big_five")
+    @classmethod
+    def _known_traits(cls, loadings: dict[str, float]) -> dict[str, float]:
+        if unknown := sorted(set(loadings) - set(TRAITS)):
+            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
+        return loadings
+
+    @cached_property
+    def all_motions(self) -> tuple[str, ...]:
+        """Every motion that belongs to the activity, without repeats, in the file's order."""
+        return tuple(dict.fromkeys([*self.things.values(), *self.motions]))
+
+    @cached_property
+    def thing_names(self) -> tuple[str, ...]:
+        """The things in hand, in the order in which they come into play."""
+        return tuple(self.things)
+
+
+class Household(Frozen):
+    """All activities, in the file's order: the index of an activity is its place in every array."""
+
+    looks_like: Annotated[dict[Text, Text], Field(min_length=1)]
+    activities: Annotated[tuple[Activity, ...], Field(min_length=2)]
+
+    @cached_property
+    def index(self) -> dict[str, int]:
+        """Place of each activity by id."""
+        return {activity.id: i for i, activity in enumerate(self.activities)}
+
+    @cached_property
+    def log_hours(self) -> Floats:
+        """Log of how usual each activity is at each hour of the day; shape (activities, 24).
+
+        Hours outside the curves are as their nearest covered hour.
+        """
+        weights = np.array([activity.hours for activity in self.activities]) + 0.005
+        columns = np.clip(np.arange(24), FIRST, LAST) - FIRST
+        return np.asarray(np.log(weights)[:, columns], dtype=np.float64)
+
+    @cached_property
+    def follow_matrix(self) -> Floats:
+        """1 where the column's activity tends to come right after the row's; shape (activities, activities)."""
+        matrix = np.zeros((len(self.activities), len(self.activities)))
+        for i, activity in enumerate(self.activities):
+            matrix[i, [self.index[other] for other in activity.follows]] = 1.0
+        return matrix
+
+    @cached_property
+    def loadings(self) -> Floats:
+        """Big-Five loadings in the order of `TRAITS`; shape (activities, 5)."""
+        rows = [[activity.big_five.get(trait, 0.0) for trait in TRAITS] for activity in self.activities]
+        return np.array(rows, dtype=np.float64)
+
+    def trait_pull(self, big_five: BigFive) -> Floats:
+        """How much a personality speaks for each activity, in logits; shape (activities,)."""
+        deviation = np.array([getattr(big_five, trait) - 3.0 for trait in TRAITS])
+        return np.asarray(self.loadings @ deviation, dtype=np.float64)
+
+
+def load(path: Path = SHIPPED) -> Household:
+    """Read a household file and check that it hangs together.
+
+    Raises:
+        ConfigError: Naming the file, the activity and the field, and what was expected.
+    """
+    try:
+        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+        raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
+    try:
+        household = Household.model_validate(data)
+    except ValidationError as err:
+        raise ConfigError(f"{path}: {_first_problem(err, data)}") from err
+    _check_references(household, path)
+    return household
+
+
+@lru_cache(maxsize=1)
+def shipped() -> Household:
+    """Return the household file that comes with the package."""
+    return load()
+
+
+def _first_problem(err: ValidationError, data: Any) -> str:
+    """Say the first problem as "activity 'bake', field 'hours': ..."."""
+    first = err.errors(include_url=False)[0]
+    where = [str(part) for part in first["loc"]]
+    said = first["msg"].removeprefix("Value error, ")
+    if len(where) >= 2 and where[0] == "activities":
+        rows = data["activities"]
+        row = rows[int(where[1])] if isinstance(rows, list) else {}
+        name = row.get("id", f"number {int(where[1]) + 1}") if isinstance(row, dict) else f"number {int(where[1]) + 1}"
+        return f"activity {name!r}, field {'.'.join(where[2:]) or 'all'!r}: {said}"
+    return f"field {'.'.join(where) or 'all'!r}: {said}"
+
+
+def _check_references(household: Household, path: Path) -> None:
+    """Refuse double ids and wordings, and references to activities or motions that do not exist."""
+    seen: dict[str, str] = {}
+    ids = sorted(activity.id for activity in household.activities)
+    for before, after in pairwise(ids):
+        if before == after:
+            raise ConfigError(f"{path}: activity {after!r}, field 'id': each id may be used once only")
+    for activity in household.activities:
+        for wording in activity.wordings:
+            other = seen.setdefault(key(wording), activity.id)
+            if other != activity.id or len({key(text) for text in activity.wordings}) < len(activity.wordings):
+                raise ConfigError(
+                    f"{path}: activity {activity.id!r}, field 'wordings': {wording!r} stands also in activity {other!r}"
+                )
+        for other in activity.follows:
+            if other not in household.index:
+                raise ConfigError(f"{path}: activity {activity.id!r}, field 'follows': there is no activity {other!r}")
+        for motion in activity.all_motions:
+            if motion not in household.looks_like:
+                raise ConfigError(
+                    f"{path}: activity {activity.id!r}, field 'motions': {motion!r} is not listed under looks_like"
+                )
+
+
+def key(text: str) -> str:
+    """Return a text in the form in which texts are compared word by word: lower case, plain, no full stop."""
+    return re.sub(r"[^a-z0-9]+", " ", text.lower()).strip()

@@ -1,0 +1,103 @@
+"""Finding what a home offers for an activity: executable pick-and-places, and spots to move at. Shared common sense."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from core.household import FreeMotion, PickPlace, plain
+from models.offline.knowledge import Activity
+from models.offline.reading import Piece, Surroundings, room_kind
+from models.offline.sense import CommonSense
+
+Pick = Callable[[Sequence[Piece], str], Piece]
+"""Chooses one of several equal objects; the text says for what."""
+
+
+class Placement(NamedTuple):
+    """One executable pick-and-place; `order` is its place in the sequence in which an activity is done."""
+
+    thing: Piece
+    spot: Piece
+    order: int
+
+    def act(self) -> PickPlace:
+        """Return it as an act."""
+        return PickPlace(
+            object_id=self.thing.id, object=self.thing.name, receptacle_id=self.spot.id, receptacle=self.spot.name
+        )
+
+
+def by_name(pieces: Sequence[Piece], _what: str) -> Piece:
+    """Choose the first by name: what one does who knows no preference."""
+    return min(pieces, key=lambda piece: piece.name)
+
+
+def in_rooms(pieces: Sequence[Piece], activity: Activity) -> list[Piece]:
+    """Return those in a room where the activity is done; all, where none is."""
+    inside = [piece for piece in pieces if room_kind(piece.room) in activity.rooms]
+    return inside or list(pieces)
+
+
+def feasible_places(activity: Activity, fixed: Surroundings, movable: Surroundings) -> list[int]:
+    """Return which of the activity's places the home has both objects for."""
+    return [i for i, (thing, spot) in enumerate(activity.places) if movable.of(thing) and fixed.of(spot)]
+
+
+def placement(
+    activity: Activity, index: int, fixed: Surroundings, movable: Surroundings, taken: Sequence[str], pick: Pick
+) -> Placement:
+    """Make one of the activity's feasible places executable, with a thing not yet taken where there is one."""
+    thing_class, spot_class = activity.places[index]
+    free = [piece for piece in movable.of(thing_class) if piece.name not in taken] or movable.of(thing_class)
+    spots = in_rooms(fixed.of(spot_class), activity)
+    return Placement(pick(free, thing_class), pick(spots, f"{activity.id} {spot_class}"), index)
+
+
+def makeshift_places(
+    sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings, movable: Surroundings
+) -> list[Placement]:
+    """Return placements for a home that lacks the usual objects, the most fitting first.
+
+    Things and spots that the activity knows come first, then others by their likeness to the intention.
+    """
+    known_things = {thing for thing, _ in activity.places}
+    known_spots = {spot for _, spot in activity.places}.union(activity.fixed)
+    things = _by_fit(sense, movable.pieces, known_things, intention)
+    spots = in_rooms(_by_fit(sense, fixed.pieces, known_spots, intention), activity)
+    pairs = [(max(i, j), i, j) for i in range(min(len(things), 12)) for j in range(min(len(spots), 12))]
+    return [Placement(things[i], spots[j], len(activity.places) + rank) for rank, (_, i, j) in enumerate(sorted(pairs))]
+
+
+def fill_up(chosen: Sequence[Placement], spare: Sequence[Placement], count: int) -> list[Placement]:
+    """Add spare placements up to a count: new things first, then new pairs; none that reads like another."""
+    result = list(chosen)
+    for fresh_thing in (True, False):
+        for place in spare:
+            texts = {other.act().describe() for other in result}
+            things = {other.thing.name for other in result}
+            if len(result) < count and place.act().describe() not in texts:
+                if fresh_thing and place.thing.name in things:
+                    continue
+                result.append(place)
+    return result
+
+
+def spots(sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings) -> dict[str, list[Piece]]:
+    """Return where the activity can be done, by class in its own order; never empty if there is furniture."""
+    found = {cls: in_rooms(fixed.of(cls), activity) for cls in activity.fixed if fixed.of(cls)}
+    if found or not fixed.pieces:
+        return found
+    nearest = _by_fit(sense, fixed.pieces, set(), intention)[0]
+    return {nearest.cls: [nearest]}
+
+
+def free_motion(spot: Piece, thing: str, motion: str) -> FreeMotion:
+    """Return a free-form task as an act."""
+    return FreeMotion(target_id=spot.id, target=spot.name, in_hand=thing, motion=motion)
+
+
+def _by_fit(sense: CommonSense, pieces: Sequence[Piece], known: set[str], intention: str) -> list[Piece]:
+    """Sort objects: known classes first, then by likeness of their names to the intention."""
+    likeness = {piece.cls: sense.similarity(plain(piece.cls), intention) for piece in pieces}
+    return sorted(pieces, key=lambda piece: (piece.cls not in known, -round(likeness[piece.cls], 6), piece.name))
