@@ -18,13 +18,14 @@ from core.household import plain
 from core.people import Frozen
 from simulation.scene import SceneObject
 from simulation.shapes import Colour, Kit, Part, Recipe, Size, plain_box
-from simulation.shapes_belongings import BELONGINGS
 from simulation.shapes_fixtures import FIXTURES
 from simulation.shapes_furniture import FURNITURE
+from simulation.shapes_household import HOUSEHOLD_THINGS
 from simulation.shapes_kitchen import KITCHEN_THINGS
+from simulation.shapes_leisure import LEISURE_THINGS
 
 FILE = Path(__file__).parent / "catalogue.yaml"
-RECIPES: dict[str, Recipe] = {**FURNITURE, **FIXTURES, **KITCHEN_THINGS, **BELONGINGS}
+RECIPES: dict[str, Recipe] = {**FURNITURE, **FIXTURES, **KITCHEN_THINGS, **LEISURE_THINGS, **HOUSEHOLD_THINGS}
 FLAT = 0.05
 """Fixed things lower than this (rugs) are walked over."""
 STANDS = ("wall", "outer", "centre", "floor")

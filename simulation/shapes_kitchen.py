@@ -134,7 +134,7 @@ def spatula(kit: Kit) -> None:
 def _bottle(kit: Kit, neck: float, cap: Colour, label: Colour, *, shoulder: float = 0.62) -> None:
     r = kit.w / 2
     kit.tube((0, 0, 0), r, kit.h * shoulder)
-    kit.tube((0, 0, kit.h * 0.16), r * 1.03, kit.h * 0.3, label)
+    kit.tube((0, 0, kit.h * 0.16), r * 1.06, kit.h * 0.3, label)
     kit.tube((0, 0, kit.h * shoulder), r * 0.72, kit.h * 0.08)
     kit.tube((0, 0, kit.h * (shoulder + 0.08)), r * neck, kit.h * (0.84 - shoulder))
     kit.tube((0, 0, kit.h * 0.91), r * neck * 1.15, kit.h * 0.09, cap)
@@ -190,8 +190,8 @@ def pudding_box(kit: Kit) -> None:
 
 def _can(kit: Kit, label: Colour) -> None:
     kit.tube((0, 0, 0), kit.w / 2, kit.h, STEEL)
-    kit.tube((0, 0, kit.h * 0.1), kit.w / 2 * 1.02, kit.h * 0.8)
-    kit.tube((0, 0, kit.h * 0.5), kit.w / 2 * 1.03, kit.h * 0.36, label)
+    kit.tube((0, 0, kit.h * 0.1), kit.w / 2 * 1.03, kit.h * 0.42)
+    kit.tube((0, 0, kit.h * 0.52), kit.w / 2 * 1.03, kit.h * 0.38, label)
 
 
 def tomato_soup_can(kit: Kit) -> None:
