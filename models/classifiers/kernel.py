@@ -160,12 +160,17 @@ class KernelClassifier:
 
 def _read_arrays(path: Path, chosen: Scale) -> _Fitted:
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
             columns = {field.name: arrays[field.name] for field in fields(Batch)}
             columns["vectors"] = columns["vectors"].astype(np.float64)
-            return _Fitted(Batch(**columns), arrays["centre"], arrays["weights"], chosen)
+            fitted = _Fitted(Batch(**columns), arrays["centre"], arrays["weights"], chosen)
     except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
         raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
+    n, (_, d) = len(fitted.weights), fitted.landmarks.vectors.shape
+    rows = {len(column) for name, column in columns.items() if name != "vectors"}
+    if rows != {n} or fitted.centre.shape != (2, d):
+        raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
+    return fitted
 
 
 def _landmarks(labels: npt.NDArray[np.bool_], rng: np.random.Generator) -> npt.NDArray[np.int64]:

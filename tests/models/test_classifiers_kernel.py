@@ -1,0 +1,383 @@
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from langchain_core.embeddings import Embeddings
+
+from core.errors import ConfigError, CooperaError
+from core.hour import Example
+from core.people import BigFive, PersonId
+from core.protocols import Classifier
+from core.randomness import rng_at
+from models.classifiers import CLASSIFIERS, Inputs, make_classifier
+from models.classifiers.features import Similarity, centre_of, read
+from models.classifiers.kernel import _ridge
+
+
+class WordEmbeddings(Embeddings):
+    """Unit vectors of the words of a text: texts that share words are near each other, others are not."""
+
+    def __init__(self, language: str = "") -> None:
+        self.language = language
+
+    def embed_query(self, text: str) -> list[float]:
+        words = text.lower().replace(".", "").split() or ["nothing"]
+        total = np.sum([rng_at(0, self.language, word).normal(size=32) for word in words], axis=0)
+        return [float(value) for value in (total / np.linalg.norm(total)).astype(np.float32)]
+
+    def embed_documents(self, texts: list[str]) -> list[list[float]]:
+        return [self.embed_query(text) for text in texts]
+
+
+WORDS = WordEmbeddings()
+THINGS = ("drink tea", "read books", "lift weights", "paint pictures", "wash clothes")
+
+
+def kernel(**options: object) -> Classifier:
+    return make_classifier("kernel", **{"kind": "intention", "embeddings": WORDS, **options})  # type: ignore[arg-type]
+
+
+def ask(candidate: str, hour: int, person: str = "ann", **fields: object) -> Example:
+    return Example(person=PersonId(person), day=9, hour=hour, candidate=candidate, **fields)  # type: ignore[arg-type]
+
+
+def days(likes: Callable[[str, int], bool], *, person: str = "ann", n: int = 3, **fields: object) -> list[Example]:
+    """Feedback of n days on all five things at every hour."""
+    return [
+        Example(
+            person=PersonId(person),
+            day=day,
+            hour=hour,
+            candidate=thing,
+            label=likes(thing, hour),
+            **fields,  # type: ignore[arg-type]
+        )
+        for day in range(n)
+        for hour in range(9, 22)
+        for thing in THINGS
+    ]
+
+
+def tea_in_the_morning(thing: str, hour: int) -> bool:
+    return (thing == "drink tea" and hour < 13) or (thing == "read books" and hour > 17)
+
+
+def test_an_unknown_classifier_is_refused_with_the_known_names() -> None:
+    with pytest.raises(ConfigError, match="'forest'.*kernel, lora"):
+        make_classifier("forest", kind="task", embeddings=WORDS)
+    assert set(CLASSIFIERS) == {"kernel", "lora"}
+
+
+def test_untrained_it_is_undecided_about_everything() -> None:
+    assert kernel().probabilities([ask("drink tea", 9), ask("", 21)]) == [0.5, 0.5]
+
+
+@pytest.mark.parametrize("label", [True, False])
+def test_with_one_kind_of_answer_nothing_is_learned(label: bool) -> None:
+    judge = kernel()
+    measured = judge.train(days(lambda *_: label), seed=0)
+    assert judge.probabilities([ask("drink tea", 9)]) == [0.5]
+    assert measured["examples"] == 195
+
+
+def test_with_one_kind_of_answer_what_was_learned_stays() -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    before = judge.probabilities([ask("drink tea", 9)])
+    judge.train(days(lambda *_: True), seed=0)
+    assert judge.probabilities([ask("drink tea", 9)]) == before
+
+
+def test_examples_without_an_answer_teach_nothing() -> None:
+    taught = days(tea_in_the_morning)
+    unanswered = [e.model_copy(update={"label": None}) for e in days(lambda *_: True)]
+    one, two = kernel(), kernel()
+    assert one.train(taught, seed=0) == two.train([*unanswered, *taught], seed=0)
+    assert one.probabilities(taught) == two.probabilities(taught)
+
+
+def test_it_learns_what_is_liked_when() -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    questions = [ask(thing, hour) for thing in THINGS for hour in (9, 11, 20)]
+    answers = [p >= 0.5 for p in judge.probabilities(questions)]
+    assert answers == [tea_in_the_morning(q.candidate, q.hour) for q in questions]
+
+
+def test_a_task_is_judged_with_its_intention() -> None:
+    judge = kernel(kind="task")
+    teach = [
+        ask("bring the mug", hour, intention=aim, label=aim == "drink tea").model_copy(update={"day": day})
+        for day in range(3)
+        for hour in (9, 12, 15)
+        for aim in ("drink tea", "lift weights", "wash clothes")
+    ]
+    judge.train(teach, seed=0)
+    tea, weights = judge.probabilities(
+        [ask("bring the mug", 12, intention="drink tea"), ask("bring the mug", 12, intention="lift weights")]
+    )
+    assert tea >= 0.5 > weights
+
+
+def test_what_one_person_says_does_not_overwrite_another() -> None:
+    judge = kernel()
+    ann = days(lambda thing, _: thing == "drink tea", person="ann", profile="A quiet writer.")
+    bob = days(lambda thing, _: thing == "lift weights", person="bob", profile="A loud sportsman.", n=5)
+    judge.train([*ann, *bob], seed=0)
+    who = {"ann": "A quiet writer.", "bob": "A loud sportsman."}
+    answers = {
+        (person, thing): judge.probabilities([ask(thing, 12, person, profile=profile)])[0] >= 0.5
+        for person, profile in who.items()
+        for thing in ("drink tea", "lift weights")
+    }
+    assert answers == {
+        ("ann", "drink tea"): True,
+        ("ann", "lift weights"): False,
+        ("bob", "drink tea"): False,
+        ("bob", "lift weights"): True,
+    }
+
+
+def test_a_stranger_is_taken_to_be_like_those_with_a_like_profile() -> None:
+    judge = kernel()
+    ann = days(lambda thing, _: thing == "drink tea", person="ann", profile="A quiet writer.")
+    bob = days(lambda thing, _: thing == "lift weights", person="bob", profile="A loud sportsman.")
+    judge.train([*ann, *bob], seed=0)
+    tea, weights = judge.probabilities(
+        [ask(thing, 12, "eve", profile="A quiet writer and poet.") for thing in ("drink tea", "lift weights")]
+    )
+    assert tea > weights
+
+
+def test_without_traits_people_cannot_be_told_apart() -> None:
+    judge = kernel(inputs=Inputs(traits=False))
+    traits = BigFive(openness=5)
+    ann = days(tea_in_the_morning, person="ann", profile="A quiet writer.", big_five=traits)
+    judge.train([*ann, *days(lambda thing, _: thing == "wash clothes", person="bob")], seed=0)
+    known, stranger = ask("drink tea", 9, "ann", profile="A quiet writer.", big_five=traits), ask("drink tea", 9, "x")
+    assert len(set(judge.probabilities([known, stranger]))) == 1
+
+
+@pytest.mark.parametrize(
+    ("inputs", "fields"),
+    [
+        (Inputs(context=False), {"intentions": ["read books"], "tasks": ["bring the mug"]}),
+        (Inputs(time=False), {"hour": 21}),
+    ],
+)
+def test_what_a_method_hides_changes_nothing(inputs: Inputs, fields: dict[str, object]) -> None:
+    judge, sighted = kernel(inputs=inputs), kernel()
+    taught = days(tea_in_the_morning, intentions=["wash clothes"])
+    judge.train(taught, seed=0)
+    sighted.train(taught, seed=0)
+    plain = ask("drink tea", 9)
+    pair = [plain, plain.model_copy(update=fields)]
+    assert len(set(judge.probabilities(pair))) == 1
+    assert len(set(sighted.probabilities(pair))) == 2
+
+
+def test_the_newest_profile_stands_for_all_earlier_days() -> None:
+    first_day = days(tea_in_the_morning, n=1)
+    second_day = [e.model_copy(update={"day": 1, "profile": "A quiet writer."}) for e in days(tea_in_the_morning, n=1)]
+    rewritten = [e.model_copy(update={"profile": "A quiet writer."}) for e in first_day]
+    one, two = kernel(), kernel()
+    one.train([*first_day, *second_day], seed=0)
+    two.train([*rewritten, *second_day], seed=0)
+    question = [ask("drink tea", 9, profile="A quiet writer.")]
+    assert one.probabilities(question) == two.probabilities(question)
+
+
+def test_the_order_in_which_hours_are_told_does_not_matter() -> None:
+    taught = days(tea_in_the_morning)
+    one, two = kernel(), kernel()
+    one.train(taught, seed=0)
+    two.train([*taught[100:], *taught[:100]], seed=0)
+    assert one.probabilities(taught) == two.probabilities(taught)
+
+
+def test_an_answer_does_not_depend_on_what_is_asked_beside_it() -> None:
+    judge = kernel()
+    taught = days(tea_in_the_morning)
+    judge.train(taught, seed=0)
+    together = judge.probabilities(taught)
+    assert together == [judge.probabilities([question])[0] for question in taught]
+
+
+def test_yes_is_said_to_at_least_the_share_of_true_ones_and_to_few_more() -> None:
+    rng = rng_at(0, "noise")
+    taught = [e.model_copy(update={"label": bool(rng.random() < 0.2)}) for e in days(tea_in_the_morning, n=5)]
+    judge = kernel()
+    judge.train(taught, seed=0)
+    fresh = [e.model_copy(update={"day": 7, "label": None}) for e in taught[:65]]
+    share = np.mean([p >= 0.5 for p in judge.probabilities(fresh)])
+    assert 0.05 < share < 0.7
+
+
+def test_five_thousand_examples_are_learned_with_landmarks() -> None:
+    taught = [e.model_copy(update={"day": e.day}) for e in days(tea_in_the_morning, n=77)]
+    assert len(taught) > 5_000
+    judge = kernel()
+    measured = judge.train(taught, seed=3)
+    assert measured["examples"] == 5_000
+    assert [p >= 0.5 for p in judge.probabilities([ask("drink tea", 9), ask("drink tea", 20)])] == [True, False]
+
+
+def test_thirty_examples_are_enough_to_start() -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning)[:30], seed=0)
+    assert judge.probabilities([ask("drink tea", 10)])[0] > judge.probabilities([ask("wash clothes", 10)])[0]
+
+
+def test_a_saved_classifier_answers_as_before(tmp_path: Path) -> None:
+    judge, again = kernel(), kernel()
+    taught = days(tea_in_the_morning, profile="A quiet writer.", intentions=["wash clothes"], tasks=["bring the mug"])
+    judge.train(taught, seed=0)
+    judge.save(tmp_path / "a")
+    again.load(tmp_path / "a")
+    assert again.probabilities(taught) == judge.probabilities(taught)
+    again.save(tmp_path / "b")
+    assert {f.name: f.read_bytes() for f in (tmp_path / "a").iterdir()} == {
+        f.name: f.read_bytes() for f in (tmp_path / "b").iterdir()
+    }
+
+
+def test_an_untrained_classifier_can_be_saved_and_makes_a_trained_one_forget(tmp_path: Path) -> None:
+    kernel().save(tmp_path)
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    judge.load(tmp_path)
+    assert judge.probabilities([ask("drink tea", 9)]) == [0.5]
+
+
+def test_a_folder_of_another_kind_is_refused(tmp_path: Path) -> None:
+    kernel(kind="task").save(tmp_path)
+    with pytest.raises(CooperaError, match=r"classifier.json: field 'kind' is 'task', expected 'intention'"):
+        kernel().load(tmp_path)
+
+
+def test_a_folder_of_a_classifier_that_sees_other_fields_is_refused(tmp_path: Path) -> None:
+    kernel(inputs=Inputs(traits=False)).save(tmp_path)
+    with pytest.raises(CooperaError, match="field 'inputs'"):
+        kernel().load(tmp_path)
+
+
+def test_a_folder_learned_on_other_embeddings_is_refused(tmp_path: Path) -> None:
+    kernel(embeddings=WordEmbeddings("elvish")).save(tmp_path)
+    with pytest.raises(CooperaError, match="other embeddings"):
+        kernel().load(tmp_path)
+
+
+def test_a_folder_of_another_version_is_refused(tmp_path: Path) -> None:
+    kernel().save(tmp_path)
+    path = tmp_path / "classifier.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"version": 99}))
+    with pytest.raises(CooperaError, match="field 'version' is 99"):
+        kernel().load(tmp_path)
+
+
+def test_an_empty_folder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(CooperaError, match="no saved classifier"):
+        kernel().load(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["classifier.json", "kernel.npz"])
+def test_a_damaged_file_is_refused_and_what_was_known_stays(tmp_path: Path, name: str) -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    judge.save(tmp_path)
+    before = judge.probabilities([ask("drink tea", 9)])
+    whole = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(CooperaError, match="damaged"):
+        judge.load(tmp_path)
+    assert judge.probabilities([ask("drink tea", 9)]) == before
+
+
+def test_arrays_that_do_not_fit_together_are_refused(tmp_path: Path) -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    judge.save(tmp_path)
+    with np.load(tmp_path / "kernel.npz") as stored:
+        arrays = dict(stored)
+    np.savez(tmp_path / "kernel.npz", **(arrays | {"weights": arrays["weights"][:-1]}))
+    with pytest.raises(CooperaError, match="damaged"):
+        judge.load(tmp_path)
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(CooperaError, match="cannot be saved"):
+        kernel().save(tmp_path / "file")
+
+
+CHILD = """
+from tests.models.test_classifiers_kernel import answers_of_a_fresh_one
+print(answers_of_a_fresh_one())
+"""
+
+
+def answers_of_a_fresh_one() -> list[float]:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning, profile="A quiet writer.", intentions=["read books"]), seed=5)
+    return judge.probabilities([ask(thing, hour) for thing in THINGS for hour in range(9, 22)])
+
+
+def test_another_process_learns_exactly_the_same() -> None:
+    environment = os.environ | {"PYTHONHASHSEED": "7", "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": "."}
+    done = subprocess.run([sys.executable, "-c", CHILD], capture_output=True, text=True, check=True, env=environment)
+    here = answers_of_a_fresh_one()
+    assert done.stdout.strip() == str(here)
+    assert len(set(here)) > 20
+
+
+def _some_examples(seed: int, n: int) -> Sequence[Example]:
+    rng = rng_at(seed, "examples")
+    return [
+        ask(
+            str(rng.choice(THINGS)),
+            int(rng.integers(0, 24)),
+            str(rng.choice(["ann", "bob", "eve"])),
+            intention=str(rng.choice(["", *THINGS])),
+            profile=str(rng.choice(["", "Reads. Writes.", "Runs far."])),
+            big_five=None if rng.random() < 0.5 else BigFive(openness=1 + 4 * rng.random()),
+            intentions=[str(thing) for thing in rng.choice(THINGS, rng.integers(0, 4))],
+            tasks=[str(thing) for thing in rng.choice(THINGS, rng.integers(0, 6))],
+        )
+        for _ in range(n)
+    ]
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 10**6), task=st.booleans())
+def test_likeness_is_a_kernel(seed: int, task: bool) -> None:
+    batch = read(_some_examples(seed, 20), WORDS)
+    gram = Similarity(task=task, centre=centre_of(batch)).gram(batch, batch)
+    assert np.allclose(gram, gram.T, atol=1e-9)
+    assert np.linalg.eigvalsh(gram).min() > -1e-8
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 10**6))
+def test_scores_of_what_was_left_out_equal_those_of_fits_without_it(seed: int) -> None:
+    rng = rng_at(seed, "ridge")
+    features, labels = rng.normal(size=(24, 30)), rng.random(24) < 0.4
+    labels[:2] = True, False
+    group = np.repeat(np.arange(6), 4)
+    _, unseen = _ridge(features, labels, group)
+    importance = np.where(labels, 0.5 / labels.mean(), 0.5 / (1 - labels.mean()))
+    for name in range(6):
+        rest, out = group != name, group == name
+        weighted = features[rest].T * importance[rest]
+        weights = np.linalg.solve(
+            weighted @ features[rest] + 3.0 * np.eye(30), weighted @ np.where(labels[rest], 1, -1)
+        )
+        assert np.allclose(unseen[out], features[out] @ weights, atol=1e-8)
