@@ -6,7 +6,9 @@ from importlib import import_module
 from typing import Any
 
 _WHERE = {
+    "Door": "models.door",
     "OfflineChatModel": "models.offline.chat",
+    "open_door": "models.door",
 }
 """Public name -> the module that defines it. To re-export a name, add it here."""
 

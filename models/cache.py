@@ -46,11 +46,15 @@ class ReplyCache:
         self._lock = threading.Lock()
         with self._guarded():
             self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
-            self._db.execute("PRAGMA journal_mode=WAL")
-            self._db.execute(
-                "CREATE TABLE IF NOT EXISTS replies"
-                " (key TEXT PRIMARY KEY, reply TEXT, tokens_in INTEGER, tokens_out INTEGER, cut INTEGER) WITHOUT ROWID"
-            )
+            try:
+                self._db.execute("PRAGMA journal_mode=WAL")
+                self._db.execute(
+                    "CREATE TABLE IF NOT EXISTS replies(key TEXT PRIMARY KEY, reply TEXT, tokens_in INTEGER,"
+                    " tokens_out INTEGER, cut INTEGER) WITHOUT ROWID"
+                )
+            except sqlite3.Error:
+                self._db.close()
+                raise
 
     def get(self, key: str) -> CachedReply | None:
         """The reply of a key, or None."""

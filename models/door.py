@@ -175,6 +175,11 @@ class Door:
             first.setdefault(at[:4], n)
         return [call for at, call in sorted(calls, key=lambda entry: (first[entry[0][:4]], entry[0].draw))]
 
+    def close(self) -> None:
+        """Close the cache file, if there is one."""
+        if self.cache is not None:
+            self.cache.close()
+
     def _converse(
         self,
         talk: _Talk,

@@ -1,0 +1,378 @@
+"""The door: strict replies, bounded repair, a record of every call, and the same answer for the same address."""
+
+from __future__ import annotations
+
+import base64
+import json
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+from langchain_core.callbacks import CallbackManagerForLLMRun
+from langchain_core.exceptions import ModelTimeoutError
+from langchain_core.language_models import BaseChatModel
+from langchain_core.messages import AIMessage, BaseMessage
+from langchain_core.outputs import ChatGeneration, ChatResult
+from pydantic import PrivateAttr
+
+from core.errors import ModelCallError, ModelOutputError, RunError
+from core.protocols import Rendered, Role
+from core.randomness import Address, seed_at
+from core.replies import FreeMotionReply, VerdictsReply
+from models.backends import Backend
+from models.cache import ReplyCache
+from models.door import SEEDS, Door
+
+AT = Address("nora", 1, 9, "score")
+YES = '{"verdicts": [{"yes": true, "reason": "it helps"}]}'
+NO = '{"verdicts": [{"yes": false}]}'
+
+
+class ScriptedModel(BaseChatModel):
+    """Answers from a script, remembers what it was asked, and fails on an unscripted call."""
+
+    _script: list[str | Exception | AIMessage] = PrivateAttr()
+    _asked: list[list[BaseMessage]] = PrivateAttr(default_factory=list)
+    _options: list[dict[str, Any]] = PrivateAttr(default_factory=list)
+
+    def __init__(self, *script: str | Exception | AIMessage) -> None:
+        super().__init__()
+        self._script = list(script)
+
+    @property
+    def _llm_type(self) -> str:
+        return "scripted"
+
+    @property
+    def asked(self) -> list[list[BaseMessage]]:
+        return self._asked
+
+    @property
+    def options(self) -> list[dict[str, Any]]:
+        return self._options
+
+    def _generate(
+        self,
+        messages: list[BaseMessage],
+        stop: list[str] | None = None,
+        run_manager: CallbackManagerForLLMRun | None = None,
+        **kwargs: Any,
+    ) -> ChatResult:
+        assert self._script, "an unscripted call"
+        self._asked.append(messages)
+        self._options.append(kwargs)
+        answer = self._script.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        message = answer if isinstance(answer, AIMessage) else AIMessage(content=answer)
+        return ChatResult(generations=[ChatGeneration(message=message)])
+
+
+class OnePrompt:
+    """A prompt folder with any prompt in it: its text is the variable `say`."""
+
+    def render(self, name: str, variables: Mapping[str, Any]) -> Rendered:
+        role: Role = "robot" if name.startswith("robot") else "judge"
+        return Rendered(name=name, role=role, text=variables["say"], sha="f00", reply="any", temperature=0.25)
+
+
+def door_to(*script: str | Exception | AIMessage, **options: Any) -> tuple[Door, ScriptedModel]:
+    model = ScriptedModel(*script)
+    door_options = {key: options.pop(key) for key in ("cache", "max_attempts", "root", "seed") if key in options}
+    fields = {"unreachable": (OSError, ModelTimeoutError), "garbled": (ValueError, LookupError), **options}
+    backend = Backend("scripted:one", model, **fields)
+    backends: dict[Role, Backend] = {"robot": backend, "judge": backend}
+    return Door(prompts=OnePrompt(), backends=backends, **{"seed": 7, **door_options}), model
+
+
+def ask(door: Door, at: Address = AT, say: str = "Judge!", images: Sequence[Path] = ()) -> VerdictsReply:
+    return door("judge/tasks", VerdictsReply, at=at, variables={"say": say}, images=images)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        YES,
+        f"```json\n{YES}\n```",
+        f"Of course! Here is my judgement:\n\n{YES}\n\nI hope {{this}} helps.",
+        f"<think>Maybe {NO}? No.</think>\n{YES}",
+        f"{YES}\n{YES}",
+        YES.replace("helps", "}{ helps \\u00e9"),
+    ],
+)
+def test_a_valid_object_is_found_in_whatever_stands_around_it(text: str) -> None:
+    door, _ = door_to(text)
+    assert [v.yes for v in ask(door).verdicts] == [True]
+    (call,) = door.take_calls()
+    assert (call.attempts, call.faults, call.reply) == (1, [], text)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "it is empty"),
+        ("  \n", "it is empty"),
+        ("Yes, all of them.", "there is no JSON object in it"),
+        ("[true, false]", "there is no JSON object in it"),
+        (YES[:-4], "it is not valid JSON"),
+        ('{"verdicts": [{"yes": "yes"}]}', "verdicts.0.yes: Input should be a valid boolean"),
+        ('{"verdicts": [{"yes": 1}]}', "verdicts.0.yes: Input should be a valid boolean"),
+        ('{"verdicts": [{"yes": NaN}]}', "NaN is not a JSON number"),
+        ('{"verdicts": [{}]}', "verdicts.0.yes: Field required"),
+        ('{"verdicts": [], "note": 1}', "note: Extra inputs are not permitted"),
+        ('{"verdicts": [{"yes": true, "reason": "\\ud800"}]}', "verdicts.0.reason"),
+        (f"{YES} or rather {NO}", "it holds 2 different answers instead of one"),
+        ("{'verdicts': [{'yes': True}]}", "it is not valid JSON"),
+        ('{"a":' * 20_000, "it is not valid JSON"),
+        ("{" * 50_000, "it is not valid JSON"),
+    ],
+)
+def test_a_bad_reply_is_never_guessed_at(text: str, said: str) -> None:
+    door, _ = door_to(text, max_attempts=1)
+    with pytest.raises(ModelOutputError, match="judge/tasks") as err:
+        ask(door)
+    assert said in str(err.value)
+    assert (err.value.prompt, err.value.reply) == ("judge/tasks", text)
+    (call,) = door.take_calls()
+    assert len(call.faults) == 1
+    assert said in call.faults[0]
+
+
+def test_a_bad_reply_is_shown_to_the_model_with_what_is_wrong_with_it() -> None:
+    door, model = door_to('{"verdicts": [{"yes": "maybe"}]}', "I give up.", YES)
+    assert ask(door).verdicts[0].yes
+    first, second, third = model.asked
+    assert [m.type for m in third] == ["human", "ai", "human", "ai", "human"]
+    assert third[: len(second)] == second
+    assert second[: len(first)] == first
+    assert second[1].text == '{"verdicts": [{"yes": "maybe"}]}'
+    assert "verdicts.0.yes: Input should be a valid boolean" in second[2].text
+    assert "there is no JSON object in it" in third[4].text
+    (call,) = door.take_calls()
+    assert call.attempts == 3
+    assert [fault.split(":")[0] for fault in call.faults] == ["attempt 1", "attempt 2"]
+    assert [m["role"] for m in call.messages] == ["user", "assistant", "user", "assistant", "user"]
+
+
+def test_repair_is_bounded_and_the_failure_is_on_record() -> None:
+    door, model = door_to("no", "no", "no")
+    with pytest.raises(ModelOutputError) as err:
+        ask(door)
+    assert err.value.reply == "no"
+    assert len(model.asked) == 3
+    (call,) = door.take_calls()
+    assert (call.attempts, len(call.faults), call.reply) == (3, 3, "no")
+    assert call.messages[-1]["role"] == "user", "what was really sent, not what would have come next"
+
+
+def test_an_empty_reply_is_not_sent_back_as_an_empty_message() -> None:
+    door, model = door_to("", YES)
+    ask(door)
+    assert all(m.text for m in model.asked[1])
+
+
+def test_a_cut_reply_is_called_cut() -> None:
+    cut = AIMessage(content=YES[:20], response_metadata={"finish_reason": "length"})
+    door, model = door_to(cut, YES)
+    ask(door)
+    assert "cut off at the length limit" in model.asked[1][-1].text
+
+
+def test_the_schema_is_appended_by_the_door_and_names_no_insides() -> None:
+    door, model = door_to('{"tasks": []}', max_attempts=1)
+    with pytest.raises(ModelOutputError):
+        door("robot/tasks_type2", FreeMotionReply, at=AT, variables={"say": "Go!"})
+    text = model.asked[0][0].text
+    assert text.startswith("Go!\n\nAnswer with one JSON object")
+    schema = json.loads(text.splitlines()[-1])
+    assert schema["required"] == ["tasks"]
+    assert "description" not in text
+    assert chr(34) + "title" not in text
+
+
+def test_seed_and_temperature_follow_prompt_and_address() -> None:
+    door, model = door_to(YES, YES, YES, "no", YES)
+    for at in (AT, AT, AT._replace(draw=1), AT._replace(hour=10)):
+        ask(door, at)
+    seeds = [o["seed"] for o in model.options]
+    assert seeds[0] == seeds[1] == seed_at(7, *AT, "judge/tasks") % SEEDS
+    assert len(set(seeds)) == 4
+    assert {o["temperature"] for o in model.options} == {0.25}
+    assert all(0 <= seed < 2**31 for seed in seeds)
+
+
+def test_a_model_that_takes_no_seed_is_given_none() -> None:
+    door, model = door_to(YES, seeded=False)
+    ask(door)
+    assert model.options == [{"temperature": 0.25}]
+
+
+def test_the_offline_kind_gets_the_variables_and_no_schema() -> None:
+    door, model = door_to("no", YES, reads_variables=True)
+    ask(door)
+    first, again = model.asked[0][0], model.asked[1][-1]
+    assert first.text == "Judge!"
+    told = first.additional_kwargs["coopera"]
+    assert told == {
+        "prompt": "judge/tasks",
+        "variables": {"say": "Judge!"},
+        "seed": seed_at(7, *AT, "judge/tasks"),
+        "temperature": 0.25,
+    }
+    assert again.additional_kwargs["coopera"]["seed"] != told["seed"]
+    assert model.options == [{}, {}]
+
+
+def test_a_call_that_cannot_reach_the_model_is_recorded_and_raised_at_once() -> None:
+    for error in (ConnectionRefusedError("refused"), ModelTimeoutError("too slow")):
+        door, model = door_to(error)
+        with pytest.raises(ModelCallError, match=f"judge/tasks: scripted:one cannot be asked: {error}"):
+            ask(door)
+        (call,) = door.take_calls()
+        assert (len(model.asked), call.attempts, len(call.faults)) == (1, 1, 1)
+
+
+def test_a_garbled_answer_of_the_server_is_asked_for_again() -> None:
+    door, model = door_to(json.JSONDecodeError("Expecting value", "<html>", 0), IndexError("no choices"), YES)
+    assert ask(door).verdicts
+    assert [len(asked) for asked in model.asked] == [1, 1, 1]
+    (call,) = door.take_calls()
+    assert (call.attempts, len(call.faults)) == (3, 2)
+
+
+def test_a_server_that_only_talks_garbage_is_a_call_error() -> None:
+    door, _ = door_to(*[ValueError("choices is null")] * 3)
+    with pytest.raises(ModelCallError, match="gave no reply: attempt 3: .*choices is null"):
+        ask(door)
+
+
+def test_garbage_after_a_bad_reply_does_not_lose_the_repair() -> None:
+    door, model = door_to("no", ValueError("garbage"), YES)
+    ask(door)
+    assert [m.type for m in model.asked[2]] == ["human", "ai", "human"]
+    door, _ = door_to("no", ValueError("garbage"), ValueError("garbage"))
+    with pytest.raises(ModelOutputError) as err:
+        ask(door)
+    assert err.value.reply == "no"
+
+
+def test_a_bug_in_a_model_of_ours_is_not_taken_for_a_bad_answer() -> None:
+    door, _ = door_to(KeyError("bug"), garbled=())
+    with pytest.raises(KeyError):
+        ask(door)
+    assert len(door.take_calls()) == 1
+
+
+def test_tokens_of_all_attempts_are_counted() -> None:
+    usage = {"input_tokens": 100, "output_tokens": 7, "total_tokens": 107}
+    door, _ = door_to(*[AIMessage(content=text, usage_metadata=usage) for text in ("no", YES)])
+    ask(door)
+    (call,) = door.take_calls()
+    assert (call.tokens_in, call.tokens_out) == (200, 14)
+    assert call.seconds >= 0
+
+
+def test_pictures_go_to_a_model_that_sees_and_their_names_into_the_record(tmp_path: Path) -> None:
+    picture = tmp_path / "frames" / "day-00" / "robot-0.webp"
+    picture.parent.mkdir(parents=True)
+    picture.write_bytes(b"light")
+    door, model = door_to(YES, sees=True, root=tmp_path)
+    ask(door, images=[picture])
+    image, text = model.asked[0][0].content_blocks
+    assert (image["type"], image["mime_type"]) == ("image", "image/webp")
+    assert base64.b64decode(image["base64"]) == b"light"
+    assert text["type"] == "text"
+    (call,) = door.take_calls()
+    assert call.messages[0]["images"] == ["frames/day-00/robot-0.webp"]
+    assert "bGlnaHQ" not in call.model_dump_json()
+
+
+def test_pictures_that_cannot_be_shown_are_refused(tmp_path: Path) -> None:
+    door, _ = door_to(sees=True)
+    with pytest.raises(RunError, match=r"0\.webp: the picture cannot be read"):
+        ask(door, images=[tmp_path / "0.webp"])
+    with pytest.raises(RunError, match="must end in"):
+        ask(door, images=[tmp_path / "0.bmp"])
+    door, _ = door_to(sees=False)
+    with pytest.raises(ModelCallError, match="cannot look at pictures"):
+        ask(door, images=[tmp_path / "0.webp"])
+
+
+def test_calls_of_parallel_draws_come_out_in_the_order_of_the_draws() -> None:
+    door, model = door_to(YES, YES)
+    ask(door, AT._replace(node="propose"))
+    ask(door, AT._replace(node="decompose"))
+    barrier = threading.Barrier(8)
+
+    def imagine(draw: int) -> None:
+        barrier.wait()
+        ask(door, AT._replace(node="imagine_tasks", draw=draw), say=f"draw {draw}")
+
+    model._script = [YES] * 8
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(imagine, [5, 3, 7, 1, 0, 2, 6, 4]))
+    calls = door.take_calls()
+    assert [c.node for c in calls] == ["propose", "decompose"] + ["imagine_tasks"] * 8
+    assert [c.messages[0]["content"].split("\n")[0] for c in calls[2:]] == [f"draw {n}" for n in range(8)]
+    assert door.take_calls() == []
+
+
+def test_the_cache_answers_what_was_asked_before(tmp_path: Path) -> None:
+    path = tmp_path / "llm_cache.sqlite"
+    usage = {"input_tokens": 10, "output_tokens": 2, "total_tokens": 12}
+    door, _ = door_to("no", AIMessage(content=YES, usage_metadata=usage), cache=ReplyCache(path))
+    fresh = ask(door)
+    again, model = door_to(cache=ReplyCache(path))
+    assert ask(again) == fresh
+    assert model.asked == []
+    (before,), (after,) = door.take_calls(), again.take_calls()
+    assert (before.cached, after.cached) == (False, True)
+    same = {"cached": True, "seconds": 0.0}
+    assert before.model_copy(update=same) == after.model_copy(update=same)
+
+
+def test_the_cache_tells_apart_what_decides_a_reply(tmp_path: Path) -> None:
+    picture = tmp_path / "a.png"
+    picture.write_bytes(b"one")
+    cache = ReplyCache(tmp_path / "c")
+    door, model = door_to(*[YES] * 7, cache=cache, sees=True)
+    ask(door)
+    ask(door, say="Judge again!")
+    ask(door, AT._replace(day=2))
+    ask(door, images=[picture])
+    picture.write_bytes(b"two")
+    ask(door, images=[picture])
+    door.seed = 8
+    ask(door)
+    assert len(model.asked) == 6
+    ask(door)
+    assert len(model.asked) == 6
+
+
+def test_a_call_that_failed_is_not_cached(tmp_path: Path) -> None:
+    cache = ReplyCache(tmp_path / "c")
+    door, _ = door_to("no", cache=cache, max_attempts=1)
+    with pytest.raises(ModelOutputError):
+        ask(door)
+    door, model = door_to(YES, cache=cache)
+    assert ask(door).verdicts
+    assert len(model.asked) == 1
+
+
+def test_the_offline_kind_is_never_cached(tmp_path: Path) -> None:
+    door, model = door_to(YES, YES, reads_variables=True, cache=ReplyCache(tmp_path / "c"))
+    ask(door)
+    ask(door)
+    assert len(model.asked) == 2
+
+
+def test_a_damaged_cache_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "llm_cache.sqlite"
+    path.write_bytes(b"not a database at all, but long enough to be read as one" * 100)
+    with pytest.raises(RunError, match=r"llm_cache\.sqlite"):
+        ReplyCache(path)
+    with pytest.raises(RunError, match="nowhere"):
+        ReplyCache(tmp_path / "nowhere" / "c")
