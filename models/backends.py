@@ -41,6 +41,7 @@ class Backend:
         seeded: Whether its `invoke` takes `temperature` and `seed`, or the temperature only.
         unreachable: What its client raises when the model cannot be asked.
         garbled: What its client raises when the server's answer is no chat completion.
+        address: Where its server is, if it is not where the provider has it.
     """
 
     name: str
@@ -50,6 +51,11 @@ class Backend:
     seeded: bool = True
     unreachable: tuple[type[Exception], ...] = (ModelError, OSError)
     garbled: tuple[type[Exception], ...] = ()
+    address: str | None = None
+
+    def __str__(self) -> str:
+        """The model as error messages call it."""
+        return f"{self.name} at {self.address}" if self.address else self.name
 
 
 def open_backends(
@@ -100,6 +106,7 @@ def _openai(spec: str, name: str, base_url: str | None) -> Backend:
         sees=_sees(spec, model),
         unreachable=(ModelError, errors.OpenAIError, OSError),
         garbled=(ValueError, LookupError, TypeError, AttributeError),
+        address=base_url,
     )
 
 
@@ -113,9 +120,9 @@ def _any_provider(spec: str, provider: str, name: str) -> Backend:
     try:
         model: Any = chat_models.init_chat_model(name, model_provider=provider, timeout=TIMEOUT, max_retries=RETRIES)
     except ImportError as err:
-        raise ConfigError(f"the model {spec} needs a package that is not installed: {_line(err)}") from err
+        raise ConfigError(f"the model {spec} needs a package that is not installed: {one_line(err)}") from err
     except (ValueError, TypeError) as err:
-        raise ConfigError(f'the model "{spec}" cannot be opened: {_line(err)}; a model may be {_HELP}') from err
+        raise ConfigError(f'the model "{spec}" cannot be opened: {one_line(err)}; a model may be {_HELP}') from err
     return Backend(
         spec,
         model,
@@ -140,5 +147,10 @@ def _sees(spec: str, model: BaseChatModel) -> bool:
     return spec.endswith(_PICTURES) or bool(profile.get("image_inputs"))
 
 
-def _line(err: BaseException) -> str:
-    return " ".join(str(err).split())
+def one_line(err: BaseException) -> str:
+    """An error's text on one line of bounded length, without any key that the environment holds."""
+    text = " ".join(str(err).split()) or type(err).__name__
+    for name, value in os.environ.items():
+        if name.endswith("_API_KEY") and len(value) > 3:
+            text = text.replace(value, f"<{name}>")
+    return text[:500]

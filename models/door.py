@@ -21,7 +21,7 @@ from core.errors import CooperaError, ModelCallError, ModelOutputError, RunError
 from core.hour import ModelCall
 from core.protocols import Prompts, Rendered, Reply, Role
 from core.randomness import Address, seed_at
-from models.backends import Backend, open_backends
+from models.backends import Backend, one_line, open_backends
 from models.cache import CachedReply, ReplyCache, key_of
 from models.parsing import BadReplyError, read_reply, schema_of
 
@@ -152,7 +152,7 @@ class Door:
         try:
             return self._converse(talk, text, pictures, reply, at, dict(variables))
         except CooperaError as err:
-            if not isinstance(err, ModelOutputError):
+            if len(talk.faults) < talk.attempts:
                 talk.fault(str(err))
             raise
         finally:
@@ -212,7 +212,7 @@ class Door:
                 self.cache.put(talk.fresh)
             return valid
         if reason is None:
-            raise ModelCallError(f"{name}: {talk.backend.name} gave no reply: {talk.faults[-1]}")
+            raise ModelCallError(f"{name}: {talk.backend} gave no reply: {talk.faults[-1]}")
         raise ModelOutputError(name, talk.reply, reason)
 
     def _say(self, talk: _Talk, text: str, pictures: list[Picture], variables: dict[str, Any], seed: int) -> None:
@@ -248,9 +248,9 @@ class Door:
             try:
                 answer = _answer(backend.model.invoke(talk.messages, **options))
             except backend.unreachable as err:
-                raise ModelCallError(f"{talk.rendered.name}: {backend.name} cannot be asked: {_line(err)}") from err
+                raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {one_line(err)}") from err
             except backend.garbled as err:
-                talk.fault(f"what the server sent is no reply: {_line(err)}")
+                talk.fault(f"what the server sent is no reply: {one_line(err)}")
                 return None
             if key is not None:
                 talk.fresh.append((key, answer))
@@ -297,7 +297,3 @@ def _answer(message: AIMessage) -> CachedReply:
         tokens_out=int(usage.get("output_tokens") or 0),
         cut=reason in {"length", "max_tokens"},
     )
-
-
-def _line(err: BaseException) -> str:
-    return " ".join(str(err).split())[:500] or type(err).__name__

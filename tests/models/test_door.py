@@ -247,6 +247,18 @@ def test_a_server_that_only_talks_garbage_is_a_call_error() -> None:
     door, _ = door_to(*[ValueError("choices is null")] * 3)
     with pytest.raises(ModelCallError, match="gave no reply: attempt 3: .*choices is null"):
         ask(door)
+    (call,) = door.take_calls()
+    assert [fault[:10] for fault in call.faults] == ["attempt 1:", "attempt 2:", "attempt 3:"]
+
+
+def test_an_error_names_the_server_and_gives_no_key_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ACME_API_KEY", "sk-secret")
+    door, _ = door_to(ConnectionError("the key sk-secret\nis wrong"), address="http://box:8000/v1")
+    with pytest.raises(
+        ModelCallError, match="scripted:one at http://box:8000/v1 cannot be asked: the key <ACME_API_KEY> is"
+    ):
+        ask(door)
+    assert "sk-secret" not in door.take_calls()[0].model_dump_json()
 
 
 def test_garbage_after_a_bad_reply_does_not_lose_the_repair() -> None:
