@@ -19,7 +19,7 @@ from core.people import Frozen
 from simulation.rotations import Array
 
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
-Hold: TypeAlias = Literal["right", "left", "both", "head", "floor"]
+Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
 Triple: TypeAlias = tuple[float, float, float]
 Path3: TypeAlias = Triple | list[Triple]
@@ -27,9 +27,8 @@ Path3: TypeAlias = Triple | list[Triple]
 FOLDER = Path(__file__).parent
 FALLBACK = "stand and wait"
 """What a text is taken for that shares no word with any caption."""
-_STOP = frozenset(
-    "a an and at for from her his in into it my of off on or out some someone the their to up while with".split()
-)
+_STOP = frozenset(("a", "an", "and", "at", "for", "from", "her", "his", "in", "into", "it", "my", "of", "off", "on"))
+_STOP |= {"or", "out", "some", "someone", "the", "their", "to", "up", "while", "with"}
 _WORD = re.compile(r"[a-z]+")
 
 

@@ -1,0 +1,165 @@
+"""Where to look from: the robot's standing place and the third-person camera, chosen so that the person is seen."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from simulation import fetch
+from simulation.humanoid import forward
+from simulation.navigation import Disc, Navigator
+from simulation.rotations import Array, about_z, wrapped
+from simulation.scene import Point, Scene
+from simulation.skills import Placed, clear_of
+from simulation.stage import Camera, Stage
+
+ROBOT_FOV = 60.0
+VIEW_FOV = 50.0
+_SEEN = ("head", "chest", "right_hand", "left_hand", "pelvis", "right_knee", "left_knee")
+_WEIGHTS = np.array((3.0, 2.0, 2.0, 2.0, 1.0, 0.5, 0.5))
+_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
+_WATCH = (1.4, 3.6)
+_COMFORT = 2.3
+_KEEP_OFF = 0.75
+
+
+class Focus(NamedTuple):
+    """What is to be seen: the person at its deed, the furniture that hides nothing that matters, and the room."""
+
+    person: Placed
+    ignore: tuple[str, ...]
+    room: str
+
+
+def body_points(person: Placed) -> Array:
+    """Points of the body that should be seen, in the world; shape (7, 3)."""
+    frames = forward(person.pose)
+    points = np.array([frames.place[part] for part in _SEEN])
+    turned: Array = points @ about_z(person.yaw).T + np.array((person.x, person.y, 0.0))
+    return turned
+
+
+def robot_camera(robot: Placed) -> Camera:
+    """The camera in the robot's head."""
+    place, direction = fetch.camera(robot.pose)
+    heading = about_z(robot.yaw)
+    eye = heading @ place + np.array((robot.x, robot.y, 0.0))
+    target = eye + heading @ direction
+    return Camera(_point(eye), _point(target), ROBOT_FOV)
+
+
+def _point(place: Array) -> tuple[float, float, float]:
+    return float(place[0]), float(place[1]), float(place[2])
+
+
+def seen_share(stage: Stage, eyes: Array, points: Array) -> Array:
+    """Weighted share of the body's points that each eye sees; shapes (n, 3) and (7, 3) to (n,)."""
+    starts = np.repeat(eyes, len(points), axis=0)
+    ends = np.tile(points, (len(eyes), 1))
+    free = (stage.rays(starts, ends) < 0).reshape(len(eyes), len(points))
+    share: Array = (free * _WEIGHTS).sum(axis=1) / _WEIGHTS.sum()
+    return share
+
+
+def watching_place(
+    stage: Stage, navigator: Navigator, focus: Focus, start: Point, keep_clear: list[Point], taken: list[Disc]
+) -> Point | None:
+    """Choose where the robot stands to watch: it sees most of the person, from the front, and is in nobody's way.
+
+    Args:
+        stage: Set to the home as it is, without anything in the way that is not there.
+        navigator: Of the same home.
+        focus: What to see.
+        start: Where the robot is; a short drive is preferred.
+        keep_clear: The person's way, as corner points.
+        taken: Floor that the person takes up.
+
+    Returns:
+        The place, or None if the person is seen from nowhere; the robot then stays where it is.
+    """
+    person = focus.person
+    cells = np.array(navigator.free_in(focus.room) + _doorways(navigator, focus))
+    if not len(cells):
+        return None
+    away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
+    off = np.full(len(cells), np.inf)
+    for a, b in zip(keep_clear, keep_clear[1:], strict=False):
+        off = np.minimum(off, _to_segment(cells, a, b))
+    near = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
+    if not near.any():
+        near = (away >= 0.9) & (away <= 5.0) & (off >= 0.62)
+    cells, away = cells[near], away[near]
+    cells, away = cells[::4] if len(cells) > 400 else cells, away[::4] if len(away) > 400 else away
+    keep = [i for i, (x, y) in enumerate(cells) if clear_of((float(x), float(y)), taken)]
+    if not keep:
+        return None
+    cells, away = cells[keep], away[keep]
+    towards = np.arctan2(person.y - cells[:, 1], person.x - cells[:, 0])
+    eyes = np.stack(
+        (cells[:, 0] + 0.27 * np.cos(towards), cells[:, 1] + 0.27 * np.sin(towards), 1.1 + 0 * away), axis=1
+    )
+    stage.hide(focus.ignore)
+    share = seen_share(stage, eyes, body_points(person))
+    stage.unhide(focus.ignore)
+    side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
+    drive = np.hypot(cells[:, 0] - start[0], cells[:, 1] - start[1])
+    score = 3 * share - 0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
+    best = int(np.round(score, 6).argmax())
+    return (float(cells[best, 0]), float(cells[best, 1])) if share[best] > 0.2 else None
+
+
+def _doorways(navigator: Navigator, focus: Focus) -> list[Point]:
+    """Places in the rooms next door within sight distance, for rooms too small to watch in."""
+    scene = navigator.scene
+    names = sorted({name for door in scene.doors if focus.room in door.between for name in door.between})
+    found = [cell for name in names if name != focus.room for cell in navigator.free_in(name)]
+    return [cell for cell in found if math.dist(cell, (focus.person.x, focus.person.y)) <= _WATCH[1]]
+
+
+def _to_segment(places: Array, a: Point, b: Point) -> Array:
+    start, line = np.array(a), np.array(b) - np.array(a)
+    length = float(line @ line)
+    share = np.clip(((places - start) @ line) / length, 0.0, 1.0) if length > 0 else np.zeros(len(places))
+    return np.asarray(np.hypot(*(places - start - share[:, None] * line).T))
+
+
+def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
+    """The third-person camera: of a ring of places in the room, the one that sees the body best and from the front."""
+    person = focus.person
+    points = body_points(person)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    room = scene.room(focus.room) or scene.rooms[0]
+    radii, count, heights = _RING
+    eyes = np.array(
+        [
+            (person.x + r * math.cos(k * math.tau / count), person.y + r * math.sin(k * math.tau / count), z)
+            for r in radii
+            for z in heights
+            for k in range(count)
+        ]
+    )
+    inside = np.array([_in_the_open(scene, room.bounds.grown(-0.12), eye) for eye in eyes])
+    target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
+    if not inside.any():
+        corner = room.centre
+        return Camera((corner[0], corner[1], 4.5), target, VIEW_FOV)
+    eyes = eyes[inside]
+    stage.hide(focus.ignore)
+    share = seen_share(stage, eyes, points)
+    stage.unhide(focus.ignore)
+    angle = np.arctan2(eyes[:, 1] - person.y, eyes[:, 0] - person.x)
+    side = np.array([abs(wrapped(float(a) - person.yaw)) for a in angle])
+    away = np.hypot(eyes[:, 0] - person.x, eyes[:, 1] - person.y)
+    score = 3 * share - 0.3 * np.abs(side - 0.7) - 0.2 * np.abs(away - 2.5) - 0.1 * np.abs(eyes[:, 2] - 1.9)
+    best = int(np.round(score, 6).argmax())
+    return Camera(_point(eyes[best]), target, VIEW_FOV)
+
+
+def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:
+    """Whether a camera there is in the room and in no piece of furniture."""
+    x, y, z = (float(value) for value in eye)
+    if not (bounds[0] <= x <= bounds[2] and bounds[1] <= y <= bounds[3]):
+        return False
+    return all(thing.top + 0.1 < z or thing.bounds.distance(x, y) > 0.15 for thing in scene.fixed)

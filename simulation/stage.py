@@ -1,0 +1,296 @@
+"""The pybullet side of a home: bodies are put where the truth says, rays are cast, pictures are taken.
+
+Nothing here is truth: poses go in and are never read back. One stage is one pybullet client (DIRECT, no window).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pybullet
+from numpy.typing import NDArray
+
+from core.household import Agent
+from core.randomness import seed_at
+from simulation import fetch
+from simulation.build import build
+from simulation.catalogue import catalogue
+from simulation.humanoid import JOINTS, SLICES, Frames, forward
+from simulation.recording import Held, Moment
+from simulation.rotations import Array, about_z, matrix, quaternion
+from simulation.scene import Scene
+from simulation.skills import Placed
+from simulation.state import HomeState, ThingState
+
+BODIES = Path(__file__).parent / "bodies"
+_UNKNOWN_SIZE = (0.12, 0.10, 0.12)
+_UNKNOWN_COLOURS = ("#c8503c", "#3c78b4", "#d2a03c", "#5a9650", "#8c5aa0")
+_FAR_BELOW = -50.0
+_THIN = 0.08
+_TOOL = 0.17
+_LONG = 0.7
+Point3 = tuple[float, float, float]
+Image = NDArray[np.uint8]
+
+
+class Camera(NamedTuple):
+    """Where a camera is, what it looks at, and its vertical field of view in degrees."""
+
+    eye: Point3
+    target: Point3
+    fov: float = 58.0
+
+
+class Shape(NamedTuple):
+    """What a thing looks like: its class in the catalogue (or its own text), size and colour."""
+
+    cls: str
+    size: Point3
+    rgb: Point3
+
+
+class Stage:
+    """All bodies of a home in one pybullet client; `close` it after use."""
+
+    def __init__(self, scene: Scene) -> None:
+        """Build the home, the person and the robot: about 0.1 s."""
+        self.scene = scene
+        self.client: int = pybullet.connect(pybullet.DIRECT)
+        self.home = build(scene, self.client)
+        self.person = self._load("person.urdf")
+        self.robot = self._load("fetch.urdf")
+        self._person_joints = self._joints(self.person, tuple(name for name, _ in JOINTS))
+        self._robot_joints = self._joints(self.robot, fetch.JOINTS)
+        self._shown: dict[str, ThingState] = {
+            thing.name: ThingState(position=thing.position, yaw=thing.yaw, on=thing.on) for thing in scene.movable
+        }
+        self._box: dict[str, Shape] = {}
+        self._carried: set[str] = set()
+
+    def close(self) -> None:
+        """Give the client back; a second time does nothing."""
+        if self.client >= 0:
+            pybullet.disconnect(self.client)
+            self.client = -1
+
+    def _load(self, name: str) -> int:
+        path = str(BODIES / name)
+        return int(pybullet.loadURDF(path, useFixedBase=True, physicsClientId=self.client))
+
+    def _joints(self, body: int, names: Sequence[str]) -> list[int]:
+        count = pybullet.getNumJoints(body, physicsClientId=self.client)
+        known = {pybullet.getJointInfo(body, i, physicsClientId=self.client)[1].decode(): i for i in range(count)}
+        return [known[name] for name in names]
+
+    def show(self, state: HomeState, moment: Moment) -> None:
+        """Put everything where it is at a moment."""
+        self._things(state, moment)
+        self._put_person(moment.person)
+        self._put_robot(moment.robot)
+        for name in sorted(self._carried):
+            self.home.move(name, (0.0, 0.0, _FAR_BELOW), 0.0)
+        self._carried.clear()
+        if moment.in_hand is not None:
+            self._carry("human", moment.in_hand, moment.person)
+        if moment.in_gripper is not None:
+            self._carry("robot", moment.in_gripper, moment.robot)
+
+    def _things(self, state: HomeState, moment: Moment) -> None:
+        for thing in self.scene.movable:
+            where = moment.moved.get(thing.name) or state.thing(thing)
+            if self._shown.get(thing.name) != where:
+                self.home.move(thing.name, where.position, where.yaw)
+                self._shown[thing.name] = where
+
+    def _put_person(self, person: Placed) -> None:
+        heading = about_z(person.yaw)
+        place = heading @ person.pose[SLICES["place"]] + np.array((person.x, person.y, 0.0))
+        turn = quaternion(heading @ matrix(person.pose[SLICES["turn"]]))
+        pybullet.resetBasePositionAndOrientation(self.person, place.tolist(), turn, physicsClientId=self.client)
+        pybullet.resetJointStatesMultiDof(
+            self.person,
+            self._person_joints,
+            [person.pose[SLICES[name]].tolist() for name, _ in JOINTS],
+            physicsClientId=self.client,
+        )
+
+    def _put_robot(self, robot: Placed) -> None:
+        turn = (0.0, 0.0, math.sin(robot.yaw / 2), math.cos(robot.yaw / 2))
+        pybullet.resetBasePositionAndOrientation(self.robot, (robot.x, robot.y, 0.0), turn, physicsClientId=self.client)
+        pybullet.resetJointStatesMultiDof(
+            self.robot, self._robot_joints, [[float(v)] for v in robot.pose], physicsClientId=self.client
+        )
+
+    def _carry(self, agent: Agent, held: Held, placed: Placed) -> None:
+        """Attach a thing to a hand or the gripper: it just follows."""
+        initial = self.scene.object(held.name)
+        if initial is not None and not initial.fixed:
+            name, size = held.name, initial.size
+            self._shown.pop(name, None)
+        else:
+            name, size = self._from_box(held.name)
+            self._carried.add(name)
+        place, turn = _in_hand(placed, held, size) if agent == "human" else _in_gripper(placed, size)
+        heading = about_z(placed.yaw)
+        at = heading @ place + np.array((placed.x, placed.y, 0.0))
+        self.home.move_to(name, (float(at[0]), float(at[1]), float(at[2])), quaternion(heading @ turn))
+
+    def _from_box(self, text: str) -> tuple[str, Point3]:
+        """The body of a thing from the magic box; the newest few are kept."""
+        shape = shape_of(text)
+        name = f"box:{shape.cls}"
+        if name not in self._box:
+            if len(self._box) >= 8:
+                oldest = next(iter(self._box))
+                del self._box[oldest]
+                self.home.remove(oldest)
+                self._carried.discard(oldest)
+            self.home.add(name, shape.cls, shape.size, shape.rgb)
+            self._box[name] = shape
+        return name, self._box[name].size
+
+    def hide(self, names: Sequence[str]) -> None:
+        """Move furniture out of the way of rays; `unhide` brings it back."""
+        for name in names:
+            self.home.move(name, (0.0, 0.0, _FAR_BELOW), 0.0)
+
+    def unhide(self, names: Sequence[str]) -> None:
+        """Put hidden furniture back."""
+        for name in names:
+            thing = self.scene.object(name)
+            if thing is not None:
+                self.home.move(name, thing.position, thing.yaw)
+
+    def rays(self, starts: Array, ends: Array) -> NDArray[np.int64]:
+        """Body that each ray hits first, -1 for none; starts and ends have shape (n, 3)."""
+        hits: list[int] = []
+        batch = 8192  # pybullet takes at most 16384 rays at once
+        for i in range(0, len(starts), batch):
+            found = pybullet.rayTestBatch(
+                starts[i : i + batch].tolist(), ends[i : i + batch].tolist(), physicsClientId=self.client
+            )
+            hits += [hit[0] for hit in found]
+        return np.array(hits, dtype=np.int64)
+
+    def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
+        """Render with the software renderer, without shadows.
+
+        Returns:
+            Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
+        """
+        width, height = size
+        view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
+        lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, 0.05, 30.0)
+        _, _, colours, _, mask = pybullet.getCameraImage(
+            width,
+            height,
+            view,
+            lens,
+            shadow=0,
+            lightDirection=(2.0, -3.0, 6.0),
+            renderer=pybullet.ER_TINY_RENDERER,
+            physicsClientId=self.client,
+        )
+        image: Image = np.asarray(colours, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
+        return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
+
+
+def shape_of(text: str) -> Shape:
+    """How a thing from the magic box looks: a class that its text names, or else a plain box of a fixed colour."""
+    known = catalogue().movable
+    words = text.lower().replace("_", " ").split()
+    for size in range(len(words), 0, -1):
+        for start in range(len(words) - size + 1):
+            cls = "_".join(words[start : start + size])
+            for name in (cls, cls.removesuffix("s")):
+                if name in known:
+                    return Shape(name, known[name].size, _rgb(known[name].colours[0]))
+    colour = _UNKNOWN_COLOURS[seed_at(0, "magic box", text.lower()) % len(_UNKNOWN_COLOURS)]
+    return Shape("_".join(words), _UNKNOWN_SIZE, _rgb(colour))
+
+
+def _rgb(colour: str) -> Point3:
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue
+
+
+def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:
+    """Place and turn of a held thing in the body frame."""
+    frames = forward(person.pose)
+    right, left = frames.place["right_hand"], frames.place["left_hand"]
+    ahead = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))  # the thing's front away from the body
+    if held.hold == "floor":
+        return _long_tool(right, left, size)
+    if held.hold == "head":
+        return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ ahead
+    if held.hold == "surface" and max(size[:2]) > _TOOL:
+        return _on_surface((right + left) / 2, size)
+    if held.hold == "both":
+        if size[0] > _LONG:
+            return _across(right, left, size)
+        return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
+    hand = left if held.hold == "left" else right
+    lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
+    return hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower)), ahead
+
+
+def _between(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
+    """A bulky thing between the two hands; a long one points from the right hand past the left."""
+    line = left - right
+    if size[2] > 0.6 and float(line @ line) > 0.05:
+        up = line / math.sqrt(float(line @ line))
+        front = np.array((1.0, 0.0, 0.0)) - up * up[0]
+        front /= math.sqrt(float(front @ front))
+        turn = np.stack((np.cross(front, up), front, up), axis=1)
+        return right - up * 0.22 * size[2], turn
+    turn = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    return (right + left) / 2 + np.array((0.03, 0.0, -0.5 * size[2])), turn
+
+
+def _across(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
+    """A long thing held like a guitar: its narrow end (-x) past the left hand, its top away from the body."""
+    across = right - left
+    across = across / math.sqrt(float(across @ across))
+    top = np.array((1.0, 0.0, 0.0)) - across * across[0]
+    top = top / math.sqrt(float(top @ top))
+    turn = np.stack((across, np.cross(top, across), top), axis=1)
+    return right - across * 0.22 * size[0] + top * 0.02 - turn[:, 2] * 0.5 * size[2], turn
+
+
+def _on_surface(hands: Array, size: Point3) -> tuple[Array, Array]:
+    """A thing that lies where the hands work, its front towards the person."""
+    turn = np.array(((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+    return np.array((float(hands[0]) + 0.02, 0.0, max(float(hands[2]) - 0.06 - min(size[2], 0.08) / 2, 0.0))), turn
+
+
+def _before_eyes(frames: Frames, middle: Array, size: Point3) -> tuple[Array, Array]:
+    """A thin thing held up between both hands, its top towards the face."""
+    up = frames.place["head"] - middle
+    up = up / math.sqrt(float(up @ up))
+    across = np.array((0.0, 1.0, 0.0)) - up * up[1]
+    across = across / math.sqrt(float(across @ across))
+    turn = np.stack((across, np.cross(up, across), up), axis=1)
+    return middle + 0.03 * up, turn
+
+
+def _long_tool(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
+    """A broom or mop from both hands down to the floor in front."""
+    up = left - right
+    up = up if float(up @ up) > 1e-6 else np.array((0.0, 0.0, 1.0))
+    foot = right + (right - left) * float(right[2] / max(left[2] - right[2], 0.05))
+    foot = np.array((min(float(foot[0]), 1.1), float(foot[1]), 0.0))
+    up = (left - foot) / math.sqrt(float((left - foot) @ (left - foot)))
+    across = np.array((0.0, 1.0, 0.0)) - up * up[1]
+    across = across / math.sqrt(float(across @ across))
+    if size[2] < 0.5:  # no long tool after all: keep it in the hand
+        return right - np.array((0.0, 0.0, 0.5 * size[2])), np.eye(3)
+    return foot, np.stack((across, np.cross(up, across), up), axis=1)
+
+
+def _in_gripper(robot: Placed, size: Point3) -> tuple[Array, Array]:
+    place = fetch.gripper(robot.pose).place
+    return place - np.array((0.0, 0.0, min(0.6 * size[2], 0.5 * size[2] + 0.03))), np.eye(3)

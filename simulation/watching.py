@@ -1,0 +1,86 @@
+"""The robot as an onlooker: where it goes to see the person, and the pictures of a recording."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from simulation.cameras import Focus, robot_camera, view_camera, watching_place
+from simulation.recording import Moment, Recording, person_still, robot_still
+from simulation.scene import Point
+from simulation.skills import Ground, Placed, Plan, Turn, UnableError, discs, walk
+from simulation.stage import Camera, Image, Stage
+
+
+class Watcher:
+    """Owns the stage of a home; made at the first recording."""
+
+    def __init__(self, ground: Ground) -> None:
+        """Start pybullet and build the home in it."""
+        self.ground = ground
+        self.stage = Stage(ground.scene)
+
+    def close(self) -> None:
+        """Give pybullet back."""
+        self.stage.close()
+
+    def watch(self, plan: Plan, deed: Placed, spot: Point, ignore: tuple[str, ...]) -> None:
+        """Add to a plan: the robot drives to where it will see a deed of the person, out of their way.
+
+        Args:
+            plan: The plan so far; the robot's drive is added.
+            deed: The person in the middle of the deed.
+            spot: The floor from which they do it.
+            ignore: Furniture in or at which they are, so that it hides nothing.
+        """
+        person = plan.state.person
+        route = self.ground.navigator.route(person.spot, spot)
+        room = self.ground.scene.room_at(deed.x, deed.y).name
+        elsewhere = robot_still(plan.state)._replace(x=-100.0, y=-100.0)  # it must not see itself in the way
+        self.stage.show(plan.state, Moment(person_still(self.ground.library, person), elsewhere, None, None, {}))
+        focus = Focus(deed, ignore, room)
+        place = watching_place(
+            self.stage,
+            self.ground.navigator,
+            focus,
+            plan.state.robot.spot,
+            [*(route.points or []), spot, (deed.x, deed.y)],
+            discs(plan.state, "human"),
+        )
+        if place is not None and math.dist(place, plan.state.robot.spot) > 0.3:
+            metres, steps, state = plan.metres, list(plan.steps), plan.state
+            try:
+                walk(self.ground, plan, "robot", place)
+            except UnableError:  # it cannot get there: it watches from where it is
+                plan.steps, plan.state = steps, state
+            plan.metres = metres
+        x, y = plan.state.robot.spot
+        yaw = math.atan2(deed.y - y, deed.x - x)
+        plan.steps.append(Turn(yaw))
+        plan.state = plan.state.with_robot(yaw=yaw)
+
+    def film(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, list[Image]]:
+        """Render uniformly sampled moments: pictures by view, "robot" and "human", in order of time."""
+        views: dict[int, Camera] = {}
+        pictures: dict[str, list[Image]] = {"robot": [], "human": []}
+        for tick in np.linspace(0, recording.ticks - 1, count).round().astype(int):
+            index, within = recording.find(int(tick))
+            shot = recording.shots[index]
+            if index not in views:
+                views[index] = self._view(recording, shot.at(shot.deed))
+            moment = shot.at(within)
+            self.stage.show(recording.state, moment)
+            pictures["robot"].append(self.stage.picture(robot_camera(moment.robot), size)[0])
+            pictures["human"].append(self.stage.picture(views[index], size)[0])
+        return pictures
+
+    def _view(self, recording: Recording, moment: Moment) -> Camera:
+        self.stage.show(recording.state, moment)
+        room = self.ground.scene.room_at(moment.person.x, moment.person.y).name
+        around = tuple(
+            thing.name
+            for thing in self.ground.scene.fixed
+            if thing.bounds.distance(moment.person.x, moment.person.y) < 0.05
+        )
+        return view_camera(self.stage, self.ground.scene, Focus(moment.person, around, room))

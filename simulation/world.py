@@ -1,0 +1,250 @@
+"""The home as people and robots live in it: acts change it, recordings show it, snapshots keep it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Self
+
+import numpy as np
+from PIL import Image
+from pydantic import ValidationError
+
+from core.errors import SimulationError
+from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace, plain
+from simulation.activity import free_motion
+from simulation.motions import Library, load_library
+from simulation.navigation import Navigator
+from simulation.percept import Errors, perceive
+from simulation.recording import Filming, Recording
+from simulation.scene import Scene
+from simulation.skills import Ground, Plan, UnableError, hand_over, pick_place
+from simulation.state import HomeState, PersonState, RobotState, room_of_thing
+from simulation.watching import Watcher
+
+_WEBP_QUALITY = 82
+
+
+class World:
+    """One home with one person and one robot: the `Home` of the graphs.
+
+    Truth is plain data (`state`); pybullet is started at the first recording and only shows and measures it.
+    Use it as a context manager, or call `close`.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        frame_size: tuple[int, int] = (320, 240),
+        match: Callable[[str], str] | None = None,
+        errors: Errors | None = None,
+    ) -> None:
+        """Set up a home in its initial state.
+
+        Args:
+            scene: The home.
+            frame_size: Width and height of the pictures in pixels.
+            match: Finds the caption of `motions` that a free-form text means; without it words are compared.
+            errors: How often the percept errs.
+
+        Raises:
+            SimulationError: If nobody can stand anywhere in the home.
+        """
+        self.scene = scene.id
+        self.frame_size = frame_size
+        self.errors = errors or Errors()
+        self._scene = scene
+        self._library: Library = load_library()
+        self._ground = Ground(scene, Navigator(scene), self._library, match)
+        self.state = self._initial()
+        self._watcher: Watcher | None = None
+        self._recording: Recording | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Give pybullet back; the state stays."""
+        if self._watcher is not None:
+            self._watcher.close()
+            self._watcher = None
+
+    def _initial(self) -> HomeState:
+        """The person in the middle of the most spacious room, the robot of the next one."""
+        rooms = sorted(self._scene.rooms, key=lambda room: (-_area(room.bounds), room.name))
+        places = [place for room in rooms if (place := self._ground.navigator.middle_of(room.name)) is not None]
+        person = places[0]
+        robot = next((place for place in places[1:] if math.dist(place, person) > 1.0), None)
+        if robot is None:
+            cells = self._ground.navigator.free_in(rooms[0].name)
+            robot = max(cells, key=lambda cell: round(math.dist(cell, person), 3))
+        return HomeState(scene=self.scene, person=PersonState(spot=person, place=person), robot=RobotState(spot=robot))
+
+    @property
+    def rooms(self) -> list[str]:
+        """Names of the rooms, sorted."""
+        return sorted(room.name for room in self._scene.rooms)
+
+    @property
+    def motions(self) -> list[str]:
+        """Captions of the motions the person's body can do, sorted."""
+        return self._library.captions
+
+    def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
+        """The object-room mapping as things now stand, sorted by name."""
+        if kind == "fixed":
+            return {thing.name: (thing.id, thing.room) for thing in self._scene.fixed}
+        return {thing.name: (thing.id, room_of_thing(self._scene, self.state, thing)) for thing in self._scene.movable}
+
+    def class_of(self, name: str) -> str:
+        """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
+        thing = self._scene.object(name)
+        return thing.cls if thing is not None else name
+
+    def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
+        """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
+
+        With `record`, the robot first drives to where it sees the person, and the act is kept for `percept` and
+        `frames`. Something impossible is a failed outcome with its reason, and the home stays as it was.
+        """
+        before = self.state
+        watcher = self._watching() if record else None
+        try:
+            plan = self._plan(agent, act, watcher)
+        except UnableError as unable:
+            if record:
+                self._recording = None
+            return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
+        if watcher is not None:
+            recording = Filming(self._library, before).film(plan.steps, agent)
+            recording.motion = plan.motion or self._library[before.person.motion]
+            recording.near = plan.at
+            recording.in_hand = act.object if isinstance(act, PickPlace) else plan.state.person.thing
+            self._recording = recording
+        self.state = plan.state
+        return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
+
+    def _plan(self, agent: Agent, act: Act, watcher: Watcher | None) -> Plan:
+        watch = watcher.watch if watcher is not None and agent == "human" else None
+        if isinstance(act, PickPlace):
+            return pick_place(self._ground, self.state, agent, act, watch)
+        if isinstance(act, HandOver):
+            if agent != "robot":
+                raise UnableError("only the robot hands things over")
+            return hand_over(self._ground, self.state, act)
+        if agent != "human":
+            raise UnableError("only the person moves freely")
+        return free_motion(self._ground, self.state, act, watch)
+
+    def _watching(self) -> Watcher:
+        if self._watcher is None:
+            self._watcher = Watcher(self._ground)
+        return self._watcher
+
+    def percept(self, rng: np.random.Generator) -> Percept:
+        """What a perception module reports of the recording, with its errors drawn from `rng`.
+
+        Raises:
+            SimulationError: If nothing has been recorded since the start or the last `restore`.
+        """
+        recording = self._recorded()
+        return perceive(
+            self._watching().stage,
+            self._scene,
+            recording,
+            self._library,
+            errors=self.errors,
+            class_of=self.class_of,
+            rng=rng,
+        )
+
+    def frames(self, count: int, folder: Path) -> list[Path]:
+        """Render `count` uniformly sampled moments of the recording from two views into `folder`.
+
+        Files are robot-0.webp … and human-0.webp …; robot views first in the returned list.
+
+        Raises:
+            SimulationError: If nothing has been recorded, or the folder cannot be written.
+        """
+        recording = self._recorded()
+        folder = Path(folder)
+        pictures = self._watching().film(recording, count, self.frame_size)
+        paths = []
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            for name in ("robot", "human"):
+                for i, image in enumerate(pictures[name]):
+                    path = folder / f"{name}-{i}.webp"
+                    Image.fromarray(image).save(path, "WEBP", quality=_WEBP_QUALITY, method=4)
+                    paths.append(path)
+        except OSError as err:
+            raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
+        return paths
+
+    def _recorded(self) -> Recording:
+        if self._recording is None or not self._recording.shots:
+            raise SimulationError("Nothing has been recorded: call perform with record=True first, and see it succeed.")
+        return self._recording
+
+    def snapshot(self) -> dict[str, Any]:
+        """The whole state as plain JSON data of a few kB; a recording is not part of it."""
+        return self.state.model_dump(mode="json")
+
+    def restore(self, snapshot: Mapping[str, Any]) -> None:
+        """Set the state to a snapshot, exactly; the recording is forgotten.
+
+        Raises:
+            SimulationError: If the snapshot is damaged or of another home.
+        """
+        try:
+            state = HomeState.model_validate(dict(snapshot))
+        except ValidationError as err:
+            first = err.errors()[0]
+            where = ".".join(str(part) for part in first["loc"])
+            raise SimulationError(f"The snapshot of the home cannot be used, field {where}: {first['msg']}.") from err
+        if state.scene != self.scene:
+            raise SimulationError(f"The snapshot is of the home {state.scene!r}, but this is {self.scene!r}.")
+        strange = sorted(set(state.moved) - {thing.name for thing in self._scene.movable})
+        if strange:
+            raise SimulationError(f"The snapshot moves {strange[0]!r}, which this home does not have.")
+        self.state = state
+        self._recording = None
+
+    def on(self, cls: str, receptacle_cls: str) -> bool:
+        """Whether some thing of a class is on (or in) some furniture of a class."""
+        for thing in self._scene.movable:
+            where = self.state.thing(thing).on
+            if thing.cls == cls and where is not None and self.class_of(where) == receptacle_cls:
+                return True
+        return False
+
+    def holding(self, agent: Agent, cls: str) -> bool:
+        """Whether an agent has a thing of a class in its hand."""
+        thing = self.state.person.thing if agent == "human" else self.state.robot.thing
+        return thing is not None and plain(self.class_of(thing)) == plain(cls)
+
+    def near(self, agent: Agent, cls: str, within: float = 1.0) -> bool:
+        """Whether an agent is within some metres of furniture of a class, in the same room."""
+        place = self.state.person.place if agent == "human" else self.state.robot.spot
+        room = self._scene.room_at(*place).name
+        return any(
+            thing.cls == cls and thing.room == room and thing.bounds.distance(*place) <= within
+            for thing in self._scene.fixed
+        )
+
+    def at(self, agent: Agent, room: str) -> bool:
+        """Whether an agent is in a room."""
+        place = self.state.person.place if agent == "human" else self.state.robot.spot
+        return self._scene.room_at(*place).name == room
+
+
+def _area(bounds: tuple[float, float, float, float]) -> float:
+    return round((bounds[2] - bounds[0]) * (bounds[3] - bounds[1]), 6)
