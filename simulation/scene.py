@@ -30,6 +30,7 @@ TOUCH = 0.02
 Kind: TypeAlias = Literal["fixed", "movable"]
 Point: TypeAlias = tuple[float, float]
 Length = Annotated[float, Field(gt=0, le=20)]
+Place = Annotated[float, Field(ge=-100, le=100)]
 Label = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
 
 
@@ -64,10 +65,10 @@ class Room(Frozen):
 
     name: str = Field(min_length=1, max_length=60)
     kind: str = Field(min_length=1, max_length=60)
-    x0: float
-    y0: float
-    x1: float
-    y1: float
+    x0: Place
+    y0: Place
+    x1: Place
+    y1: Place
 
     @model_validator(mode="after")
     def _has_area(self) -> Room:
@@ -94,8 +95,8 @@ class Door(Frozen):
     """An opening in the wall that two rooms share; (x, y) is its middle."""
 
     between: tuple[str, str]
-    x: float
-    y: float
+    x: Place
+    y: Place
     width: float = Field(DOOR_WIDTH, ge=0.7, le=3.0)
 
 
@@ -121,8 +122,8 @@ class SceneObject(Frozen):
     category: str = Field(min_length=1, max_length=60)
     fixed: bool
     room: str
-    position: tuple[float, float, float]
-    yaw: float = 0.0
+    position: tuple[Place, Place, Place]
+    yaw: Annotated[float, Field(ge=-100, le=100)] = 0.0
     size: tuple[Length, Length, Length]
     colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
     on: str | None = None
@@ -340,6 +341,8 @@ def parse_scene(text: str, source: str) -> Scene:
         return Scene.model_validate(json.loads(text, parse_constant=_refuse))
     except json.JSONDecodeError as err:
         raise ConfigError(f"The scene file {source}, line {err.lineno}, is not valid JSON: {err.msg}.") from err
+    except RecursionError as err:
+        raise ConfigError(f"The scene file {source} is not valid JSON: it is nested too deeply.") from err
     except ValidationError as err:
         first = err.errors()[0]
         field = ".".join(str(part) for part in first["loc"]) or "the whole file"

@@ -13,6 +13,9 @@ from typing import Literal, NamedTuple, TypeAlias
 MOST_PARTS = 16
 """pybullet crashes on a visual shape array of more parts (measured on 3.2.7)."""
 
+_THIN = 5e-4
+"""No part is thinner, however odd the proportions of an imported thing."""
+
 Colour: TypeAlias = tuple[float, float, float]
 Size: TypeAlias = tuple[float, float, float]
 Axis: TypeAlias = Literal["x", "y", "z"]
@@ -67,7 +70,7 @@ class Kit:
         self, at: tuple[float, float, float], size: Size, colour: Colour | None = None, *, tilt: float = 0.0
     ) -> None:
         """Add a box by the centre of its base; `tilt` (radians) leans it about x, its top towards -y."""
-        half = (size[0] / 2, size[1] / 2, size[2] / 2)
+        half = (max(size[0] / 2, _THIN), max(size[1] / 2, _THIN), max(size[2] / 2, _THIN))
         turn = (math.sin(tilt / 2), 0.0, 0.0, math.cos(tilt / 2))
         middle = (at[0], at[1], at[2] + half[2])
         self._add("box", middle, turn, colour, half=half)
@@ -93,7 +96,7 @@ class Kit:
         axis: Axis = "z",
     ) -> None:
         """Add a capsule by its centre; `length` is from tip to tip."""
-        self._add("capsule", at, _TURN[axis], colour, radius=radius, length=max(length - 2 * radius, 1e-3))
+        self._add("capsule", at, _TURN[axis], colour, radius=radius, length=length - 2 * radius)
 
     def ball(self, at: tuple[float, float, float], radius: float, colour: Colour | None = None) -> None:
         """Add a sphere by its centre."""
@@ -116,6 +119,7 @@ class Kit:
         radius: float = 0.01,
         length: float = 0.01,
     ) -> None:
+        radius, length = max(radius, _THIN), max(length, _THIN)
         rgba = (*(self.colour if colour is None else colour), 1.0)
         self.parts.append(Part(kind, half, radius, length, position, orientation, rgba))
 
