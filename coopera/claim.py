@@ -7,6 +7,7 @@ import os
 import shutil
 import socket
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -20,15 +21,17 @@ def refuse_used(out: Path) -> None:
     Raises:
         ConfigError: If it holds another run, is not empty, or is a file.
     """
-    if (out / "run.json").exists():
-        raise ConfigError(f"out: {out} already holds another run; choose another folder, or `coopera resume {out}`.")
-    if out.exists() and not out.is_dir():
-        raise ConfigError(f"out: {out} must be a folder, and it is a file.")
     try:
+        if (out / "run.json").exists():
+            raise ConfigError(
+                f"out: {out} already holds another run; choose another folder, or `coopera resume {out}`."
+            )
+        if out.exists() and not out.is_dir():
+            raise ConfigError(f"out: {out} must be a folder, and it is a file.")
         if out.is_dir() and any(out.iterdir()):
             raise ConfigError(f"out: {out} is not empty; a new run needs an empty folder or a new one.")
     except OSError as err:
-        raise ConfigError(f"out: {out} cannot be read ({reason(err)}).") from err
+        raise ConfigError(f"out: {out} cannot be written ({reason(err)}).") from err
 
 
 def make_folder(out: Path) -> list[Path]:
@@ -50,11 +53,11 @@ def make_folder(out: Path) -> list[Path]:
 def clear(root: Path, made: Sequence[Path]) -> None:
     """Undo a start that failed: our files go, and so do the folders that were made for them."""
     for name in ("config.yaml", "run.json", "lock"):
-        if (root / name).is_file():
+        with suppress(OSError):
             (root / name).unlink()
     shutil.rmtree(root / "people", ignore_errors=True)
     for folder in made:
-        if folder.is_dir() and not any(folder.iterdir()):
+        with suppress(OSError):  # one that is not empty holds something of others, and stays
             folder.rmdir()
 
 

@@ -26,7 +26,7 @@ def write_record(path: Path, record: HourRecord | Evening) -> None:
     Raises:
         RunError: If the file cannot be written or the record holds a number that is not finite.
     """
-    data = record.model_dump(mode="json")
+    data = record.model_dump()  # not in JSON mode, which would silently turn a NaN into null
     if isinstance(record, HourRecord):
         _derive(data, record)
     try:

@@ -20,7 +20,7 @@ def list_prompts(prompts: PromptFolder = None, as_json: AsJson = False) -> None:
     from prompts import PromptLibrary
 
     library = PromptLibrary(prompts)
-    heads = {name: library.head(name) for name in library.names()}
+    heads = {name: library.head(name) for name in library.names}
     if as_json:
         found = [
             {**head.model_dump(mode="json"), "sha": library.hashes()[name], "file": str(library.path(name))}
@@ -61,7 +61,7 @@ def check(
     from prompts import check as faults_of
 
     faults = faults_of(folder) if folder else []
-    count = 0 if faults else len(PromptLibrary(folder).names())
+    count = 0 if faults else len(PromptLibrary(folder).names)
     if as_json:
         typer.echo(json.dumps({"faults": faults, "prompts": count}, ensure_ascii=False))
     if faults:

@@ -90,17 +90,9 @@ def resume(run: RunPath, as_json: AsJson = False) -> None:
 
 def _hours_of(config: Any) -> int:
     """How many hours the whole run has."""
-    from evaluation.settings import SETTINGS, schedule
+    from coopera.study import plan_days
 
-    plans = schedule(
-        SETTINGS[config.setting],
-        config.humans,
-        config.scenes,
-        days=config.days,
-        hours=config.hours,
-        collab=config.collab,
-    )
-    return sum(len(plan.hours) for plan in plans)
+    return sum(len(plan.hours) for plan in plan_days(config))
 
 
 def _carry_out(

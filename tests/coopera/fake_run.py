@@ -58,6 +58,7 @@ def fake_run(
     frames: int = 8,
     seed: int = 0,
     finished: bool = True,
+    lived: bool = True,
 ) -> RunDir:
     """Write a run in which the robot grows better; hour 16 of day 1 failed and one candidate is unscored."""
     config = Config(
@@ -67,7 +68,7 @@ def fake_run(
     prompts = {"human/intention": "ab" * 32, "robot/intentions": "cd" * 32}
     models = dict.fromkeys(("human", "robot", "judge"), "offline routine model")
     with RunDir.create(config, people=personas, prompts=prompts, models=models) as run:
-        for day in range(days * len(people)):
+        for day in range(days * len(people) if lived else 0):
             persona = personas[day // days]
             records = [_hour(run, persona, day, day % days, hour, config) for hour in config.day_hours]
             for record in records:
