@@ -43,7 +43,7 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     person, used = _placed(ground, plan, target, motion)
     if watch is not None:
         pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
-        watch(plan, Placed(*person.place, person.yaw, pose), person.spot, tuple(sorted({target.name, used.name})))
+        watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     walk(ground, plan, "human", person.spot, carries=act.in_hand)
     spot = plan.state.person.spot
     place = spot if person.place == person.spot else person.place

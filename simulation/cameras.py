@@ -22,7 +22,10 @@ _WEIGHTS = np.array((3.0, 2.0, 2.0, 2.0, 1.0, 0.5, 0.5))
 _RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _WATCH = (1.4, 3.6)
 _COMFORT = 2.3
-_KEEP_OFF = 0.75
+_KEEP_OFF = 0.9
+_GLANCES = 3
+_APART = 0.8
+"""Places that are looked through are at least this far apart (metres)."""
 
 
 class Focus(NamedTuple):
@@ -88,8 +91,8 @@ def watching_place(
     for a, b in zip(keep_clear, keep_clear[1:], strict=False):
         off = np.minimum(off, _to_segment(cells, a, b))
     near = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
-    if not near.any():
-        near = (away >= 0.9) & (away <= 5.0) & (off >= 0.62)
+    if near.sum() < 20:
+        near = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
     cells, away = cells[near], away[near]
     cells, away = cells[::4] if len(cells) > 400 else cells, away[::4] if len(away) > 400 else away
     keep = [i for i, (x, y) in enumerate(cells) if clear_of((float(x), float(y)), taken)]
@@ -106,8 +109,33 @@ def watching_place(
     side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
     drive = np.hypot(cells[:, 0] - start[0], cells[:, 1] - start[1])
     score = 3 * share - 0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
-    best = int(np.round(score, 6).argmax())
-    return (float(cells[best, 0]), float(cells[best, 1])) if share[best] > 0.2 else None
+    best = [i for i in _best_apart(cells, score) if share[i] > 0.2]
+    if not best:
+        return None
+    aim = body_points(person)[1]
+    cameras = [Camera(_point(eyes[i]), _point(aim), ROBOT_FOV) for i in best]
+    chosen = best[_clearest(stage, cameras, score[best])]
+    return float(cells[chosen, 0]), float(cells[chosen, 1])
+
+
+def _best_apart(places: Array, score: Array) -> list[int]:
+    """The few best places that lie apart, best first."""
+    found: list[int] = []
+    for i in np.argsort(-np.round(score, 6), kind="stable"):
+        if all(math.hypot(*(places[i, :2] - places[j, :2])) >= _APART for j in found):
+            found.append(int(i))
+        if len(found) == _GLANCES:
+            break
+    return found
+
+
+def _clearest(stage: Stage, cameras: list[Camera], score: Array) -> int:
+    """Which camera to take, by a small picture through each: the person large, nothing close before the lens."""
+    values = []
+    for camera, already in zip(cameras, score, strict=True):
+        person, close = stage.glance(camera)
+        values.append(round(float(already) + 12 * min(person, 0.12) - 3 * close, 6))
+    return values.index(max(values))
 
 
 def _doorways(navigator: Navigator, focus: Focus) -> list[Point]:
@@ -153,8 +181,9 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     side = np.array([abs(wrapped(float(a) - person.yaw)) for a in angle])
     away = np.hypot(eyes[:, 0] - person.x, eyes[:, 1] - person.y)
     score = 3 * share - 0.3 * np.abs(side - 0.7) - 0.2 * np.abs(away - 2.5) - 0.1 * np.abs(eyes[:, 2] - 1.9)
-    best = int(np.round(score, 6).argmax())
-    return Camera(_point(eyes[best]), target, VIEW_FOV)
+    best = _best_apart(eyes, score)
+    cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
+    return cameras[_clearest(stage, cameras, score[best])]
 
 
 def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:

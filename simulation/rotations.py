@@ -72,8 +72,8 @@ def slerp(a: Array, b: Array, share: float) -> Array:
         mixed: Array = a + share * (b - a)
         return mixed / math.sqrt(float(mixed @ mixed))
     angle = math.acos(min(dot, 1.0))
-    mixed = (math.sin((1 - share) * angle) * a + math.sin(share * angle) * b) / math.sin(angle)
-    return mixed
+    turned: Array = (math.sin((1 - share) * angle) * a + math.sin(share * angle) * b) / math.sin(angle)
+    return turned
 
 
 def wrapped(angle: float) -> float:

@@ -93,7 +93,7 @@ Step = Walk | Turn | Handle | Give | Play
 class Watch(Protocol):
     """Called before each deed of the person: lets the robot go where it will see it."""
 
-    def __call__(self, plan: Plan, deed: Placed, spot: Point, ignore: tuple[str, ...]) -> None:
+    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
         """Add the robot's drive to the plan; the deed is the person in the middle of it."""
         ...
 
@@ -286,7 +286,7 @@ def take(ground: Ground, plan: Plan, agent: Agent, thing: SceneObject, watch: Wa
     for tries, stand in enumerate(stands_for(ground, plan, agent, carrier, where.position[:2])):
         posture = posture_for(agent, stand, point)
         if posture is not None:
-            _watched(watch, plan, stand, posture, carrier)
+            _watched(watch, plan, stand, posture)
             walk(ground, plan, agent, (stand.x, stand.y))
             plan.steps.append(Handle(agent, stand, posture, thing.name, None))
             _face(plan, agent, stand)
@@ -323,7 +323,7 @@ def put(
         for tries, stand in enumerate(stands_for(ground, plan, agent, receptacle, place[:2])):
             posture = posture_for(agent, stand, point)
             if posture is not None:
-                _watched(watch, plan, stand, posture, receptacle)
+                _watched(watch, plan, stand, posture)
                 walk(ground, plan, agent, (stand.x, stand.y), carries=thing.name)
                 there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
                 plan.steps.append(Handle(agent, stand, posture, thing.name, there))
@@ -336,10 +336,9 @@ def put(
     raise UnableError(f"the {agent} cannot reach a free place on the {plain(receptacle.name)}")
 
 
-def _watched(watch: Watch | None, plan: Plan, stand: Stand, posture: Array, at: SceneObject | None) -> None:
+def _watched(watch: Watch | None, plan: Plan, stand: Stand, posture: Array) -> None:
     if watch is not None:
-        deed = Placed(stand.x, stand.y, stand.yaw, posture)
-        watch(plan, deed, (stand.x, stand.y), (at.name,) if at is not None else ())
+        watch(plan, Placed(stand.x, stand.y, stand.yaw, posture), (stand.x, stand.y))
 
 
 def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:

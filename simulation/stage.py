@@ -33,6 +33,10 @@ _FAR_BELOW = -50.0
 _THIN = 0.08
 _TOOL = 0.17
 _LONG = 0.7
+_FINE = 0.125
+_NEAR, _FAR = 0.05, 30.0
+_GLANCE = (64, 48)
+_CLOSE = 0.9  # metres
 Point3 = tuple[float, float, float]
 Image = NDArray[np.uint8]
 
@@ -182,10 +186,15 @@ class Stage:
         Returns:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
         """
+        image, mask, _ = self._render(camera, size)
+        return image, mask
+
+    def _render(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64], Array]:
+        """Colours, bodies and distances (metres along the view) of each pixel."""
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
-        lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, 0.05, 30.0)
-        _, _, colours, _, mask = pybullet.getCameraImage(
+        lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, _NEAR, _FAR)
+        _, _, colours, depth, mask = pybullet.getCameraImage(
             width,
             height,
             view,
@@ -196,7 +205,15 @@ class Stage:
             physicsClientId=self.client,
         )
         image: Image = np.asarray(colours, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
-        return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
+        buffer = np.asarray(depth, dtype=np.float64).reshape(height, width)
+        metres: Array = _FAR * _NEAR / (_FAR - (_FAR - _NEAR) * buffer)
+        return image, np.asarray(mask, dtype=np.int64).reshape(height, width), metres
+
+    def glance(self, camera: Camera) -> tuple[float, float]:
+        """Take a small picture and judge it: share of the person's pixels, and of pixels right before the camera."""
+        image, mask, depth = self._render(camera, _GLANCE)
+        del image
+        return float((mask == self.person).mean()), float(((depth < _CLOSE) & (mask != self.person)).mean())
 
 
 def shape_of(text: str) -> Shape:
@@ -223,7 +240,7 @@ def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:
     frames = forward(person.pose)
     right, left = frames.place["right_hand"], frames.place["left_hand"]
     ahead = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))  # the thing's front away from the body
-    if held.hold == "floor":
+    if held.hold == "floor" and size[0] > _LONG:
         return _long_tool(right, left, size)
     if held.hold == "head":
         return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ ahead
@@ -233,6 +250,8 @@ def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:
         if size[0] > _LONG:
             return _across(right, left, size)
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
+    if held.hold != "left" and size[0] > 1.7 * size[1] and size[2] < _FINE:
+        return _handled(frames, size)
     hand = left if held.hold == "left" else right
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     return hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower)), ahead
@@ -252,13 +271,25 @@ def _between(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
 
 
 def _across(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
-    """A long thing held like a guitar: its narrow end (-x) past the left hand, its top away from the body."""
-    across = right - left
+    """A long thing held like a guitar: its thick end (-x) at the right hand, its top away from the body."""
+    across = left - right
     across = across / math.sqrt(float(across @ across))
     top = np.array((1.0, 0.0, 0.0)) - across * across[0]
     top = top / math.sqrt(float(top @ top))
     turn = np.stack((across, np.cross(top, across), top), axis=1)
-    return right - across * 0.22 * size[0] + top * 0.02 - turn[:, 2] * 0.5 * size[2], turn
+    return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
+
+
+def _handled(frames: Frames, size: Point3) -> tuple[Array, Array]:
+    """A tool held at its handle (+x): a thin one goes on where the forearm points, a pan stays level."""
+    arm = frames.turn["right_hand"] @ np.array((0.0, 0.0, -1.0))
+    if size[1] > _FINE:
+        arm = np.array((1.0, 0.0, 0.0))
+    up = np.array((0.0, 0.0, 1.0)) if abs(float(arm[2])) < 0.95 else np.array((1.0, 0.0, 0.0))
+    up = up - arm * float(up @ arm)
+    up = up / math.sqrt(float(up @ up))
+    turn = np.stack((-arm, np.cross(up, -arm), up), axis=1)
+    return frames.place["right_hand"] + arm * (0.5 * size[0] - 0.07) - up * 0.5 * size[2], turn
 
 
 def _on_surface(hands: Array, size: Point3) -> tuple[Array, Array]:
@@ -278,17 +309,15 @@ def _before_eyes(frames: Frames, middle: Array, size: Point3) -> tuple[Array, Ar
 
 
 def _long_tool(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
-    """A broom or mop from both hands down to the floor in front."""
-    up = left - right
-    up = up if float(up @ up) > 1e-6 else np.array((0.0, 0.0, 1.0))
-    foot = right + (right - left) * float(right[2] / max(left[2] - right[2], 0.05))
-    foot = np.array((min(float(foot[0]), 1.1), float(foot[1]), 0.0))
-    up = (left - foot) / math.sqrt(float((left - foot) @ (left - foot)))
+    """A broom from both hands down to the floor in front; the end at -x sweeps."""
+    low, high = (right, left) if right[2] < left[2] else (left, right)
+    slope = (low - high) / max(float(high[2] - low[2]), 0.05)
+    foot = low + slope * float(low[2])
+    foot = np.array((min(max(float(foot[0]), 0.35), 0.9), float(foot[1]), 0.0))
+    up = (high - foot) / math.sqrt(float((high - foot) @ (high - foot)))
     across = np.array((0.0, 1.0, 0.0)) - up * up[1]
     across = across / math.sqrt(float(across @ across))
-    if size[2] < 0.5:  # no long tool after all: keep it in the hand
-        return right - np.array((0.0, 0.0, 0.5 * size[2])), np.eye(3)
-    return foot, np.stack((across, np.cross(up, across), up), axis=1)
+    return foot + up * 0.5 * size[0], np.stack((up, across, np.cross(up, across)), axis=1)
 
 
 def _in_gripper(robot: Placed, size: Point3) -> tuple[Array, Array]:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from simulation.cameras import Focus, robot_camera, view_camera, watching_place
-from simulation.recording import Moment, Recording, person_still, robot_still
+from simulation.recording import Moment, Recording, robot_still
 from simulation.scene import Point
 from simulation.skills import Ground, Placed, Plan, Turn, UnableError, discs, walk
 from simulation.stage import Camera, Image, Stage
@@ -25,21 +25,19 @@ class Watcher:
         """Give pybullet back."""
         self.stage.close()
 
-    def watch(self, plan: Plan, deed: Placed, spot: Point, ignore: tuple[str, ...]) -> None:
+    def watch(self, plan: Plan, deed: Placed, spot: Point) -> None:
         """Add to a plan: the robot drives to where it will see a deed of the person, out of their way.
 
         Args:
             plan: The plan so far; the robot's drive is added.
             deed: The person in the middle of the deed.
             spot: The floor from which they do it.
-            ignore: Furniture in or at which they are, so that it hides nothing.
         """
         person = plan.state.person
         route = self.ground.navigator.route(person.spot, spot)
-        room = self.ground.scene.room_at(deed.x, deed.y).name
         elsewhere = robot_still(plan.state)._replace(x=-100.0, y=-100.0)  # it must not see itself in the way
-        self.stage.show(plan.state, Moment(person_still(self.ground.library, person), elsewhere, None, None, {}))
-        focus = Focus(deed, ignore, room)
+        self.stage.show(plan.state, Moment(deed, elsewhere, None, None, {}))
+        focus = self._focus(deed)
         place = watching_place(
             self.stage,
             self.ground.navigator,
@@ -77,10 +75,10 @@ class Watcher:
 
     def _view(self, recording: Recording, moment: Moment) -> Camera:
         self.stage.show(recording.state, moment)
-        room = self.ground.scene.room_at(moment.person.x, moment.person.y).name
-        around = tuple(
-            thing.name
-            for thing in self.ground.scene.fixed
-            if thing.bounds.distance(moment.person.x, moment.person.y) < 0.05
-        )
-        return view_camera(self.stage, self.ground.scene, Focus(moment.person, around, room))
+        return view_camera(self.stage, self.ground.scene, self._focus(moment.person))
+
+    def _focus(self, person: Placed) -> Focus:
+        """The person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
+        scene = self.ground.scene
+        around = tuple(thing.name for thing in scene.fixed if thing.bounds.distance(person.x, person.y) < 0.05)
+        return Focus(person, around, scene.room_at(person.x, person.y).name)
