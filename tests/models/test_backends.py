@@ -28,9 +28,10 @@ from transformers import (
     PreTrainedTokenizerFast,
 )
 
+from core.asks import ASKS
 from core.errors import ConfigError, ModelCallError, ModelOutputError
 from core.randomness import Address
-from core.replies import VerdictsReply
+from core.replies import REPLIES, VerdictsReply
 from models.backends import Backend, open_backend, open_backends
 from models.door import Door, open_door
 from models.huggingface import GumbelDraw, HuggingFaceChat, open_model
