@@ -112,6 +112,13 @@ def test_the_offline_door_answers_a_shipped_prompt_and_leaves_no_cache_file(tmp_
     assert not cache.exists()
 
 
+@pytest.mark.parametrize("name", sorted(ASKS))
+def test_the_offline_door_answers_every_prompt_whatever_its_variables(name: str) -> None:
+    door = open_door(prompts=PromptLibrary(), specs={}, seed=1, embeddings=EMBEDDINGS, max_attempts=1)
+    for variables in examples(name):
+        door(name, REPLIES[ASKS[name].reply], at=AT, variables=variables)
+
+
 @pytest.mark.parametrize(
     "spec", ["", "gpt-4o", "Offline", "openai:", ":model", "nobody:model", "openai: ", "offline:x"]
 )
