@@ -17,10 +17,11 @@ from evaluation import METHODS, Measure
 from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
 from memory import MemoryStream, Search, bundled
-from models import open_door
 from models.classifiers import Inputs, make_classifier
+from models.door import open_door
 from prompts import PromptLibrary
 from simulation import World, load_scene
+from simulation.motions import load_library
 
 
 def model_specs(config: Config) -> dict[Role, str]:
@@ -120,10 +121,7 @@ def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddin
     return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
 
 
-def _nearest_motion(embeddings: Embeddings) -> Callable[[str, list[str]], str]:
+def _nearest_motion(embeddings: Embeddings) -> Callable[[str], str]:
     """The library motion whose caption is most similar to a free-form text."""
-
-    def match(text: str, captions: list[str]) -> str:
-        return Search(embeddings, captions).top(text, 1)[0][0]
-
-    return match
+    search = Search(embeddings, load_library().captions)
+    return lambda text: search.top(text, 1)[0][0]
