@@ -39,9 +39,15 @@ def open_ask(
     *,
     prompts: PromptLibrary | None = None,
     embeddings: Embeddings | None = None,
-    cache: Path | None = None,
+    root: Path | None = None,
 ) -> Ask:
     """Open the one door to the configured language models.
+
+    Args:
+        config: Says which models.
+        prompts: The prompt folder, where it has been read already.
+        embeddings: The sentence encoder, where it has been opened already.
+        root: The run directory: pictures are named relative to it, and replies are cached in it.
 
     Raises:
         PromptError: If a prompt file is broken, naming file and line.
@@ -53,7 +59,8 @@ def open_ask(
         seed=config.seed,
         embeddings=embeddings or open_embeddings(config),
         base_url=config.base_url,
-        cache=cache,
+        cache=root / "llm_cache.sqlite" if root else None,
+        root=root,
     )
 
 
@@ -71,7 +78,7 @@ def open_services(
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
-        ask = open_ask(config, prompts=prompts, embeddings=embeddings, cache=recorder.root / "llm_cache.sqlite")
+        ask = open_ask(config, prompts=prompts, embeddings=embeddings, root=recorder.root)
         method = METHODS[config.method]
         yield Services(
             ask=ask,
