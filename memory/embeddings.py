@@ -18,6 +18,7 @@ from memory import minilm
 from memory.minilm import Vector
 
 _LOG = logging.getLogger(__name__)
+_HUGGING_FACE = "Hugging Face "
 _IN_RAM = 65_536  # vectors kept in RAM; 100 MB of MiniLM's
 _PER_QUERY = 500
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
@@ -190,6 +191,58 @@ def bundled(cache: Path | None = None) -> CachedEmbeddings:
         MemoryStoreError: If the cache file cannot be used.
     """
     return CachedEmbeddings(lambda text: minilm.shared().encode(text), minilm.model_id(), cache, minilm.DIMENSION)
+
+
+def hugging_face(model: str, cache: Path | None = None) -> CachedEmbeddings:
+    """Return the embeddings of any sentence-transformers or Hugging Face encoder, by name or folder.
+
+    A name is looked up among the downloaded models, and downloaded at the first text if it is not there.
+
+    Args:
+        model: Such as "BAAI/bge-small-en-v1.5", or a folder.
+        cache: As for `bundled`.
+
+    Raises:
+        MemoryStoreError: At the first text, if the model cannot be loaded.
+    """
+    return CachedEmbeddings(_HuggingFace(model), _HUGGING_FACE + model, cache)
+
+
+def by_identity(model_id: str, cache: Path | None = None) -> CachedEmbeddings:
+    """Return the embeddings that a stream was written with.
+
+    Raises:
+        MemoryStoreError: If they are of the caller's own making.
+    """
+    if model_id.startswith(_HUGGING_FACE):
+        return hugging_face(model_id.removeprefix(_HUGGING_FACE), cache)
+    if model_id == minilm.model_id():
+        return bundled(cache)
+    raise MemoryStoreError(f"the embeddings {model_id!r} are not known by their name; they must be given")
+
+
+class _HuggingFace:
+    """An encoder that loads with its first text."""
+
+    def __init__(self, model: str) -> None:
+        self._name = model
+        self._model: Embeddings | None = None
+
+    def __call__(self, text: str) -> Vector:
+        if self._model is None:
+            import torch  # noqa: PLC0415 - heavy
+            from langchain_huggingface import HuggingFaceEmbeddings  # noqa: PLC0415
+
+            torch.set_num_threads(1)
+            try:
+                self._model = HuggingFaceEmbeddings(
+                    model_name=self._name,
+                    model_kwargs={"device": "cpu"},
+                    encode_kwargs={"normalize_embeddings": True},
+                )
+            except (OSError, ValueError) as err:
+                raise MemoryStoreError(f"the embedding model {self._name!r} cannot be loaded: {err}") from err
+        return np.asarray(self._model.embed_query(text), np.float32)
 
 
 def as_array(embeddings: Embeddings, texts: Sequence[str]) -> Vector:

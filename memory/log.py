@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from core.errors import MemoryStoreError
+from memory.folder import DamagedMemoryError
 from memory.minilm import Vector
 from memory.scan import BLOCK, Block
 from memory.store import translated
@@ -143,13 +144,13 @@ class Log:
             with translated(self.where):
                 rows = self._collection.get(ids=_ids(part), include=["documents", "metadatas"])
             for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
-                if text is None or meta is None or meta.get("text_sum") != _sum(text.encode()):
-                    raise self._damaged(f"the text of record {int(key)} is not what was written")
-                own = json.loads(str(meta["metadata"])) if "metadata" in meta else {}
-                found[int(key)] = Record(text, _hour(meta), own)
+                record, whole = restored(text, meta or {})
+                if record is None or not whole:
+                    raise DamagedMemoryError(self.where, f"the text of record {int(key)} is not what was written")
+                found[int(key)] = record
         missing = [position for position in positions if position not in found]
         if missing:
-            raise self._damaged(f"record {missing[0]} is missing")
+            raise DamagedMemoryError(self.where, f"record {missing[0]} is missing")
         return [found[position] for position in positions]
 
     def _append(
@@ -158,9 +159,14 @@ class Log:
         ids = _ids(range(self._length, self._length + len(texts)))
         entries: list[dict[str, str | int]] = []
         for text, vector, hour, own in zip(texts, vectors, hours, metadata, strict=True):
-            entry: dict[str, str | int] = {"hour": hour, "text_sum": _sum(text.encode()), "vector_sum": _sum(vector)}
+            own_json = json.dumps(own, ensure_ascii=False, allow_nan=False) if own else ""
+            entry: dict[str, str | int] = {
+                "hour": hour,
+                "text_sum": _text_sum(text, hour, own_json),
+                "vector_sum": _vector_sum(vector, hour),
+            }
             if own:
-                entry["metadata"] = json.dumps(own, ensure_ascii=False, allow_nan=False)
+                entry["metadata"] = own_json
             entries.append(entry)
         try:
             with translated(self.where):
@@ -224,7 +230,7 @@ class Log:
             count = self._collection.count()
             ends = self._collection.get(ids=_ids(range(max(0, count - 1), count + 1)), include=[])["ids"]
         if ends != (_ids([count - 1]) if count else []):
-            raise self._damaged(f"its {count} records are not numbered 0 to {count - 1}")
+            raise DamagedMemoryError(self.where, f"its {count} records are not numbered 0 to {count - 1}")
         return count
 
     def _read(self, start: int, stop: int) -> Block:
@@ -237,19 +243,25 @@ class Log:
                 rows = self._collection.get(ids=ids, include=["embeddings", "metadatas"])
         except MemoryStoreError as err:
             if isinstance(err.__cause__, InternalError):
-                raise self._damaged(f"the vectors of records {start} to {stop - 1} cannot be read: {err}") from err
+                raise DamagedMemoryError(
+                    self.where, f"the vectors of records {start} to {stop - 1} cannot be read: {err}"
+                ) from err
             raise
         if len(rows["ids"]) != len(ids):
-            raise self._damaged(f"{len(ids) - len(rows['ids'])} of the records {start} to {stop - 1} are missing")
+            raise DamagedMemoryError(
+                self.where, f"{len(ids) - len(rows['ids'])} of the records {start} to {stop - 1} are missing"
+            )
         order = np.argsort(rows["ids"])
         metadatas: Any = rows["metadatas"]
         vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
-        hours = np.array([_hour(metadatas[place]) for place in order], np.int64)
+        hours = np.array([metadatas[place]["hour"] for place in order], np.int64)
         for offset, place in enumerate(order):
-            if metadatas[place].get("vector_sum") != _sum(vectors[offset]):
-                raise self._damaged(f"the vector of record {start + offset} is not what was written")
+            if metadatas[place].get("vector_sum") != _vector_sum(vectors[offset], int(hours[offset])):
+                raise DamagedMemoryError(
+                    self.where, f"the vector or hour of record {start + offset} is not what was written"
+                )
         if (np.diff(hours) < 0).any():
-            raise self._damaged(f"the hours of records {start} to {stop - 1} go backwards")
+            raise DamagedMemoryError(self.where, f"the hours of records {start} to {stop - 1} go backwards")
         return Block(start, vectors, hours)
 
     def _start_hours(self, numbers: Sequence[int]) -> dict[int, int]:
@@ -262,11 +274,6 @@ class Log:
     def _hours_of_tail(self) -> npt.NDArray[np.int64]:
         return self._tail.hours[: self._length - self._tail.start]
 
-    def _damaged(self, what: str) -> MemoryStoreError:
-        return MemoryStoreError(
-            f"{self.where}: the memory is damaged: {what}; `coopera memory repair` rebuilds it from its texts"
-        )
-
 
 def _empty(start: int, dimension: int) -> Block:
     return Block(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
@@ -276,10 +283,27 @@ def _ids(positions: Sequence[int]) -> list[str]:
     return [f"{position:012d}" for position in positions]
 
 
-def _sum(data: bytes | Vector) -> int:
-    """Return a check sum that tells written from damaged."""
-    return zlib.crc32(data if isinstance(data, bytes) else np.ascontiguousarray(data, "<f4").tobytes())
+def restored(text: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, bool]:
+    """Return the record that a stored text and its metadata stand for, and whether it is what was written.
+
+    The record is None where there is none to be made out.
+    """
+    hour, own_json = meta.get("hour"), meta.get("metadata", "")
+    if not text or not isinstance(hour, int) or not isinstance(own_json, str):
+        return None, False
+    try:
+        own = json.loads(own_json or "{}")
+    except ValueError:
+        own = {}
+    whole = meta.get("text_sum") == _text_sum(text, hour, own_json)
+    return Record(text, hour, own if isinstance(own, dict) else {}), whole
 
 
-def _hour(meta: Mapping[str, Any]) -> int:
-    return int(meta["hour"])
+def _text_sum(text: str, hour: int, own_json: str) -> int:
+    """Return a check sum of all but the vector, which tells written from damaged."""
+    return zlib.crc32(f"{hour} {len(text)} {text}{own_json}".encode())
+
+
+def _vector_sum(vector: Vector, hour: int) -> int:
+    """Return a check sum of a record's vector and hour."""
+    return zlib.crc32(f"{hour} ".encode() + np.ascontiguousarray(vector, "<f4").tobytes())

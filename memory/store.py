@@ -6,26 +6,24 @@ index of neighbours is never asked, so it is built as cheaply as can be.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
-import json
 import os
-import socket
 import threading
 from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeVar
 from urllib.parse import urlsplit
 
 from core.errors import ConfigError, MemoryStoreError
+from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal
+from memory.probe import damage
 
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
     from chromadb.api.models.Collection import Collection
 
-_LOCK = "writer.lock"
-_CHROMA = "chroma.sqlite3"
+CHROMA = "chroma.sqlite3"
 _SPACE = "ip"
 _INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
 _FORMAT = 1
@@ -42,18 +40,20 @@ class Store:
     Attributes:
         where: The folder or URL, for messages.
         exclusive: Whether no one else can write (a folder, locked).
+        pid: The process that opened it.
     """
 
     _open: dict[Hashable, Store] = {}
     _guard = threading.RLock()
 
-    def __init__(self, client: ClientAPI, where: str, key: Hashable, lock: IO[str] | None) -> None:
+    def __init__(self, client: ClientAPI, where: str, key: Hashable, holding: IO[str] | None) -> None:
         """Use `Store.open`."""
         self.where = where
-        self.exclusive = lock is not None
+        self.exclusive = holding is not None
+        self.pid = os.getpid()
         self._client = client
         self._key = key
-        self._lock = lock
+        self._holding = holding
         self._users = 0
         self._shared: dict[str, tuple[int, Any]] = {}
 
@@ -72,7 +72,7 @@ class Store:
         key: Hashable = str(where) if remote else id(where) if given else Path(str(where)).resolve()
         with cls._guard:
             store = cls._open.get(key)
-            if store is None:
+            if store is None or store.pid != os.getpid():  # a forked child shares the parent's lock, not its store
                 if isinstance(key, Path):
                     store = cls._open_folder(key, create)
                 elif remote:
@@ -85,12 +85,16 @@ class Store:
 
     @classmethod
     def _open_folder(cls, folder: Path, create: bool) -> Store:
-        _check_folder(folder, create)
-        lock = _lock(folder)
+        check_folder(folder, create)
+        holding = lock(folder)
         try:
-            return cls(_open_client(folder), str(folder), folder, lock)
+            if not is_as_sealed(folder):
+                reason = damage(folder)
+                if reason is not None:
+                    raise DamagedMemoryError(str(folder), reason)
+            return cls(open_client(folder), str(folder), folder, holding)
         except MemoryStoreError:
-            lock.close()
+            holding.close()
             raise
 
     def close(self) -> None:
@@ -102,8 +106,9 @@ class Store:
             del Store._open[self._key]
             if not isinstance(self._key, int):  # a client of the caller's stays open
                 self._client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
-            if self._lock is not None:
-                self._lock.close()
+            if self._holding is not None:
+                seal(Path(self.where))
+                self._holding.close()
 
     def streams(self) -> list[str]:
         """Return the names of the streams, sorted."""
@@ -166,6 +171,20 @@ class Store:
             raise MemoryStoreError(f"{at} has the vector space {space!r}, where {_SPACE!r} was expected")
 
 
+def streams(where: Path | str | ClientAPI) -> list[str]:
+    """Return the names of a store's streams, sorted.
+
+    Raises:
+        ConfigError: If there is no such store.
+        MemoryStoreError: If it is in use, or does not answer.
+    """
+    store = Store.open(where, create=False)
+    try:
+        return store.streams()
+    finally:
+        store.close()
+
+
 def collection_name(stream: str) -> str:
     """Return the Chroma collection's name for a stream; Chroma takes no free text as a name."""
     return "stream-" + hashlib.sha256(stream.encode("utf-8", "surrogatepass")).hexdigest()[:40]
@@ -189,48 +208,8 @@ def translated(where: str) -> Iterator[None]:
         raise MemoryStoreError(f"{where}: the memory store failed: {err}") from err
 
 
-def _check_folder(folder: Path, create: bool) -> None:
-    """Make sure that a folder is a store or may become one."""
-    if folder.exists() and not folder.is_dir():
-        raise ConfigError(f"{folder}: a memory store is a folder, and this is a file")
-    if (folder / _CHROMA).exists():
-        return
-    others = sorted(entry.name for entry in folder.iterdir() if entry.name != _LOCK) if folder.exists() else []
-    if others:
-        raise ConfigError(f"{folder}: is no memory store, since it has no {_CHROMA} but {', '.join(others[:3])}")
-    if not create:
-        raise ConfigError(f"{folder}: there is no memory store")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as err:
-        raise ConfigError(f"{folder}: the memory store cannot be created: {err}") from err
-
-
-def _lock(folder: Path) -> IO[str]:
-    """Take the folder's lock, which the system releases when the process ends, however it ends."""
-    try:
-        file = (folder / _LOCK).open("a+")
-    except OSError as err:
-        raise ConfigError(f"{folder}: the memory store cannot be written: {err}") from err
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as err:
-        file.seek(0)
-        holder = {"pid": "unknown", "host": "unknown"}
-        with suppress(ValueError):
-            holder |= json.loads(file.read())
-        file.close()
-        raise MemoryStoreError(
-            f"{folder}: the memory store is in use by process {holder['pid']} on {holder['host']}; "
-            "one process at a time may open it (several can share one through a Chroma server)"
-        ) from err
-    file.truncate(0)
-    file.write(json.dumps({"pid": os.getpid(), "host": socket.gethostname()}))
-    file.flush()
-    return file
-
-
-def _open_client(folder: Path) -> ClientAPI:
+def open_client(folder: Path) -> ClientAPI:
+    """Open a folder with Chroma; the caller holds the lock."""
     import chromadb  # noqa: PLC0415 - heavy
     from chromadb.config import Settings  # noqa: PLC0415
 

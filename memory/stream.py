@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import operator
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -116,9 +117,7 @@ class MemoryStream:
 
     def __len__(self) -> int:
         """Return the number of records."""
-        log = self._open_log
-        with log.lock:
-            return len(log)
+        return len(self._open_log)
 
     def add(self, texts: Sequence[str], hour: int, metadata: Sequence[Mapping[str, Any]] | None = None) -> None:
         """Add an hour's records, in order; up to 1000 of them are written at once or not at all.
@@ -132,20 +131,33 @@ class MemoryStream:
             ConfigError: If a text, the hour or the metadata cannot be taken; nothing is then added.
             MemoryStoreError: If the store fails.
         """
-        hour = _whole(hour, "the hour of a memory")
         if isinstance(texts, str):
             raise ConfigError(f"{self._where}: expected a list of texts, not one text")
-        for text in texts:
-            _check_text(text, "a text to remember")
-        own = self._checked_metadata(texts, metadata)
-        if not texts:
-            return
-        vectors = self._vectors(texts)
+        if metadata is not None and len(metadata) != len(texts):
+            raise ConfigError(f"{self._where}: {len(texts)} texts came with {len(metadata)} entries of metadata")
+        own = metadata if metadata is not None else [{}] * len(texts)
+        self.extend([Record(text, hour, entry) for text, entry in zip(texts, own, strict=True)])
+
+    def extend(self, records: Sequence[Record]) -> None:
+        """Add records of several hours, oldest first, such as those of another stream.
+
+        Raises:
+            ConfigError: If a record cannot be taken; nothing is then added.
+            MemoryStoreError: If the store fails; whole pages of 1000 may then have been added.
+        """
         log = self._open_log
+        records = [self._checked(record) for record in records]
+        if not records:
+            return
+        texts = [record.text for record in records]
+        vectors = self._vectors(texts)
         with log.lock:
-            if log.last_hour is not None and hour < log.last_hour:
-                raise ConfigError(f"{self._where}: hour {hour} is before hour {log.last_hour}, which is already there")
-            log.append(texts, vectors, [hour] * len(texts), own)
+            newest = log.last_hour
+            for record in records:
+                if newest is not None and record.hour < newest:
+                    raise ConfigError(f"{self._where}: hour {record.hour} is before hour {newest}, and it comes later")
+                newest = record.hour
+            log.append(texts, vectors, [record.hour for record in records], [record.metadata for record in records])
 
     def recall(self, query: str, now: int, k: int, since: int | None = None) -> list[Recollection]:
         """Return the k records with the highest score, best first; newer first where scores are equal.
@@ -233,9 +245,18 @@ class MemoryStream:
         self.close()
 
     @property
+    def model(self) -> str:
+        """Identity of the embeddings."""
+        return identity(self._embeddings)
+
+    @property
     def _open_log(self) -> Log:
         if self._log is None:
             raise MemoryStoreError(f"{self._where} is closed")
+        if self._store.pid != os.getpid():
+            raise MemoryStoreError(
+                f"{self._where} was opened by process {self._store.pid}, before a fork; open it anew"
+            )
         return self._log
 
     @property
@@ -256,21 +277,16 @@ class MemoryStream:
             return
         self._vectors(["dimension"])
 
-    def _checked_metadata(
-        self, texts: Sequence[str], metadata: Sequence[Mapping[str, Any]] | None
-    ) -> Sequence[Mapping[str, Any]]:
-        if metadata is None:
-            return [{}] * len(texts)
-        if len(metadata) != len(texts):
-            raise ConfigError(f"{self._where}: {len(texts)} texts came with {len(metadata)} entries of metadata")
-        for entry in metadata:
-            try:
-                json.dumps(entry, allow_nan=False)
-            except (TypeError, ValueError) as err:
-                raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
-            if not isinstance(entry, Mapping):
-                raise ConfigError(f"{self._where}: metadata must be one mapping per text, not {entry!r:.80}")
-        return metadata
+    def _checked(self, record: Record) -> Record:
+        """Refuse a record that could not be given back as it was."""
+        _check_text(record.text, "a text to remember")
+        if not isinstance(record.metadata, Mapping):
+            raise ConfigError(f"{self._where}: metadata must be a mapping, not {record.metadata!r:.80}")
+        try:
+            json.dumps(dict(record.metadata), allow_nan=False)
+        except (TypeError, ValueError) as err:
+            raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
+        return Record(record.text, _whole(record.hour, "the hour of a memory"), dict(record.metadata))
 
 
 def unit(vectors: Vector, texts: Sequence[str]) -> Vector:

@@ -1,0 +1,105 @@
+"""Look at a store in a process of its own: `python -m memory.probe FOLDER [--all]`.
+
+Chroma's index is native code, and a damaged index file can end the process that reads it. So a store that was not
+closed properly, or was copied, is first opened here, where nothing is lost if that happens. Ends with status 0 if the
+store can be read, else with the reason on standard error (or by a signal). The caller holds the store's lock.
+"""
+
+from __future__ import annotations
+
+import os
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+from core.errors import MemoryStoreError
+from memory.folder import DamagedMemoryError
+
+_HEADER = struct.Struct("<iQQQQQQiIQQQdQ")  # of the index library in Chroma 1.5
+_PATIENCE = 600.0  # seconds, for a store of a million records
+
+
+def damage(folder: Path, *, everything: bool = False) -> str | None:
+    """Return what is wrong with a store, or None.
+
+    Args:
+        folder: The store; the caller holds its lock, and has not opened it.
+        everything: Read and check every record, instead of each stream's first and last.
+
+    Raises:
+        MemoryStoreError: If there is no answer within ten minutes.
+    """
+    root = str(Path(__file__).resolve().parents[1])
+    paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
+    command = [sys.executable, "-m", "memory.probe", str(folder), *(["--all"] if everything else [])]
+    try:
+        done = subprocess.run(
+            command,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
+            capture_output=True,
+            text=True,
+            timeout=_PATIENCE,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as err:
+        raise MemoryStoreError(f"{folder}: the memory store could not be read within {_PATIENCE:.0f} s") from err
+    if done.returncode == 0:
+        return None
+    if done.returncode < 0:
+        return f"reading its index ends the process with signal {-done.returncode}"
+    return done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"status {done.returncode}"
+
+
+def _check_index(folder: Path) -> None:
+    """Check what Chroma does not: damaged links make it write files without end.
+
+    Per element, link_lists.bin holds a length in bytes (uint32) and as many bytes of links; header.bin tells the
+    number of elements, their size, and the highest level that links may be of.
+
+    Raises:
+        MemoryStoreError: If an index file cannot be what was written.
+    """
+    for header in sorted(folder.glob("*/header.bin")):
+        data = header.read_bytes()
+        if len(data) != _HEADER.size:
+            raise MemoryStoreError(f"{header} has {len(data)} bytes, where {_HEADER.size} were expected")
+        _, _, most, count, size, _, _, levels, _, links, *_ = _HEADER.unpack(data)
+        vectors = header.with_name("data_level0.bin").stat().st_size
+        if not count <= most or vectors not in (count * size, most * size):
+            raise MemoryStoreError(f"{header} tells of {count} vectors of {size} bytes, in a file of {vectors} bytes")
+        lists = header.with_name("link_lists.bin").read_bytes()
+        place, longest = 0, max(0, levels) * 4 * (links + 1)
+        for _ in range(count):
+            length = int.from_bytes(lists[place : place + 4], "little")
+            place += 4 + length
+            if length > longest or place > len(lists):
+                break
+        if place != len(lists):
+            raise MemoryStoreError(f"{header.with_name('link_lists.bin')} is damaged near byte {place}")
+
+
+def _main(folder: str, *, everything: bool) -> None:
+    """Read the store, or exit with the reason."""
+    from memory.log import Log  # noqa: PLC0415 - only the child needs Chroma
+    from memory.scan import BLOCK  # noqa: PLC0415
+    from memory.store import Store, open_client  # noqa: PLC0415
+
+    _check_index(Path(folder))
+    store = Store(open_client(Path(folder)), folder, folder, None)
+    for name in store.streams():
+        log = Log(store.raw(name), f"the memory stream {name!r}", exclusive=True)
+        last = (len(log) - 1) // BLOCK
+        for number in range(last + 1) if everything else {0, max(0, last - 1)} if len(log) else ():
+            log.block(number)
+            if everything:
+                log.records(range(number * BLOCK, min((number + 1) * BLOCK, len(log))))
+
+
+if __name__ == "__main__":
+    try:
+        _main(sys.argv[1], everything="--all" in sys.argv)
+    except DamagedMemoryError as err:
+        sys.exit(f"{err.where}: {err.what}")
+    except (MemoryStoreError, OSError) as err:
+        sys.exit(str(err))

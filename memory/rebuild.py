@@ -1,0 +1,175 @@
+"""Rebuild a damaged store from its texts.
+
+Vectors live in the index's files, texts in a SQLite database. The texts are read from there directly, past Chroma,
+which may refuse, or end the process, over a damaged index; then they are encoded again into a new store beside the
+damaged one, and the two change places. The damaged store is kept.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import sqlite3
+from collections.abc import Iterable
+from contextlib import closing
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from langchain_core.embeddings import Embeddings
+
+from core.errors import ConfigError, MemoryStoreError
+from memory.embeddings import as_array, by_identity, identity
+from memory.folder import CHROMA, locked
+from memory.log import Log, Record, restored
+from memory.probe import damage
+from memory.store import Store
+from memory.stream import unit
+
+_PAGE = 500
+_DELETE = 3  # Chroma's code for a deletion in its queue
+
+
+class Repaired(NamedTuple):
+    """What became of one stream.
+
+    Attributes:
+        stream: Its name.
+        records: How many records it has now.
+        missing: How many had no text or hour any more, and are gone.
+        altered: How many are there, but not as they were written (their check sum says so).
+    """
+
+    stream: str
+    records: int
+    missing: int
+    altered: int
+
+
+class _Salvage(NamedTuple):
+    """What could be read of one stream: its records by position, and how many are lost or altered."""
+
+    stream: str
+    model: str
+    records: list[Record]
+    missing: int
+    altered: int
+
+
+def repair(folder: Path, embeddings: Embeddings | None = None) -> list[Repaired]:
+    """Rebuild a store if anything is wrong with it; return what was done per stream, nothing if all was well.
+
+    Args:
+        folder: The store. The damaged one is kept beside it as "<folder>.damaged", "<folder>.damaged-2", ….
+        embeddings: Those the streams were written with; None finds them by their name.
+
+    Raises:
+        ConfigError: If the folder is no store.
+        MemoryStoreError: If it is in use, if the texts cannot be read either, or if the embeddings are others.
+    """
+    folder = Path(folder).resolve()
+    with locked(folder):
+        if damage(folder, everything=True) is None:
+            return []
+        fresh = folder.with_name(f"{folder.name}.repaired")
+        shutil.rmtree(fresh, ignore_errors=True)  # of a repair that was interrupted
+        salvages = _salvage(folder)
+        models = {s.model: embeddings if embeddings is not None else by_identity(s.model) for s in salvages}
+        for model, given in models.items():
+            if identity(given) != model:
+                raise MemoryStoreError(f"{folder}: was written with the embeddings {model!r}, not {identity(given)!r}")
+        done = [_rebuild(fresh, salvage, models[salvage.model]) for salvage in salvages]
+        fresh.mkdir(exist_ok=True)  # where there was no stream at all
+        folder.rename(_unused(folder.with_name(f"{folder.name}.damaged")))
+        fresh.rename(folder)
+    return done
+
+
+def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> Repaired:
+    """Write one stream into a new store."""
+    store = Store.open(folder)
+    try:
+        log = Log(store.collection(salvage.stream, salvage.model), f"{folder}: {salvage.stream!r}", exclusive=True)
+        for start in range(0, len(salvage.records), _PAGE):
+            page = salvage.records[start : start + _PAGE]
+            texts = [record.text for record in page]
+            vectors = unit(as_array(embeddings, texts), texts)
+            log.append(texts, vectors, [record.hour for record in page], [record.metadata for record in page])
+    finally:
+        store.close()
+    return Repaired(salvage.stream, len(salvage.records), salvage.missing, salvage.altered)
+
+
+def _salvage(folder: Path) -> list[_Salvage]:
+    """Read all that is left of the streams.
+
+    Raises:
+        MemoryStoreError: If the database cannot be read.
+    """
+    try:
+        with closing(sqlite3.connect(f"file:{folder / CHROMA}?mode=rw", uri=True)) as database:
+            about: dict[str, dict[str, Any]] = {}
+            for collection, key, value in database.execute(
+                "SELECT collection_id, key, str_value FROM collection_metadata"
+            ):
+                about.setdefault(collection, {})[key] = value
+            named = sorted((entry["stream"], entry["model"], key) for key, entry in about.items() if "stream" in entry)
+            return [_sorted_out(name, model, _stored(database, key)) for name, model, key in named]
+    except (sqlite3.Error, ValueError, KeyError, UnicodeDecodeError) as err:
+        raise MemoryStoreError(
+            f"{folder}: the texts of the memory cannot be read either ({err}), so that nothing can be rebuilt"
+        ) from err
+
+
+def _stored(database: sqlite3.Connection, collection: str) -> dict[int, dict[str, Any]]:
+    """Return a stream's metadata by position, the text being under "chroma:document"."""
+    found: dict[int, dict[str, Any]] = {}
+    rows = database.execute(
+        "SELECT e.embedding_id, m.key, m.string_value, m.int_value FROM embeddings e "
+        "JOIN segments s ON s.id = e.segment_id LEFT JOIN embedding_metadata m ON m.id = e.id "
+        "WHERE s.collection = ? AND s.scope = 'METADATA'",
+        (collection,),
+    )
+    for key, field, text, number in rows:
+        found.setdefault(int(key), {})[field] = text if text is not None else number
+    [[applied]] = database.execute(
+        "SELECT coalesce(max(q.seq_id), 0) FROM max_seq_id q JOIN segments s ON s.id = q.segment_id "
+        "WHERE s.collection = ? AND s.scope = 'METADATA'",
+        (collection,),
+    )
+    waiting = database.execute(  # written, but not yet part of the tables above
+        "SELECT operation, id, metadata FROM embeddings_queue WHERE topic LIKE ? AND seq_id > ? ORDER BY seq_id",
+        (f"%/{collection}", applied),
+    )
+    for operation, key, metadata in waiting:
+        if operation == _DELETE:
+            found.pop(int(key), None)
+        else:
+            found.setdefault(int(key), json.loads(metadata))
+    return found
+
+
+def _sorted_out(name: str, model: str, stored: dict[int, dict[str, Any]]) -> _Salvage:
+    """Tell whole records from altered and missing ones, and put altered hours between those around them."""
+    found = [restored(stored[place].get("chroma:document"), stored[place]) for place in sorted(stored)]
+    kept = [(record, whole) for record, whole in found if record is not None]
+    ceilings: list[float] = []  # the hour of the next record that is whole
+    ceiling = math.inf
+    for record, whole in reversed(kept):
+        ceilings.append(ceiling)
+        ceiling = record.hour if whole else ceiling
+    records: list[Record] = []
+    for (record, whole), ceiling in zip(kept, reversed(ceilings), strict=True):
+        hour = record.hour if whole else min(record.hour, ceiling)
+        records.append(record._replace(hour=int(max(hour, records[-1].hour if records else hour))))
+    missing = max(stored, default=-1) + 1 - len(records)
+    return _Salvage(name, model, records, missing, sum(not whole for _, whole in kept))
+
+
+def _unused(path: Path) -> Path:
+    """Return the path, or with a number after it, so that nothing is there."""
+    candidates: Iterable[Path] = (path.with_name(f"{path.name}-{number}") for number in range(2, 1000))
+    for candidate in (path, *candidates):
+        if not candidate.exists():
+            return candidate
+    raise ConfigError(f"{path}: there are too many damaged stores beside it")
