@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -20,11 +20,11 @@ class Progress:
     Everything goes to standard error, so that standard output stays clean for results.
     """
 
-    def __init__(self, hours: int, console: Console | None = None) -> None:
-        """Expect `hours` hours in all."""
+    def __init__(self, hours: int, console: Console | None = None, *, done: Collection[tuple[int, int]] = ()) -> None:
+        """Expect `hours` hours in all, of which those in `done` (day, hour) were lived before."""
         self._console = console or Console(stderr=True, highlight=False)
         self._hours = hours
-        self._done: set[tuple[int, int]] = set()
+        self._done: set[tuple[int, int]] = set(done)
         self._now: tuple[int, int] | None = None
         self._success = "–"
         self._bar: bars.Progress | None = None

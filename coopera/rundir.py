@@ -15,6 +15,7 @@ from coopera import __version__, claim
 from coopera.config import Config, load_config
 from coopera.files import canonical_json, reason, write_atomic
 from coopera.humans import read_persona, write_persona
+from coopera.stopping import Stop
 from coopera.summary import metrics_csv, metrics_rows, summarise
 from coopera.trace_files import read_json, read_record, write_record
 from core.errors import ConfigError, CooperaError, RunError
@@ -55,6 +56,7 @@ class RunDir:
         self.info = info
         self._lock = lock
         self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
+        self._stop = Stop()
 
     @classmethod
     def create(
@@ -140,13 +142,15 @@ class RunDir:
         return str(self.info["state"])
 
     def __enter__(self) -> Self:
-        """Return the run."""
+        """Return the run; from now on Ctrl-C and `kill` stop it at its next step."""
+        self._stop.__enter__()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Record how the work ended and let go of the run."""
+        self._stop.__exit__(kind, error, trace)
         if self._lock is None:
             return
         if self.state == "running":
@@ -158,10 +162,19 @@ class RunDir:
         self._lock.close()
         self._lock = None
 
+    def check(self) -> None:
+        """Go on, unless a stop was asked for; whatever takes long calls this now and then.
+
+        Raises:
+            RunError: If Ctrl-C was pressed or the process was told to end.
+        """
+        self._stop.check()
+
     # Recorder
 
     def frames_folder(self, day: int, hour: int) -> Path:
         """An empty folder frames/day-DD/hour-HH."""
+        self._stop.check()
         folder = self.root / "frames" / f"day-{day:02d}" / f"hour-{hour:02d}"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -169,15 +182,18 @@ class RunDir:
 
     def write_hour(self, record: HourRecord) -> None:
         """Write trace/day-DD/hour-HH.json."""
+        self._stop.check()
         write_record(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
         self._rows[record.day, record.hour] = metrics_rows(record)
 
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
+        self._stop.check()
         return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
 
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
+        self._stop.check()
         write_record(self._day(evening.day) / "evening.json", evening)
         self._write_metrics()
 
@@ -192,6 +208,10 @@ class RunDir:
     def days(self) -> list[int]:
         """Numbers of the days of which there is a trace, sorted."""
         return sorted(int(path.name[4:]) for path in (self.root / "trace").glob("day-*") if path.name[4:].isdigit())
+
+    def hours_done(self) -> list[tuple[int, int]]:
+        """(day, hour) of each hour of which there is a trace, in order, without reading it."""
+        return [(day, int(path.stem[5:])) for day in self.days() for path in sorted(self._day(day).glob("hour-*.json"))]
 
     def hours(self) -> list[HourRecord]:
         """All hours of the run, in order."""

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-import signal
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -78,14 +77,14 @@ def resume(run: RunPath, as_json: AsJson = False) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
     from coopera.rundir import RunDir
 
-    config = RunDir.open(run).config
+    found = RunDir.open(run)
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import resume_study
 
         return resume_study(run, on_event=on_event)
 
-    _carry_out(work, run, _hours_of(config), as_json=as_json)
+    _carry_out(work, run, _hours_of(found.config), as_json=as_json, done=found.hours_done())
 
 
 def _hours_of(config: Any) -> int:
@@ -96,14 +95,18 @@ def _hours_of(config: Any) -> int:
 
 
 def _carry_out(
-    work: Callable[[Callable[[Event], None]], dict[str, Any]], folder: Path, hours: int, *, as_json: bool
+    work: Callable[[Callable[[Event], None]], dict[str, Any]],
+    folder: Path,
+    hours: int,
+    *,
+    as_json: bool,
+    done: Collection[tuple[int, int]] = (),
 ) -> None:
     """Do the work with progress on standard error, then show what came of it."""
     from coopera.progress import Progress, days_table
 
-    signal.signal(signal.SIGTERM, _interrupt)  # so that `kill` leaves a run as tidy as Ctrl-C does
     try:
-        with Progress(hours) as progress:
+        with Progress(hours, done=done) as progress:
             summary = work(progress.tell)
     except KeyboardInterrupt:
         typer.echo(_how_to_go_on(folder), err=True)
@@ -112,10 +115,6 @@ def _carry_out(
         typer.echo(json.dumps({**summary, "run": str(folder)}, sort_keys=True))
         return
     days_table(summary, folder)
-
-
-def _interrupt(signum: int, frame: object) -> None:
-    raise KeyboardInterrupt
 
 
 def _how_to_go_on(folder: Path) -> str:

@@ -42,6 +42,14 @@ def test_a_terminal_gets_day_hour_node_and_running_success() -> None:
     assert "2/4" in text
 
 
+def test_a_resumed_run_counts_the_hours_that_were_lived_before() -> None:
+    out = io.StringIO()
+    with Progress(4, Console(file=out, width=120), done=[(0, 9), (0, 10)]) as progress:
+        progress.tell({"day": 0, "hour": 10, "node": "record", "success": 0.5})
+        progress.tell({"day": 0, "hour": 11, "node": "record", "success": 0.5})
+    assert [line.split("(")[1].split(" hours")[0] for line in out.getvalue().splitlines()] == ["2 of 4", "3 of 4"]
+
+
 def test_an_hour_that_is_broken_off_is_not_called_done() -> None:
     out = io.StringIO()
     progress = Progress(4, Console(file=out, width=120))

@@ -3,8 +3,10 @@ from __future__ import annotations
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -134,6 +136,37 @@ def test_how_the_work_ended_is_recorded(tmp_path: Path, error: BaseException | N
     run = RunDir.open(tmp_path / "run")
     assert (run.state, run.info["reason"]) == (state, reason)
     assert run.info["ended"]
+
+
+def test_ctrl_c_ends_the_work_of_other_threads_at_their_next_record(tmp_path: Path) -> None:
+    stopped_at: list[int] = []
+    begun = threading.Event()
+
+    def live(run: RunDir) -> None:
+        for hour in range(9, 10_000):
+            try:
+                run.write_hour(failed_hour(0, hour))
+            except RunError:
+                stopped_at.append(hour)
+                return
+            begun.set()
+
+    def work() -> None:
+        with start(tmp_path / "run") as run:
+            worker = threading.Thread(target=live, args=[run])
+            worker.start()
+            try:
+                begun.wait()
+                signal.raise_signal(signal.SIGTERM)
+            finally:
+                worker.join()
+
+    before = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert stopped_at
+    assert RunDir.open(tmp_path / "run").state == "stopped"
+    assert signal.getsignal(signal.SIGTERM) == before
 
 
 def test_a_finished_run_is_finished_and_not_resumed(run: RunDir) -> None:
