@@ -17,8 +17,8 @@ from models.offline.knowledge import FIRST, LAST, Activity, Floats
 from models.offline.sense import CommonSense
 from models.offline.statements import Statements, statements
 
-TEXT_PULL = 0.75  # logits per standard deviation of affinity over the activities
-TRAIT_PULL = 0.5  # logits per point of (trait - 3) x loading 1
+TEXT_PULL = 0.95  # logits per standard deviation of affinity over the activities
+TRAIT_PULL = 1.1  # logits per point of (trait - 3) x loading 1
 LIKING = 0.7  # standard deviation of the likings that no text explains, in logits
 AVERSION = 0.5  # share of an aversion's closeness that is taken off the affinity
 NEED = 0.3  # share of all these for what everybody needs, such as meals

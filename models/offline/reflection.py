@@ -121,7 +121,8 @@ def scene_type1(
     _find_repeats(items)
     _heed(items, variables["findings"])
     mended = [item for item in items if item.problems and all(MENDED in said for said in item.problems)]
-    spare = _usual_placements(sense, activity, variables["intention"], fixed, movable)
+    wanting = len(mended) < sum(bool(item.problems) for item in items) or len(items) < count
+    spare = _usual_placements(sense, activity, variables["intention"], fixed, movable) if wanting else []
     _replace([item for item in items if item not in mended], spare, beside=items)
     verdicts = [_verdict(item) for item in items]
     del items[count:]
@@ -205,7 +206,7 @@ def _mend(sense: CommonSense, item: _Item[A], name: str, number: int, objects: S
 def _usual_placements(
     sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings, movable: Surroundings
 ) -> list[Placement]:
-    """Return what anybody would place for the activity in this home."""
+    """Return what anybody would place for the activity in this home: enough to replace all that a reply may hold."""
     usual: list[Placement] = []
     for index in feasible_places(activity, fixed, movable):
         usual.append(placement(activity, index, fixed, movable, [p.thing.name for p in usual], by_name))

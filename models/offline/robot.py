@@ -79,25 +79,24 @@ class Robot:
         activities = self._sense.household.activities
         total = np.zeros(len(activities))
         if percept is not None:
-            total += [self._percept_fit(activity, percept) for activity in activities]
+            total += self._percept_fit(percept)
         if first_task:
             total += [self._task_fit(activity, first_task) for activity in activities]
         return total
 
-    def _percept_fit(self, activity: Activity, percept: Mapping[str, Any]) -> float:
-        likelihood = 1.0 if room_kind(percept["room"]) in activity.rooms else WRONG_ROOM
-        near = [class_of(name) for name in percept["near"]]
+    def _percept_fit(self, percept: Mapping[str, Any]) -> Floats:
+        """Log-likelihood of a percept under each activity: room, furniture, motion class and the thing in hand."""
+        activities, near = self._sense.household.activities, [class_of(name) for name in percept["near"]]
+        room = room_kind(percept["room"])
+        likelihood = np.array([1.0 if room in activity.rooms else WRONG_ROOM for activity in activities])
         if near:
-            ranks = [near.index(cls) for cls in activity.fixed if cls in near]
-            likelihood *= max(WRONG_SPOT, 1.0 / (1 + min(ranks)) / len(activity.fixed) ** 0.5 if ranks else 0.0)
-        looks = self._sense.motion_class(str(percept["motion"]))
-        usual = [self._sense.motion_class(motion) for motion in activity.things.values()]
-        likelihood *= WRONG_MOTION / 5 + (1 - WRONG_MOTION) * usual.count(looks) / len(usual)
+            likelihood *= [_spot_fit(activity, near) for activity in activities]
+        if percept["motion"]:
+            share = self._sense.looks[self._sense.motion_class(str(percept["motion"]))]
+            likelihood *= WRONG_MOTION / 5 + (1 - WRONG_MOTION) * share
         if percept.get("in_hand"):
-            thing = plain(str(percept["in_hand"]))
-            likeness = self._sense.nearest(thing, activity.thing_names)[1]
-            likelihood *= 1.0 if likeness >= 0.999 else max(WRONG_THING, likeness**2)
-        return float(np.log(max(likelihood, 1e-6)))
+            likelihood *= np.maximum(WRONG_THING, self._sense.thing_fit(str(percept["in_hand"])) ** 2)
+        return np.asarray(np.log(np.maximum(likelihood, 1e-6)), dtype=np.float64)
 
     def _task_fit(self, activity: Activity, first_task: str) -> float:
         """Log-likelihood of a first pick-and-place, as words, under an activity."""
@@ -135,6 +134,12 @@ class Robot:
             closeness = self._sense.fit(habits).max(axis=0)
             total = total + PROFILE * (closeness - closeness.mean()) / max(float(closeness.std()), 1e-6)
         return np.asarray(total, dtype=np.float64)
+
+
+def _spot_fit(activity: Activity, near: Sequence[str]) -> float:
+    """Likelihood of acting at these classes of furniture, nearest first, under an activity."""
+    ranks = [near.index(cls) for cls in activity.fixed if cls in near]
+    return max(WRONG_SPOT, 1.0 / (1 + min(ranks)) / len(activity.fixed) ** 0.5) if ranks else WRONG_SPOT
 
 
 def _wording(activity: Activity, index: int, known: Sequence[tuple[Memory, int]]) -> str:

@@ -15,7 +15,7 @@ from models.offline.reading import Memory, clip, memories
 from models.offline.sense import CommonSense
 from models.offline.statements import sentences
 
-SPREAD = 3.0  # points of a trait per unit of mean loading beyond that of an average day
+SPREAD = 10.0  # points of a trait per unit of mean loading beyond that of an average day
 PATIENCE = 8.0  # as many activities seen leave an estimate half-way to the middle of the scale
 KNOWN = 2.0  # how many of today's hours an activity weighs that the earlier profile names
 

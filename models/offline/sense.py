@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -48,9 +48,15 @@ class CommonSense:
 
     def similarity(self, one: str, other: str) -> float:
         """Cosine of two texts, 1 where they are the same but for case, plural underscores and numbers."""
-        if key(plain(one)) == key(plain(other)):
-            return 1.0
-        return float(self._vector(plain(one)) @ self._vector(plain(other)))
+        one, other = _words(one), _words(other)
+        return 1.0 if one == other else float(self._vector(one) @ self._vector(other))
+
+    def thing_fit(self, thing: str) -> Floats:
+        """Return how like a thing is to the likest one that each activity has in hand; shape (activities,)."""
+        words = _words(thing)
+        fit = np.maximum.reduceat(self._thing_vectors @ self._vector(words), self._thing_starts)
+        has = [words in names for names in self._thing_words]
+        return np.where(has, 1.0, np.minimum(fit, 0.99)).astype(np.float64)
 
     def nearest(self, text: str, options: Sequence[str]) -> tuple[int, float]:
         """Return the place of the option nearest in meaning, and its cosine; the first of equals."""
@@ -101,6 +107,28 @@ class CommonSense:
         return [thing for thing in things if f" {key(plain(thing))} " in said]
 
     @cached_property
+    def looks(self) -> dict[str, Floats]:
+        """Share of each activity's things whose motion looks like a class, by class; shape (activities,) each."""
+        shares: dict[str, Floats] = {}
+        for cls in dict.fromkeys(self.household.looks_like.values()):
+            seen = [[self.household.looks_like[m] == cls for m in a.things.values()] for a in self.household.activities]
+            shares[cls] = np.array([np.mean(row) for row in seen], dtype=np.float64)
+        return shares
+
+    @cached_property
+    def _thing_words(self) -> list[list[str]]:
+        return [[_words(thing) for thing in activity.things] for activity in self.household.activities]
+
+    @cached_property
+    def _thing_vectors(self) -> NDArray[np.float32]:
+        return self.vectors([thing for names in self._thing_words for thing in names])
+
+    @cached_property
+    def _thing_starts(self) -> list[int]:
+        sizes = [len(names) for names in self._thing_words]
+        return [sum(sizes[:i]) for i in range(len(sizes))]
+
+    @cached_property
     def _activity_texts(self) -> NDArray[np.float32]:
         return self.vectors([text for a in self.household.activities for text in (a.statement, *a.wordings)])
 
@@ -110,6 +138,7 @@ class CommonSense:
         return [sum(sizes[:i]) for i in range(len(sizes))]
 
     def _vector(self, text: str) -> NDArray[np.float32]:
+        """Return a text's unit vector, encoding it when it is first needed."""
         vector = self._vectors.get(text)
         if vector is None:
             vector = np.asarray(self._embeddings.embed_query(text), dtype=np.float32)
@@ -118,3 +147,9 @@ class CommonSense:
                 del self._vectors[next(iter(self._vectors))]
             self._vectors[text] = vector
         return vector
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _words(name: str) -> str:
+    """Return a name or text as its words: "the Coffee_table_2" and "coffee table" are told apart by "the" only."""
+    return key(plain(name))
