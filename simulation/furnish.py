@@ -25,6 +25,8 @@ _NEXT = 0.02
 _ACCESS = 0.45
 """A place to stand lies at most this far from a piece."""
 _ACCESS_ON_TOP = 0.65
+_SPARE = 0.03
+"""Ways are kept this much wider than a body, since the whole home is later seen through another grid."""
 _TRIES = 40
 _MIDDLE = ("sofa", "bed", "fireplace", "tv_stand", "curtain", "piano", "desk", "workbench")
 _RUN = ("kitchen_counter", "kitchen_sink", "stove", "fridge", "dishwasher", "kitchen_cabinet")
@@ -232,7 +234,7 @@ class RoomPlan:
     def _keeps_access(self, piece: Piece) -> bool:
         """Add a piece if everything stays reachable with it; else leave all as it was."""
         clear = np.minimum(self.clear, _distance(piece, self.x, self.y))
-        parts, count = label(clear >= RADIUS)
+        parts, count = label(clear >= RADIUS + _SPARE)
         if not count:
             return False
         main = parts[self.door_cells[0]] if self.door_cells else int(np.bincount(parts.ravel())[1:].argmax()) + 1

@@ -28,7 +28,9 @@ USUAL_ROOMS = (
     "laundry room",
 )
 _LAYOUTS = 400
+_MOST_LAYOUTS = 4000
 _NARROWEST = 1.5
+_UNREACHABLE = 1000.0
 _SHARED = 1.4
 """Rooms that share at least this much wall may have a door between them, in metres."""
 
@@ -63,14 +65,16 @@ def lay_out(kinds: Sequence[str], rng: np.random.Generator) -> Layout:
     """Return the best of several hundred random layouts: well-proportioned rooms with doors where one wants them.
 
     Raises:
-        SimulationError: If every layout tried has a room that is too narrow (many rooms, bad luck).
+        SimulationError: If every layout tried has a room that is too narrow or cannot be reached.
     """
     names = room_names(kinds)
     areas = [catalogue().rooms[kind].area for kind in kinds]
     width = math.sqrt(sum(areas) * 1.35)
     whole = Bounds(0.0, 0.0, round(width, 1), round(sum(areas) / width, 1))
     best: tuple[float, list[Room], list[_Edge]] | None = None
-    for _ in range(_LAYOUTS):
+    for attempt in range(_MOST_LAYOUTS):
+        if attempt >= _LAYOUTS and best is not None and best[0] < _UNREACHABLE:
+            break
         cells: dict[int, Bounds] = {}
         _split(whole, [int(i) for i in rng.permutation(len(kinds))], areas, rng, cells)
         if min(min(cell.x1 - cell.x0, cell.y1 - cell.y0) for cell in cells.values()) < _NARROWEST:
@@ -80,8 +84,8 @@ def lay_out(kinds: Sequence[str], rng: np.random.Generator) -> Layout:
         score = _score(rooms, edges)
         if best is None or score < best[0]:
             best = (score, rooms, edges)
-    if best is None:
-        raise SimulationError(f"No layout of {len(kinds)} rooms was found in {_LAYOUTS} tries; use another seed.")
+    if best is None or best[0] >= _UNREACHABLE:
+        raise SimulationError(f"No layout of {len(kinds)} rooms was found in {_MOST_LAYOUTS} tries; use another seed.")
     _, rooms, edges = best
     return Layout(rooms, _doors(rooms, edges, rng))
 
@@ -129,7 +133,7 @@ def _score(rooms: Sequence[Room], edges: Sequence[_Edge]) -> float:
         allowed = 2.4 if room.kind == "hallway" else 1.5
         cost += 6 * max(0.0, deep / wide - allowed) + 10 * max(0.0, (1.9 if room.kind == "hallway" else 2.4) - wide)
     tree = _tree(rooms, edges)
-    cost += 1000.0 * (len(rooms) - 1 - len(tree)) + sum(_dislike(rooms, edge) for edge in tree)
+    cost += _UNREACHABLE * (len(rooms) - 1 - len(tree)) + sum(_dislike(rooms, edge) for edge in tree)
     outer = Scene(id=SceneId("draft"), rooms=list(rooms)).bounds
     for room in rooms:  # a window needs an outer wall
         inner = room.x0 > outer.x0 and room.y0 > outer.y0 and room.x1 < outer.x1 and room.y1 < outer.y1
