@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -14,15 +13,15 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 import torch
-from peft import LoraConfig, get_peft_model, get_peft_model_state_dict, set_peft_model_state_dict
 from safetensors import SafetensorError
 from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
-from transformers import AutoTokenizer, BertConfig, BertModel
+from transformers import AutoTokenizer
 
 from core.errors import CooperaError
 from core.hour import Example
+from models.classifiers.adapters import AdaptedEncoder, Recipe
 from models.classifiers.calibration import best_share, score_at
 from models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from models.classifiers.text import Inputs, Kind, Lesson, lesson, sentence_pair
@@ -34,99 +33,6 @@ _BATCH_INFERENCE = 25
 _DECIMALS = 6
 
 _Seen: TypeAlias = Tensor  # hidden states of one pair below the adapters, (T, d)
-
-
-@dataclass(frozen=True, slots=True)
-class Recipe:
-    """How the adapters are shaped and trained.
-
-    Attributes:
-        layers: How many of the top layers get adapters. Those below are frozen, and run once per example.
-        passes: Examples looked at in an evening, repeats included: the bound on its time.
-        epochs: Times each example is looked at, where `passes` allows.
-        tokens: Longest input.
-    """
-
-    rank: int = 8  # PAPER App. C.2, as are alpha, dropout, weight decay, and the matrices q, k, v, o
-    alpha: int = 16
-    dropout: float = 0.2
-    weight_decay: float = 0.01
-    learning_rate: float = 2e-3  # DEVIATES: 1e-5 moves a 7B model in five epochs, but not this small one
-    head_factor: float = 3.0  # DEVIATES: the head is new (the paper reads the model's own "Yes"), it must learn faster
-    batch: int = 8  # DEVIATES: 1 with accumulation 4; a larger batch is what makes a CPU evening short
-    epochs: int = 8  # DEVIATES: 5; days here have fewer labels
-    layers: int = 3  # DEVIATES: all; the lower half then need not be run again for each pass
-    passes: int = 1_600
-    tokens: int = 64
-
-
-class _Net(nn.Module):
-    """Encoder with adapters, mean over tokens, linear head. The head starts at zero: an untrained P(yes) is 0.5."""
-
-    def __init__(self, base: Path, recipe: Recipe) -> None:
-        super().__init__()
-        encoder = _encoder(base)
-        n_layers = encoder.config.num_hidden_layers
-        self.frozen = max(0, n_layers - recipe.layers)
-        config = LoraConfig(
-            r=recipe.rank,
-            lora_alpha=recipe.alpha,
-            lora_dropout=recipe.dropout,
-            target_modules=["query", "key", "value", "attention.output.dense"],
-            layers_to_transform=list(range(self.frozen, n_layers)),
-            layers_pattern="layer",
-        )
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", FutureWarning)  # peft 0.21 still asks transformers 5 by an older name
-            self.encoder: Any = get_peft_model(encoder, config)
-        self.bert: Any = encoder
-        self.head = nn.Linear(encoder.config.hidden_size, 1)
-        nn.init.zeros_(self.head.weight)
-        nn.init.zeros_(self.head.bias)
-
-    def below(self, tokens: dict[str, Tensor]) -> Tensor:
-        """Run the frozen layers; returns hidden states, shape (B, T, d)."""
-        with torch.no_grad():
-            hidden: Tensor = self.bert.embeddings(
-                input_ids=tokens["input_ids"], token_type_ids=tokens["token_type_ids"]
-            )
-            return self._run(hidden, tokens["attention_mask"], slice(0, self.frozen))
-
-    def forward(self, hidden: Tensor, mask: Tensor) -> Tensor:
-        """Return the logit of yes per pair, shape (B,), from what `below` gave and the mask of real tokens (B, T)."""
-        hidden = self._run(hidden, mask, slice(self.frozen, None))
-        share = mask.to(hidden.dtype) / mask.sum(1, keepdim=True)
-        logits: Tensor = self.head((hidden * share.unsqueeze(-1)).sum(1)).squeeze(-1)
-        return logits
-
-    def _run(self, hidden: Tensor, mask: Tensor, layers: slice) -> Tensor:
-        attend = mask[:, None, None, :].bool()
-        for layer in self.bert.encoder.layer[layers]:
-            hidden = layer(hidden, attend)
-        return hidden
-
-    def state(self) -> dict[str, Tensor]:
-        """Return copies of what is learned."""
-        adapters = get_peft_model_state_dict(self.encoder, save_embedding_layers=False)
-        tensors = {f"encoder.{name}": value for name, value in adapters.items()}
-        tensors |= {f"head.{name}": value for name, value in self.head.state_dict().items()}
-        return {name: tensors[name].detach().clone().contiguous() for name in sorted(tensors)}
-
-    def set_state(self, tensors: dict[str, Tensor]) -> None:
-        """Take what `state` returned; other names or shapes are refused.
-
-        Raises:
-            ValueError: If a tensor is missing, unknown or of another shape.
-        """
-        expected = {name: value.shape for name, value in self.state().items()}
-        if {name: value.shape for name, value in tensors.items()} != expected:
-            raise ValueError("the tensors are not those of this encoder and recipe")
-        parts: dict[str, dict[str, Tensor]] = {"encoder": {}, "head": {}}
-        for name, value in tensors.items():
-            module, _, rest = name.partition(".")
-            parts[module][rest] = value
-        set_peft_model_state_dict(self.encoder, parts["encoder"])
-        self.head.load_state_dict(parts["head"])
 
 
 class LoraClassifier:
@@ -149,7 +55,7 @@ class LoraClassifier:
         self._inputs = inputs
         self._recipe = recipe or Recipe()
         self._base = base
-        self._net: _Net | None = None  # loaded at first need
+        self._net: AdaptedEncoder | None = None  # loaded at first need
         self._tokenizer: Any = None
         self._learned: dict[str, Tensor] | None = None
         self._shift = 0.0
@@ -184,60 +90,75 @@ class LoraClassifier:
         if not taught.teaches:
             return counts
         generator = np.random.default_rng(seed)
-        taught = _replayed(taught, self._recipe.passes // self._recipe.epochs, generator)
-        pairs = [sentence_pair(example) for example in taught.examples]
+        taught = _replayed(taught, self._recipe.most, generator)
+        labels = np.array(taught.labels)
         with _one_thread(), torch.random.fork_rng(devices=[]):
             torch.manual_seed(seed % 2**63)
             net = self._build()
-            seen = self._below(net, pairs)
-            loss = self._fit(net, seen, torch.tensor(taught.labels, dtype=torch.float32), generator)
-            logits = _logits(net, seen)
-        labels = np.array(taught.labels)
-        self._net, self._learned = net, net.state()
-        self._shift = score_at(logits, best_share(logits, labels, days=1) * float(labels.mean()))
-        return counts | {"passes": float(self._recipe.epochs * len(pairs)), "loss": loss}
+            seen = self._below(net, [sentence_pair(example) for example in taught.examples])
+            held_out = _every_fourth_hour(taught)
+            if len(set(labels[~held_out])) < 2:
+                held_out[:] = False
+            lessons = [(hidden, bool(label)) for hidden, label in zip(seen, taught.labels, strict=True)]
+            first = [pair for pair, out in zip(lessons, held_out, strict=True) if not out]
+            self._fit(net, first, generator, epochs=self._recipe.epochs[0], speed=1.0)
+            shift = _threshold(_logits(net, seen), labels, held_out)
+            loss = self._fit(net, lessons, generator, epochs=self._recipe.epochs[1], speed=0.1)
+        self._net, self._learned, self._shift = net, net.state(), shift
+        passes = len(first) * self._recipe.epochs[0] + len(lessons) * self._recipe.epochs[1]
+        return counts | {"passes": float(passes), "loss": loss}
 
-    def _fit(self, net: _Net, seen: list[_Seen], labels: Tensor, generator: np.random.Generator) -> float:
-        """Train the adapters and the head; return the last epoch's mean loss."""
+    def _fit(
+        self,
+        net: AdaptedEncoder,
+        lessons: list[tuple[_Seen, bool]],
+        generator: np.random.Generator,
+        *,
+        epochs: int,
+        speed: float,
+    ) -> float:
+        """Train the adapters and the head, with balanced classes; return the last epoch's mean loss."""
         recipe = self._recipe
+        rate = recipe.learning_rate * speed
         adapters = [p for p in net.encoder.parameters() if p.requires_grad]
         optimizer = torch.optim.AdamW(
-            [
-                {"params": adapters, "lr": recipe.learning_rate},
-                {"params": net.head.parameters(), "lr": recipe.learning_rate * recipe.head_factor},
-            ],
+            [{"params": adapters, "lr": rate}, {"params": net.head.parameters(), "lr": rate * recipe.head_factor}],
             weight_decay=recipe.weight_decay,
         )
+        steps = epochs * math.ceil(len(lessons) / recipe.batch)
+        warm = max(1, steps // 10)
+        schedule = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda n: min((n + 1) / warm, (steps - n) / steps))
+        labels = torch.tensor([label for _, label in lessons], dtype=torch.float32)
         yes = float(labels.mean())
         weights = torch.where(labels > 0, 0.5 / yes, 0.5 / (1 - yes))
-        steps = recipe.epochs * math.ceil(len(seen) / recipe.batch)
-        schedule = torch.optim.lr_scheduler.OneCycleLR(
-            optimizer, [group["lr"] for group in optimizer.param_groups], total_steps=steps, pct_start=0.1
-        )
         net.train()
         mean = 0.0
-        for _ in range(recipe.epochs):
-            order = generator.permutation(len(seen))
+        for _ in range(epochs):
+            order = generator.permutation(len(lessons))
             total = 0.0
             for start in range(0, len(order), recipe.batch):
                 rows = order[start : start + recipe.batch]
-                logits = net(*_padded([seen[row] for row in rows]))
+                logits = net(*_padded([lessons[row][0] for row in rows]))
                 loss = nn.functional.binary_cross_entropy_with_logits(logits, labels[rows], weight=weights[rows])
-                if not bool(torch.isfinite(loss)):
-                    raise CooperaError(
-                        f"the {self._kind} classifier (lora) could not learn: its loss became {float(loss)} at "
-                        f"learning rate {recipe.learning_rate}; what it learned before is kept"
-                    )
+                self._must_be_finite("loss", loss)
                 optimizer.zero_grad()
                 loss.backward()  # type: ignore[no-untyped-call]
                 nn.utils.clip_grad_norm_(net.parameters(), 1.0)
                 optimizer.step()
                 schedule.step()
                 total += float(loss.detach()) * len(rows)
-            mean = total / len(seen)
+            mean = total / len(lessons)
+        self._must_be_finite("answer", net(*_padded([lessons[0][0]])))  # the last step may have broken it
         return mean
 
-    def _below(self, net: _Net, pairs: Sequence[tuple[str, str]]) -> list[_Seen]:
+    def _must_be_finite(self, name: str, value: Tensor) -> None:
+        if not bool(torch.isfinite(value).all()):
+            raise CooperaError(
+                f"the {self._kind} classifier (lora) could not learn: its {name} became {value.detach().sum().item()} "
+                f"at learning rate {self._recipe.learning_rate}; what it learned before is kept"
+            )
+
+    def _below(self, net: AdaptedEncoder, pairs: Sequence[tuple[str, str]]) -> list[_Seen]:
         """Run the frozen layers on each pair, shape (T, d) each. Pairs of like length go together, for speed."""
         net.eval()
         order = sorted(range(len(pairs)), key=lambda row: (len(pairs[row][0]) + len(pairs[row][1]), row))
@@ -265,10 +186,10 @@ class LoraClassifier:
         )
         return dict(encoded)
 
-    def _build(self) -> _Net:
-        return _Net(self._folder(), self._recipe)
+    def _build(self) -> AdaptedEncoder:
+        return AdaptedEncoder(self._folder(), self._recipe)
 
-    def _loaded(self) -> _Net:
+    def _loaded(self) -> AdaptedEncoder:
         """Return the network with what was learned."""
         if self._net is None:
             self._net = self._build()
@@ -320,7 +241,7 @@ class LoraClassifier:
     def _identity(self) -> dict[str, Any]:
         seen = [name for name in ("traits", "context", "time") if getattr(self._inputs, name)]
         base = f"{_PACKAGE} {version(_PACKAGE)}" if self._base is None else self._base.name
-        recipe = asdict(self._recipe)
+        recipe = asdict(self._recipe) | {"epochs": list(self._recipe.epochs)}  # as JSON gives it back
         return {
             "classifier": "lora",
             "kind": self._kind,
@@ -338,7 +259,7 @@ def _padded(seen: Sequence[_Seen]) -> tuple[Tensor, Tensor]:
     return nn.utils.rnn.pad_sequence(list(seen), batch_first=True), mask
 
 
-def _logits(net: _Net, seen: Sequence[_Seen]) -> npt.NDArray[np.float64]:
+def _logits(net: AdaptedEncoder, seen: Sequence[_Seen]) -> npt.NDArray[np.float64]:
     """Return the logit per example, shape (n,)."""
     net.eval()
     order = sorted(range(len(seen)), key=lambda row: (len(seen[row]), row))
@@ -350,32 +271,30 @@ def _logits(net: _Net, seen: Sequence[_Seen]) -> npt.NDArray[np.float64]:
     return logits
 
 
-def _encoder(folder: Path) -> Any:
-    """Read a BERT encoder without its pooler.
+def _every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
+    """Mark the examples of each fourth hour, shape (n,)."""
+    order = {hour: rank for rank, hour in enumerate(sorted(set(taught.hours)))}
+    return np.array([order[hour] % 4 == 3 for hour in taught.hours])
 
-    Raises:
-        CooperaError: If the folder does not hold one.
-    """
-    try:
-        tensors = load_tensors((folder / "model.safetensors").read_bytes())
-        config = BertConfig.from_pretrained(folder, local_files_only=True)
-        config.hidden_dropout_prob = config.attention_probs_dropout_prob = 0.0  # the adapters' dropout is the recipe's
-        encoder = BertModel(config, add_pooling_layer=False)
-        encoder.load_state_dict({name: value for name, value in tensors.items() if name in encoder.state_dict()})
-    except (OSError, SafetensorError, RuntimeError) as err:
-        raise CooperaError(f"{folder}: holds no BERT encoder that can be read ({err})") from err
-    return encoder
+
+def _threshold(
+    logits: npt.NDArray[np.float64], labels: npt.NDArray[np.bool_], held_out: npt.NDArray[np.bool_]
+) -> float:
+    """Choose the logit at which to say yes, from examples that were not learned from, where there are such."""
+    rows = held_out if held_out.any() and labels[held_out].any() else np.ones_like(held_out)
+    share = best_share(logits[rows], labels[rows], days=2)
+    return score_at(logits[rows], share * float(labels[rows].mean()))
 
 
 def _replayed(taught: Lesson, most: int, generator: np.random.Generator) -> Lesson:
-    """Keep at most `most` examples: positives of all days first, then the newest day's, then any others."""
+    """Keep at most `most` examples: up to a third positives, the newest day's first, then a sample."""
     n = len(taught.labels)
     if n <= most:
         return taught
     newest = taught.hours[-1] // 24
     chance = generator.random(n)
-    rank = sorted(range(n), key=lambda row: (not taught.labels[row], taught.hours[row] // 24 != newest, chance[row]))
-    yes = [row for row in rank if taught.labels[row]][: most // 2]
+    rank = sorted(range(n), key=lambda row: (taught.hours[row] // 24 != newest, chance[row]))
+    yes = [row for row in rank if taught.labels[row]][: most // 3]
     no = [row for row in rank if not taught.labels[row]]
     kept = sorted([*yes, *no[: most - len(yes)]])
     return Lesson(
