@@ -10,27 +10,10 @@ import chromadb
 import numpy as np
 import pytest
 from chromadb.config import Settings
-from langchain_core.embeddings import Embeddings
-from typing_extensions import override
 
 from core.errors import ConfigError, MemoryStoreError
 from memory import MemoryStream, bundled
-
-
-class Letters(Embeddings):
-    """A fake model: counts of the letters a, b, c, d. `model_id` and the dimension can be another one's."""
-
-    def __init__(self, model_id: str = "letters", letters: str = "abcd") -> None:
-        self.model_id = model_id
-        self.letters = letters
-
-    @override
-    def embed_documents(self, texts: list[str]) -> list[list[float]]:
-        return [[float(text.count(letter)) for letter in self.letters] for text in texts]
-
-    @override
-    def embed_query(self, text: str) -> list[float]:
-        return self.embed_documents([text])[0]
+from tests.memory.fakes import Letters
 
 
 def texts_of(found: Sequence[tuple[str, ...]] | Sequence[object]) -> list[str]:

@@ -1,0 +1,10 @@
+from __future__ import annotations
+
+import pytest
+
+from tests.memory.fakes import Letters
+
+
+@pytest.fixture
+def letters() -> Letters:
+    return Letters()
