@@ -108,7 +108,8 @@ class Navigator:
         self._clear = clearance(grid_x, grid_y, boxes)
         self._room = np.full(grid_x.shape, -1)
         for index, room in enumerate(scene.rooms):
-            self._room[(grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)] = index
+            inside = (grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)
+            self._room[inside & (self._room < 0)] = index  # on a shared edge the first room counts, as in room_at
         self._clear[self._room < 0] = 0.0
         free = self._clear >= RADIUS
         parts, count = label(free)
