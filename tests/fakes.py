@@ -87,7 +87,7 @@ class ScriptedAsk:
     def __init__(self, answers: Mapping[str, Answer]) -> None:
         self.answers = answers
         self.asked: list[tuple[str, Address, dict[str, Any]]] = []
-        self._calls: list[ModelCall] = []
+        self._calls: list[tuple[Address, ModelCall]] = []
 
     def __call__(
         self,
@@ -103,17 +103,18 @@ class ScriptedAsk:
         assert reply.__name__ == ASKS[prompt].reply
         self.asked.append((prompt, at, dict(variables)))
         answer = reply.model_validate(self.answers[prompt](dict(variables)))
-        self._calls.append(
-            ModelCall(node=at.node, prompt=prompt, prompt_sha="0", model="scripted", messages=[], reply=str(answer))
-        )
+        call = ModelCall(node=at.node, prompt=prompt, prompt_sha="0", model="scripted", messages=[], reply=str(answer))
+        self._calls.append((at, call))
         return answer
 
     def sees(self, role: Role) -> bool:
         return False
 
     def take_calls(self) -> list[ModelCall]:
-        calls, self._calls = self._calls, []
-        return calls
+        made, self._calls = self._calls, []
+        nodes = list(dict.fromkeys(at.node for at, _ in made))
+        made.sort(key=lambda pair: (nodes.index(pair[0].node), pair[0].draw))  # parallel nodes end in any order
+        return [call for _, call in made]
 
     def variables_of(self, prompt: str) -> list[dict[str, Any]]:
         """What was handed to each call of a prompt, in order."""
