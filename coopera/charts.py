@@ -26,16 +26,17 @@ def lines(series: Sequence[Series], ticks: Sequence[str], *, width: int = 520, h
     frame = _Frame(width, height, len(ticks))
     marks = [_axes(frame, ticks)]
     for one in series:
-        points = [(frame.x(n), frame.y(value), value) for n, value in enumerate(one.values) if value is not None]
-        path = " ".join(f"{'M' if n == 0 else 'L'}{x:.1f} {y:.1f}" for n, (x, y, _) in enumerate(points))
+        points = [(n, frame.x(n), frame.y(value), value) for n, value in enumerate(one.values) if value is not None]
+        path = " ".join(f"{'L' if n else 'M'}{x:.1f} {y:.1f}" for n, (_, x, y, _) in enumerate(points))
         marks.append(Markup('<path class="line {}" d="{}"/>').format(one.kind, path))
-        for (x, y, value), tick in zip(points, _ticks_of(one.values, ticks), strict=True):
-            title = f"{one.name}, {tick}: {value:.3f}"
+        for n, x, y, value in points:
+            title = f"{one.name}, {ticks[n]}: {value:.3f}"
             dot = '<circle class="dot {}" cx="{:.1f}" cy="{:.1f}" r="3.5"><title>{}</title></circle>'
             marks.append(Markup(dot).format(one.kind, x, y, title))
             if one.labelled:
                 text = '<text class="value {}" x="{:.1f}" y="{:.1f}" text-anchor="middle">{:.2f}</text>'
-                marks.append(Markup(text).format(one.kind, x, y - 9, value))
+                below = any(value < (other.values[n] or 0) for other in series)  # keep clear of a line above
+                marks.append(Markup(text).format(one.kind, x, y + 17 if below and y < frame.y(0.08) else y - 9, value))
     return _svg(frame, marks, "Success by day")
 
 
@@ -121,10 +122,6 @@ def _axes(frame: _Frame, ticks: Sequence[str]) -> Markup:
             text = '<text class="tick" x="{:.1f}" y="{}" text-anchor="middle">{}</text>'
             marks.append(Markup(text).format(frame.x(n), frame.height - 10, tick))
     return Markup("").join(marks)
-
-
-def _ticks_of(values: Sequence[float | None], ticks: Sequence[str]) -> list[str]:
-    return [tick for value, tick in zip(values, ticks, strict=True) if value is not None]
 
 
 def _svg(frame: _Frame, marks: Sequence[Markup], label: str) -> Markup:
