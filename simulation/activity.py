@@ -57,6 +57,18 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     return plan
 
 
+def stay(ground: Ground, state: HomeState, watch: Watch) -> Plan:
+    """Plan that the person goes on with what they are doing, and the robot comes to see it."""
+    plan, person = Plan(state), state.person
+    motion = ground.library[person.motion]
+    pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
+    watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
+    plan.steps.append(Play(person, motion))
+    plan.motion = motion
+    plan.at = [person.at] if person.at is not None else []
+    return plan
+
+
 def _hands(person: PersonState, motion: Motion) -> Point:
     """Where the hands are on the floor plan: what lies under them is what the person is at."""
     frames = forward(pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture)))

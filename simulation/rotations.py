@@ -72,8 +72,7 @@ def slerp(a: Array, b: Array, share: float) -> Array:
         mixed: Array = a + share * (b - a)
         return mixed / math.sqrt(float(mixed @ mixed))
     angle = math.acos(min(dot, 1.0))
-    turned: Array = (math.sin((1 - share) * angle) * a + math.sin(share * angle) * b) / math.sin(angle)
-    return turned
+    return np.asarray((math.sin((1 - share) * angle) * a + math.sin(share * angle) * b) / math.sin(angle))
 
 
 def wrapped(angle: float) -> float:

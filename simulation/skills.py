@@ -20,7 +20,7 @@ from simulation.humanoid_reach import reaching
 from simulation.motions import Library, Motion
 from simulation.navigation import Disc, Navigator, Route, Stand
 from simulation.placing import free_places, full
-from simulation.rotations import Array
+from simulation.rotations import Array, wrapped
 from simulation.scene import Point, Scene, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
 
@@ -33,6 +33,7 @@ _FAR_REACH = 1.0
 _TRIES = 24
 HANDING = (APART, 1.25)
 """Nearest and farthest distance from the person's middle at which the robot hands over a thing."""
+_COMFORTABLE = 0.85
 
 
 class UnableError(SimulationError):
@@ -383,18 +384,35 @@ def hand_over(ground: Ground, state: HomeState, act: HandOver) -> Plan:
     """
     plan = Plan(state.with_robot(thing=act.object))
     person = state.person
-    for stand in ground.navigator.approach(person.place, state.robot.spot, reach=HANDING[1], most=_TRIES):
-        if not clear_of((stand.x, stand.y), discs(state, "human")):
-            continue
+    for stand in _before_person(ground, state):
         point = handing_point(person, stand)
         posture = fetch.reach(to_body(stand, point))
         if posture is None:
             continue
-        walk(ground, plan, "robot", (stand.x, stand.y), carries=act.object)
+        try:
+            walk(ground, plan, "robot", (stand.x, stand.y), carries=act.object)
+        except UnableError:
+            continue
         plan.steps.append(Give(stand, posture, point, act.object))
         plan.state = plan.state.with_robot(thing=None, yaw=stand.yaw).with_person(thing=act.object)
         return plan
     raise UnableError("the robot cannot get within handing distance of the person")
+
+
+def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
+    """Places within handing distance of the person, in their room: at a comfortable distance, ahead, and near first."""
+    person, taken = state.person, discs(state, "human")
+    found: list[tuple[float, Stand]] = []
+    for x, y in ground.navigator.free_in(ground.scene.room_at(*person.place).name):
+        gap = math.dist((x, y), person.place)
+        if HANDING[0] <= gap <= HANDING[1] and clear_of((x, y), taken):
+            towards = math.atan2(person.place[1] - y, person.place[0] - x)
+            side = abs(wrapped(towards + math.pi - person.yaw))
+            drive = math.dist((x, y), state.robot.spot)
+            cost = abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive
+            found.append((round(cost, 6), Stand(x, y, towards, drive, gap)))
+    found.sort()
+    return [stand for _, stand in found[:: max(1, len(found) // _TRIES)]]
 
 
 def handing_point(person: PersonState, stand: Stand) -> tuple[float, float, float]:

@@ -11,14 +11,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
 
 from core.household import Agent
 from core.randomness import seed_at
 from simulation import fetch
-from simulation.build import build
 from simulation.catalogue import catalogue
+from simulation.engine import pybullet  # isort: split
+
+from simulation.build import build  # after the engine: whoever imports pybullet first makes it print
 from simulation.humanoid import JOINTS, SLICES, Frames, forward
 from simulation.recording import Held, Moment
 from simulation.rotations import Array, about_z, matrix, quaternion

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from core.errors import SimulationError
 from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace, plain
-from simulation.activity import free_motion
+from simulation.activity import free_motion, stay
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
 from simulation.percept import Errors, perceive
@@ -113,24 +113,29 @@ class World:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
         With `record`, the robot first drives to where it sees the person, and the act is kept for `percept` and
-        `frames`. Something impossible is a failed outcome with its reason, and the home stays as it was.
+        `frames`. Something impossible is a failed outcome with its reason, and the home stays as it was (but for the
+        robot's drive if it is recorded: then the recording shows the person as they are).
         """
         before = self.state
         watcher = self._watching() if record else None
         try:
             plan = self._plan(agent, act, watcher)
         except UnableError as unable:
-            if record:
-                self._recording = None
+            if watcher is not None:  # there is still the person to be seen, doing what they were doing
+                plan = stay(self._ground, before, watcher.watch)
+                self._record(plan, agent, plan.state.person.thing)
             return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
         if watcher is not None:
-            recording = Filming(self._library, before).film(plan.steps, agent)
-            recording.motion = plan.motion or self._library[before.person.motion]
-            recording.near = plan.at
-            recording.in_hand = act.object if isinstance(act, PickPlace) else plan.state.person.thing
-            self._recording = recording
+            self._record(plan, agent, act.object if isinstance(act, PickPlace) else plan.state.person.thing)
         self.state = plan.state
         return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
+
+    def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
+        recording = Filming(self._library, self.state).film(plan.steps, agent)
+        recording.motion = plan.motion or self._library[self.state.person.motion]
+        recording.near, recording.in_hand = plan.at, in_hand
+        self._recording = recording
+        self.state = plan.state
 
     def _plan(self, agent: Agent, act: Act, watcher: Watcher | None) -> Plan:
         watch = watcher.watch if watcher is not None and agent == "human" else None

@@ -1,0 +1,131 @@
+from __future__ import annotations
+
+import hashlib
+import math
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from core.errors import SimulationError
+from simulation.cameras import robot_camera
+from simulation.stage import shape_of
+from simulation.world import World
+from tests.simulation.flat import bring, flat, move, put
+
+
+@pytest.fixture(scope="module")
+def home():
+    with World(flat(), frame_size=(96, 72)) as world:
+        yield world
+
+
+def persons_share(world: World, tick: int) -> tuple[float, float]:
+    """Share of the pixels of the robot's and of the third-person picture that show the person."""
+    watcher, recording = world._watcher, world._recording
+    index, within = recording.find(tick)
+    camera = watcher._view(recording, recording.shots[index].at(recording.shots[index].deed))
+    moment = recording.shots[index].at(within)
+    watcher.stage.show(recording.state, moment)
+    return watcher.stage.glance(robot_camera(moment.robot))[0], watcher.stage.glance(camera)[0]
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        move("sofa_1", "book", "sit and read"),
+        move("dining_table_1", "bowl", "eat a meal"),
+        move("bed_1", "blanket", "lie down"),
+        move("washbasin_1", "toothbrush", "brush teeth"),
+        move("coffee_table_1", "dumbbell", "do push-ups"),
+        put("book_1", "dining_table_1"),
+    ],
+    ids=lambda act: act.describe(),
+)
+def test_both_views_show_the_person_at_the_deed(home, act) -> None:
+    assert home.perform("human", act, record=True).ok
+    start = 0
+    for shot in home._recording.shots:
+        robot, third = persons_share(home, start + shot.deed)
+        assert robot > 0.008
+        assert third > 0.015
+        start += shot.ticks
+
+
+def test_the_robot_goes_to_where_it_sees_the_person_and_keeps_out_of_the_way(home) -> None:
+    home.perform("human", move("sofa_1", "book", "sit and read"), record=True)
+    state = home.state
+    assert home.at("robot", "living room")
+    assert 0.9 <= math.dist(state.robot.spot, state.person.place) <= 5.0
+    towards = math.atan2(state.person.place[1] - state.robot.spot[1], state.person.place[0] - state.robot.spot[0])
+    assert state.robot.yaw == pytest.approx(towards)
+
+
+def test_frames_are_named_and_ordered_robot_first_and_change_nothing(home, tmp_path) -> None:
+    home.perform("human", put("mug_1", "dining_table_1"), record=True)
+    before = home.snapshot()
+    paths = home.frames(3, tmp_path / "frames")
+    assert [path.name for path in paths] == [f"{who}-{i}.webp" for who in ("robot", "human") for i in range(3)]
+    assert home.snapshot() == before
+    with Image.open(paths[0]) as image:
+        assert image.size == (96, 72)
+        assert len(np.unique(np.asarray(image).reshape(-1, 3), axis=0)) > 50
+    again = home.frames(3, tmp_path / "again")
+    assert [path.read_bytes() for path in paths] == [path.read_bytes() for path in again]
+
+
+def test_another_world_takes_the_same_pictures(home, tmp_path) -> None:
+    def film(world: World, folder: str) -> list[str]:
+        world.restore(start)
+        world.perform("human", move("kitchen_counter_1", "sponge", "wipe the surface"), record=True)
+        return [hashlib.sha256(path.read_bytes()).hexdigest() for path in world.frames(2, tmp_path / folder)]
+
+    with World(flat(), frame_size=(96, 72)) as other:
+        start = other.snapshot()
+        assert film(home, "one") == film(other, "two")
+
+
+def test_the_thing_in_hand_moves_with_the_hand_and_is_gone_from_its_place(home) -> None:
+    home.perform("human", put("apple_1", "coffee_table_1"), record=True)
+    first, second = home._recording.shots
+    assert first.at(0).in_hand is None
+    assert first.at(first.ticks - 1).in_hand.name == "apple_1"
+    assert second.at(second.ticks - 1).in_hand is None
+    assert second.at(second.ticks - 1).moved["apple_1"].on == "coffee_table_1"
+
+
+def test_the_body_moves_without_jumps_within_a_shot(home) -> None:
+    for act in (put("book_1", "dining_table_1"), move("bed_1", "book", "lie and read")):
+        home.perform("human", act, record=True)
+        for shot in home._recording.shots:
+            places = np.array([[*shot.at(i).person[:2], shot.at(i).person.pose[2]] for i in range(0, shot.ticks)])
+            assert np.abs(np.diff(places, axis=0)).max() < 0.2  # metres in a 30th of a second
+
+
+def test_a_hand_over_can_be_recorded_too(home, tmp_path) -> None:
+    home.perform("human", move("sofa_1", "book", "sit and rest"))
+    assert home.perform("robot", bring("mug"), record=True).ok
+    (shot,) = home._recording.shots
+    assert shot.at(0).in_gripper.name == "mug"
+    assert shot.at(shot.ticks - 1).in_hand.name == "mug"
+    assert len(home.frames(2, tmp_path)) == 4
+
+
+def test_a_folder_that_cannot_be_written_is_named(home, tmp_path) -> None:
+    home.perform("human", move("sofa_1", "book", "sit and rest"), record=True)
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(SimulationError, match="cannot be written"):
+        home.frames(1, tmp_path / "file")
+
+
+@pytest.mark.parametrize(
+    ("text", "cls"),
+    [
+        ("mug_2", "mug"),
+        ("a cup and two books", "book"),
+        ("Frying Pan", "frying_pan"),
+        ("grandma's harp", "grandma's_harp"),
+    ],
+)
+def test_a_thing_from_the_magic_box_looks_like_the_class_that_its_text_names(text, cls) -> None:
+    assert shape_of(text).cls == cls
