@@ -30,6 +30,7 @@ REACH = 0.80
 STOP = 0.55
 """Farthest from a piece of furniture (its rectangle on the floor) at which one acts on it."""
 _COMFORT = 0.45
+_FAR = 2.0
 _DISLIKE = 1.5
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
 
@@ -105,7 +106,7 @@ class Navigator:
         self._ys = np.arange(edge.y0, edge.y1 + CELL, CELL)
         grid_x, grid_y = np.meshgrid(self._xs, self._ys, indexing="ij")
         boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
-        self._clear = clearance(grid_x, grid_y, boxes)
+        self._clear = self._clearances(boxes)
         self._room = np.full(grid_x.shape, -1)
         for index, room in enumerate(scene.rooms):
             inside = (grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)
@@ -232,6 +233,17 @@ class Navigator:
             return None
         i, j = np.unravel_index(best, space.shape)
         return float(self._xs[i]), float(self._ys[j])
+
+    def _clearances(self, boxes: Array) -> Array:
+        """Clearance of every cell, up to `_FAR`: beyond that nobody asks, and each box is looked at only nearby."""
+        clear = np.full((len(self._xs), len(self._ys)), _FAR)
+        for box in boxes:
+            around = math.hypot(box[2], box[3]) + _FAR
+            i, j = np.searchsorted(self._xs, (box[0] - around, box[0] + around))
+            k, m = np.searchsorted(self._ys, (box[1] - around, box[1] + around))
+            x, y = np.meshgrid(self._xs[i:j], self._ys[k:m], indexing="ij")
+            np.minimum(clear[i:j, k:m], clearance(x, y, box[None]), out=clear[i:j, k:m])
+        return clear
 
     def _near(self, target: SceneObject | Point, point: Point | None, reach: float) -> tuple[Mask, Point, str]:
         if isinstance(target, tuple):
