@@ -12,10 +12,11 @@ from simulation.humanoid import forward
 from simulation.motions import Motion
 from simulation.motions_poses import Setting, pose_at
 from simulation.navigation import Stand, clearance, obstacle_boxes
+from simulation.plans import Ground, Placed, Plan, Play, UnableError, Watch, clear_of, discs
 from simulation.rotations import wrapped
 from simulation.scene import Point, SceneObject
-from simulation.skills import Ground, Placed, Plan, Play, UnableError, Watch, clear_of, discs, walk
 from simulation.state import HomeState, PersonState
+from simulation.walking import walk
 
 STEPPED_ON = ("treadmill", "shower", "rug")
 """Furniture that the person acts on, not in front of."""

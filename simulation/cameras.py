@@ -10,9 +10,9 @@ import numpy as np
 from simulation import fetch
 from simulation.humanoid import forward
 from simulation.navigation import Disc, Navigator
+from simulation.plans import Placed, clear_of
 from simulation.rotations import Array, about_z, wrapped
 from simulation.scene import Point, Scene
-from simulation.skills import Placed, clear_of
 from simulation.stage import Camera, Stage
 
 ROBOT_FOV = 60.0

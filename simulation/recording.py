@@ -20,9 +20,10 @@ from simulation.humanoid_reach import carrying, reaching, standing
 from simulation.motions import Hold, Library, Motion
 from simulation.motions_poses import Setting, clip, pose_at
 from simulation.navigation import Stand
+from simulation.plans import Give, Handle, Placed, Play, Step, Turn, Walk
 from simulation.rotations import Array, smooth, wrapped
 from simulation.scene import Point
-from simulation.skills import Give, Handle, Placed, Play, Step, Turn, Walk, to_body
+from simulation.skills import to_body
 from simulation.state import HomeState, PersonState, ThingState
 
 TICKS = 30

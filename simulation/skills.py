@@ -1,4 +1,4 @@
-"""What the two can do: walk without running into each other, take a thing, put it down, hand it over.
+"""What the two can do: take a thing, put it down, hand it over.
 
 A skill is planned completely before anything changes: the plan holds the steps (which a recording plays) and the
 home as it will be afterwards. What cannot be planned raises `UnableError`, and the home stays as it was.
@@ -7,28 +7,34 @@ home as it will be afterwards. What cannot be planned raises `UnableError`, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from core.errors import SimulationError
 from core.household import Agent, HandOver, PickPlace, plain
 from simulation import fetch
 from simulation.humanoid_reach import reaching
-from simulation.motions import Library, Motion
-from simulation.navigation import Disc, Navigator, Route, Stand
+from simulation.navigation import Stand
 from simulation.placing import free_places, full
+from simulation.plans import (
+    APART,
+    Give,
+    Ground,
+    Handle,
+    Placed,
+    Plan,
+    UnableError,
+    Watch,
+    clear_of,
+    discs,
+    other,
+)
 from simulation.rotations import Array, wrapped
-from simulation.scene import Point, Scene, SceneObject
+from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
+from simulation.walking import walk
 
-APART = 0.60
-"""Two standing bodies keep their middles this far apart (twice the navigation radius, metres)."""
-_APART_SEATED = 0.50
-_DETOUR = 4.0
-"""Longest way around the other one, in metres more than the straight way, before they are asked to step aside."""
 _FAR_REACH = 1.0
 _TRIES = 24
 HANDING = (APART, 1.25)
@@ -36,206 +42,13 @@ HANDING = (APART, 1.25)
 _COMFORTABLE = 0.85
 
 
-class UnableError(SimulationError):
-    """An act cannot be done; the text is the reason that its outcome gives."""
+class Errand(NamedTuple):
+    """A point that a hand should get to, the furniture it lies on, what is carried there, and how often to try."""
 
-
-@dataclass(frozen=True, slots=True)
-class Walk:
-    """An agent goes along corner points, perhaps with a thing in hand (a name, or a text from the magic box)."""
-
-    agent: Agent
-    points: list[Point]
-    carries: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Turn:
-    """The robot turns on the spot to a heading."""
-
-    yaw: float
-
-
-@dataclass(frozen=True, slots=True)
-class Handle:
-    """An agent stands, reaches for a point and there takes a thing (`put` is None) or puts it down.
-
-    `posture` is the body's pose, or the arm's posture, at the moment of the grasp.
-    """
-
-    agent: Agent
-    stand: Stand
-    posture: Array
-    name: str
-    put: ThingState | None
-
-
-@dataclass(frozen=True, slots=True)
-class Give:
-    """The robot stands before the person and hands over a thing from the magic box at a point."""
-
-    stand: Stand
-    posture: Array
     point: tuple[float, float, float]
-    thing: str
-
-
-@dataclass(frozen=True, slots=True)
-class Play:
-    """The person does a motion at its place."""
-
-    person: PersonState
-    motion: Motion
-
-
-Step = Walk | Turn | Handle | Give | Play
-
-
-class Watch(Protocol):
-    """Called before each deed of the person: lets the robot go where it will see it."""
-
-    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add the robot's drive to the plan; the deed is the person in the middle of it."""
-        ...
-
-
-class Placed(NamedTuple):
-    """A body on the floor plan, with its pose (person) or posture (robot)."""
-
-    x: float
-    y: float
-    yaw: float
-    pose: Array
-
-
-@dataclass(slots=True)
-class Plan:
-    """Steps in order, the home afterwards, the distance the acting agent goes, and the furniture it acts at."""
-
-    state: HomeState
-    steps: list[Step] = field(default_factory=list)
-    metres: float = 0.0
-    at: list[str] = field(default_factory=list)
-    motion: Motion | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Ground:
-    """What never changes while a home is lived in."""
-
-    scene: Scene
-    navigator: Navigator
-    library: Library
-    search: Callable[[str], str] | None = None
-
-    def fixed(self, name: str) -> SceneObject:
-        """The piece of furniture of that name."""
-        found = self.scene.object(name)
-        if found is None:
-            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
-        if not found.fixed:
-            raise UnableError(f"the {plain(name)} is no piece of furniture")
-        return found
-
-    def movable(self, name: str) -> SceneObject:
-        """The movable thing of that name."""
-        found = self.scene.object(name)
-        if found is None:
-            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
-        if found.fixed:
-            raise UnableError(f"the {plain(name)} cannot be carried")
-        return found
-
-
-def other(agent: Agent) -> Agent:
-    """The one who is not acting."""
-    return "robot" if agent == "human" else "human"
-
-
-def discs(state: HomeState, agent: Agent) -> list[Disc]:
-    """The floor that an agent takes up: where it stands, and where the person sits or would get up to."""
-    if agent == "robot":
-        return [Disc(*state.robot.spot)]
-    person = state.person
-    found = [Disc(*person.spot)]
-    if math.dist(person.spot, person.place) > 0.1:
-        found.append(Disc(*person.place, _APART_SEATED - fetch.RADIUS))
-    return found
-
-
-def clear_of(place: Point, taken: list[Disc]) -> bool:
-    """Whether a standing body at a place touches none of the discs."""
-    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius + fetch.RADIUS - 1e-9 for disc in taken)
-
-
-def stand_up(person: PersonState, spot: Point) -> PersonState:
-    """The person standing about at a spot, with what they hold."""
-    return PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing)
-
-
-def walk(ground: Ground, plan: Plan, agent: Agent, goal: Point, carries: str | None = None) -> None:
-    """Add a walk to a plan: around the other one, or past them once they have stepped aside.
-
-    Raises:
-        UnableError: If there is no way.
-    """
-    start = plan.state.spot(agent)
-    route = ground.navigator.route(start, goal)
-    if route.points is None:
-        raise UnableError(f"the {agent} cannot get there: {route.reason}")
-    hit = _in_the_way(route, discs(plan.state, other(agent)))
-    if hit is not None:
-        around = ground.navigator.route(start, goal, avoid=hit)
-        if (
-            around.points is not None
-            and around.length <= route.length + _DETOUR
-            and math.dist(around.points[-1], goal) < 0.08
-            and _in_the_way(around, discs(plan.state, other(agent))) is None
-        ):
-            route = around
-        else:
-            _step_aside(ground, plan, other(agent), route)
-    points = route.points or [start, goal]
-    plan.steps.append(Walk(agent, points, carries))
-    plan.metres += route.length
-    last = points[-1]
-    if agent == "human":
-        plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, last)})
-    else:
-        plan.state = plan.state.with_robot(spot=last)
-
-
-def _in_the_way(route: Route, taken: list[Disc]) -> Disc | None:
-    """The first disc that a walker on the route would touch; the start is left out, since they are there already."""
-    points = route.points or []
-    for disc in taken:
-        need = disc.radius + fetch.RADIUS - 0.01
-        for a, b in zip(points, points[1:], strict=False):
-            if _to_line((disc.x, disc.y), a, b) < min(need, math.dist(points[0], (disc.x, disc.y)) - 0.01):
-                return disc
-    return None
-
-
-def _to_line(point: Point, a: Point, b: Point) -> float:
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    length = dx * dx + dy * dy
-    share = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / length if length > 0 else 0.0
-    share = min(max(share, 0.0), 1.0)
-    return math.dist(point, (a[0] + share * dx, a[1] + share * dy))
-
-
-def _step_aside(ground: Ground, plan: Plan, agent: Agent, route: Route) -> None:
-    """Let the agent in the way go where the walker passes it."""
-    here = plan.state.spot(agent)
-    aside = ground.navigator.give_way(here, route.points or [])
-    way = ground.navigator.route(here, aside) if aside is not None else None
-    if way is None or way.points is None:
-        raise UnableError(f"the {agent} stands in the way and has nowhere to step aside")
-    plan.steps.append(Walk(agent, way.points))
-    if agent == "human":
-        plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, way.points[-1])})
-    else:
-        plan.state = plan.state.with_robot(spot=way.points[-1])
+    on: SceneObject | None
+    carries: str | None = None
+    tries: int = _TRIES
 
 
 def to_body(stand: Stand, point: tuple[float, float, float]) -> Array:
@@ -275,6 +88,36 @@ def stands_for(ground: Ground, plan: Plan, agent: Agent, on: SceneObject | None,
     yield from later
 
 
+def go_to_reach(
+    ground: Ground, plan: Plan, agent: Agent, errand: Errand, watch: Watch | None = None
+) -> tuple[Stand, Array] | None:
+    """Add a walk to where an agent's hand gets to a point; with `watch`, the robot goes first to see the deed.
+
+    Returns:
+        The place, and the posture in which the point is reached; None if there is no such place.
+    """
+    for tries, stand in enumerate(stands_for(ground, plan, agent, errand.on, errand.point[:2])):
+        if tries >= errand.tries:
+            break
+        posture = posture_for(agent, stand, errand.point)
+        if posture is None:
+            continue
+        mark = plan.mark()
+        try:
+            if watch is not None:
+                watch(plan, Placed(stand.x, stand.y, stand.yaw, posture), (stand.x, stand.y))
+            walk(ground, plan, agent, (stand.x, stand.y), carries=errand.carries)
+        except UnableError:
+            plan.rewind(mark)
+            continue
+        if agent == "human":
+            plan.state = plan.state.with_person(yaw=stand.yaw)
+        else:
+            plan.state = plan.state.with_robot(yaw=stand.yaw)
+        return stand, posture
+    return None
+
+
 def take(ground: Ground, plan: Plan, agent: Agent, thing: SceneObject, watch: Watch | None = None) -> None:
     """Add to a plan: go to a thing and take it.
 
@@ -282,30 +125,17 @@ def take(ground: Ground, plan: Plan, agent: Agent, thing: SceneObject, watch: Wa
         UnableError: If there is no place to stand, or the arm gets there from none.
     """
     where = plan.state.thing(thing)
-    point = grip(thing, where.position)
     carrier = ground.scene.object(where.on) if where.on else None
-    for tries, stand in enumerate(stands_for(ground, plan, agent, carrier, where.position[:2])):
-        posture = posture_for(agent, stand, point)
-        if posture is not None:
-            _watched(watch, plan, stand, posture)
-            walk(ground, plan, agent, (stand.x, stand.y))
-            plan.steps.append(Handle(agent, stand, posture, thing.name, None))
-            _face(plan, agent, stand)
-            if carrier is not None:
-                plan.at.append(carrier.name)
-            return
-        if tries >= _TRIES:
-            break
-    raise UnableError(f"the {agent} cannot reach the {plain(thing.name)}")
+    found = go_to_reach(ground, plan, agent, Errand(grip(thing, where.position), carrier), watch)
+    if found is None:
+        raise UnableError(f"the {agent} cannot reach the {plain(thing.name)}")
+    plan.steps.append(Handle(agent, *found, thing.name, None))
+    if carrier is not None:
+        plan.at.append(carrier.name)
 
 
 def put(
-    ground: Ground,
-    plan: Plan,
-    agent: Agent,
-    thing: SceneObject,
-    receptacle: SceneObject,
-    watch: Watch | None = None,
+    ground: Ground, plan: Plan, agent: Agent, thing: SceneObject, receptacle: SceneObject, watch: Watch | None = None
 ) -> None:
     """Add to a plan: carry a thing in hand to a piece of furniture and put it down there.
 
@@ -320,26 +150,15 @@ def put(
     if not places:
         raise UnableError(full(receptacle, thing))
     for place in places[:: max(1, len(places) // 8)]:
-        point = grip(thing, place[:3])
-        for tries, stand in enumerate(stands_for(ground, plan, agent, receptacle, place[:2])):
-            posture = posture_for(agent, stand, point)
-            if posture is not None:
-                _watched(watch, plan, stand, posture)
-                walk(ground, plan, agent, (stand.x, stand.y), carries=thing.name)
-                there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
-                plan.steps.append(Handle(agent, stand, posture, thing.name, there))
-                plan.state = plan.state.with_thing(thing.name, there)
-                _face(plan, agent, stand)
-                plan.at.append(receptacle.name)
-                return
-            if tries >= 6:
-                break
+        errand = Errand(grip(thing, place[:3]), receptacle, thing.name, tries=8)
+        found = go_to_reach(ground, plan, agent, errand, watch)
+        if found is not None:
+            there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
+            plan.steps.append(Handle(agent, *found, thing.name, there))
+            plan.state = plan.state.with_thing(thing.name, there)
+            plan.at.append(receptacle.name)
+            return
     raise UnableError(f"the {agent} cannot reach a free place on the {plain(receptacle.name)}")
-
-
-def _watched(watch: Watch | None, plan: Plan, stand: Stand, posture: Array) -> None:
-    if watch is not None:
-        watch(plan, Placed(stand.x, stand.y, stand.yaw, posture), (stand.x, stand.y))
 
 
 def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:
@@ -349,13 +168,6 @@ def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:
         return False
     near = 0.35 if person.posture == "sit" else 0.8
     return math.dist(place, person.place) < near
-
-
-def _face(plan: Plan, agent: Agent, stand: Stand) -> None:
-    if agent == "human":
-        plan.state = plan.state.with_person(yaw=stand.yaw)
-    else:
-        plan.state = plan.state.with_robot(yaw=stand.yaw)
 
 
 def pick_place(ground: Ground, state: HomeState, agent: Agent, act: PickPlace, watch: Watch | None = None) -> Plan:

@@ -21,10 +21,10 @@ from simulation.engine import pybullet  # isort: split
 
 from simulation.build import build  # after the engine: whoever imports pybullet first makes it print
 from simulation.humanoid import JOINTS, SLICES, Frames, forward
+from simulation.plans import Placed
 from simulation.recording import Held, Moment
 from simulation.rotations import Array, about_z, matrix, quaternion
 from simulation.scene import Scene
-from simulation.skills import Placed
 from simulation.state import HomeState, ThingState
 
 BODIES = Path(__file__).parent / "bodies"

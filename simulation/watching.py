@@ -7,10 +7,11 @@ import math
 import numpy as np
 
 from simulation.cameras import Focus, robot_camera, view_camera, watching_place
+from simulation.plans import Ground, Placed, Plan, Turn, UnableError, discs
 from simulation.recording import Moment, Recording, robot_still
 from simulation.scene import Point
-from simulation.skills import Ground, Placed, Plan, Turn, UnableError, discs, walk
 from simulation.stage import Camera, Image, Stage
+from simulation.walking import walk
 
 
 class Watcher:

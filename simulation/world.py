@@ -18,9 +18,10 @@ from simulation.activity import free_motion, stay
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
 from simulation.percept import Errors, perceive
+from simulation.plans import Ground, Plan, UnableError
 from simulation.recording import Filming, Recording
 from simulation.scene import Scene
-from simulation.skills import Ground, Plan, UnableError, hand_over, pick_place
+from simulation.skills import hand_over, pick_place
 from simulation.state import HomeState, PersonState, RobotState, room_of_thing
 from simulation.watching import Watcher
 

@@ -7,21 +7,10 @@ import pytest
 from simulation.motions import load_library
 from simulation.navigation import Disc, Navigator, Stand
 from simulation.placing import free_places
-from simulation.skills import (
-    Give,
-    Ground,
-    Handle,
-    Plan,
-    UnableError,
-    Walk,
-    clear_of,
-    discs,
-    hand_over,
-    pick_place,
-    posture_for,
-    walk,
-)
+from simulation.plans import Give, Ground, Handle, Plan, UnableError, Walk, clear_of, discs
+from simulation.skills import hand_over, pick_place, posture_for
 from simulation.state import HomeState, PersonState, RobotState
+from simulation.walking import walk
 from tests.simulation.flat import bring, flat, put
 
 SCENE = flat()

@@ -14,8 +14,8 @@ from core.errors import SimulationError
 from core.household import FreeMotion, HandOver, Outcome
 from core.protocols import Home
 from simulation.catalogue import surfaces
+from simulation.plans import Walk
 from simulation.scene import load_scene
-from simulation.skills import Walk
 from simulation.spots import Spot, taken_at
 from simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
