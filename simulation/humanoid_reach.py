@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from simulation.humanoid import STANDING, Aim, Side, at_rest, solve
+import math
+
+from simulation.humanoid import REACH, STANDING, Aim, Side, at_rest, solve
 from simulation.rotations import Array
 
 _CLOSE = 0.03
@@ -32,9 +34,9 @@ def reaching(target: Array, *, support: float = 0.0) -> Array | None:
             hands={side: target},
             knees=0.1 + 0.3 * effort,
         )
-        pose, missed = solve(aim)
-        if missed <= _CLOSE:
-            return pose
+        shoulder = aim.frames().place[f"{side}_shoulder"]
+        if math.dist(shoulder, target) <= REACH + _CLOSE:
+            return solve(aim)[0]
     return None
 
 

@@ -30,7 +30,7 @@ from simulation.plans import (
     discs,
     other,
 )
-from simulation.rotations import Array, wrapped
+from simulation.rotations import Array
 from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
 from simulation.walking import walk
@@ -213,18 +213,22 @@ def hand_over(ground: Ground, state: HomeState, act: HandOver) -> Plan:
 
 def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
     """Places within handing distance of the person, in their room: at a comfortable distance, ahead, and near first."""
-    person, taken = state.person, discs(state, "human")
-    found: list[tuple[float, Stand]] = []
-    for x, y in ground.navigator.free_in(ground.scene.room_at(*person.place).name):
-        gap = math.dist((x, y), person.place)
-        if HANDING[0] <= gap <= HANDING[1] and clear_of((x, y), taken):
-            towards = math.atan2(person.place[1] - y, person.place[0] - x)
-            side = abs(wrapped(towards + math.pi - person.yaw))
-            drive = math.dist((x, y), state.robot.spot)
-            cost = abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive
-            found.append((round(cost, 6), Stand(x, y, towards, drive, gap)))
-    found.sort()
-    return [stand for _, stand in found[:: max(1, len(found) // _TRIES)]]
+    person, robot = state.person, state.robot
+    cells = np.array(ground.navigator.free_in(ground.scene.room_at(*person.place).name)).reshape(-1, 2)
+    gap = np.hypot(*(cells - np.array(person.place)).T)
+    near = (gap >= HANDING[0]) & (gap <= HANDING[1])
+    for disc in discs(state, "human"):
+        near &= np.hypot(*(cells - np.array((disc.x, disc.y))).T) >= disc.radius + fetch.RADIUS
+    cells, gap = cells[near], gap[near]
+    towards = np.arctan2(person.place[1] - cells[:, 1], person.place[0] - cells[:, 0])
+    side = np.abs(np.remainder(towards - person.yaw, math.tau) - math.pi)  # 0 straight ahead of the person
+    drive = np.hypot(*(cells - np.array(robot.spot)).T)
+    cost = np.round(np.abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive, 6)
+    order = np.argsort(cost, kind="stable")
+    return [
+        Stand(float(cells[i, 0]), float(cells[i, 1]), float(towards[i]), float(drive[i]), float(gap[i]))
+        for i in order[:: max(1, len(order) // _TRIES)]
+    ]
 
 
 def handing_point(person: PersonState, stand: Stand) -> tuple[float, float, float]:
