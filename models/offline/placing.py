@@ -64,7 +64,8 @@ def makeshift_places(
     known_things = {thing for thing, _ in activity.places}
     known_spots = {spot for _, spot in activity.places}.union(activity.fixed)
     things = _by_fit(sense, movable.pieces, known_things, intention)
-    spots = in_rooms(_by_fit(sense, fixed.pieces, known_spots, intention), activity)
+    spots = _by_fit(sense, fixed.pieces, known_spots, intention)
+    spots.sort(key=lambda piece: room_kind(piece.room) not in activity.rooms)
     pairs = [(max(i, j), i, j) for i in range(min(len(things), 12)) for j in range(min(len(spots), 12))]
     return [Placement(things[i], spots[j], len(activity.places) + rank) for rank, (_, i, j) in enumerate(sorted(pairs))]
 

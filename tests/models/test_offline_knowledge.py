@@ -1,0 +1,150 @@
+"""The household file: what is shipped hangs together, and what does not is refused with file, activity and field."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from core.errors import ConfigError
+from core.household import plain
+from core.people import TRAITS, BigFive
+from models.offline.knowledge import SHIPPED, Activity, load, shipped
+
+ROOT = Path(__file__).parents[2]
+ACTIVITIES = shipped().activities
+KINDS = (
+    "kitchen",
+    "living room",
+    "dining room",
+    "bedroom",
+    "bathroom",
+    "study",
+    "hallway",
+    "laundry room",
+    "hobby room",
+)
+
+
+@lru_cache(maxsize=2)
+def _read(name: str) -> Any:
+    return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
+
+
+def test_about_forty_activities_are_shipped_and_each_hour_offers_many() -> None:
+    assert 40 <= len(ACTIVITIES) <= 60
+    for hour in range(13):
+        assert sum(activity.hours[hour] >= 0.5 for activity in ACTIVITIES) >= 10
+
+
+@pytest.mark.parametrize("activity", ACTIVITIES, ids=lambda a: a.id)
+def test_an_activity_is_described_in_full(activity: Activity) -> None:
+    assert 4 <= len(activity.wordings) <= 6
+    assert re.match(r"I\b|Knitting", activity.statement)
+    assert 8 <= len(activity.things) <= 12
+    assert 7 <= len(activity.places) <= 10
+    assert len(set(activity.places)) == len(activity.places)
+    assert set(activity.rooms) <= set(KINDS)
+    assert activity.source
+
+
+@pytest.mark.parametrize("activity", ACTIVITIES, ids=lambda a: a.id)
+def test_wordings_are_high_level_speak_of_nobody_and_name_no_object(activity: Activity) -> None:
+    catalogue = _read("simulation/catalogue.yaml")
+    objects = {plain(cls) for kind in ("fixed", "movable") for cls in catalogue[kind]} | set(activity.things)
+    for wording in activity.wordings:
+        assert not re.search(r"\b(I|my|me|he|she)\b", wording)
+        named = [thing for thing in objects if re.search(rf"\b{re.escape(thing)}s?\b", wording.lower())]
+        assert named == []
+
+
+def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
+    catalogue = _read("simulation/catalogue.yaml")
+    for activity in ACTIVITIES:
+        assert {thing for thing, _ in activity.places} <= set(catalogue["movable"])
+        assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
+
+
+def test_motions_are_those_of_the_simulation_and_look_as_it_says() -> None:
+    motions = _read("simulation/motions.yaml")["motions"]
+    assert shipped().looks_like == {motion["caption"]: motion["class"] for motion in motions}
+
+
+def test_activities_can_be_told_apart_by_more_than_one_thing() -> None:
+    for one in ACTIVITIES:
+        for other in ACTIVITIES:
+            if one.id < other.id:
+                assert len(set(one.things) & set(other.things)) <= len(one.things) // 2, (one.id, other.id)
+
+
+def test_an_average_personality_is_drawn_nowhere_and_loadings_point_both_ways() -> None:
+    household = shipped()
+    assert np.all(household.trait_pull(BigFive()) == 0)
+    tidy, paint = household.index["tidy"], household.index["paint"]
+    pull = household.trait_pull(BigFive(conscientiousness=5, openness=1))
+    assert pull[tidy] > 0 > pull[paint]
+    for trait in range(len(TRAITS)):
+        assert household.loadings[:, trait].max() > 0 > household.loadings[:, trait].min()
+
+
+@lru_cache(maxsize=1)
+def _three_activities() -> str:
+    data = yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+    data["activities"] = data["activities"][:3]
+    for activity in data["activities"]:
+        activity["follows"] = []
+    return json.dumps(data)
+
+
+def _broken(tmp_path: Path, change: Any) -> Path:
+    data = json.loads(_three_activities())
+    change(data)
+    path = tmp_path / "household.yaml"
+    path.write_text(yaml.safe_dump(data), encoding="utf-8")
+    return path
+
+
+def test_a_correct_small_file_is_read(tmp_path: Path) -> None:
+    assert [a.id for a in load(_broken(tmp_path, lambda data: None)).activities] == ["breakfast", "lunch", "dinner"]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "said"),
+    [
+        ("hours", [1.0] * 12, r"activity 'lunch', field 'hours'.*13"),
+        ("hours", [0.0] * 13, r"activity 'lunch', field 'hours'.*above 0"),
+        ("statement", 7, r"activity 'lunch', field 'statement'"),
+        ("big_five", {"grumpiness": 0.5}, r"activity 'lunch', field 'big_five'.*'grumpiness' is not one of openness"),
+        ("big_five", {"openness": 3}, r"activity 'lunch', field 'big_five.openness'"),
+        ("follows", ["fly"], r"activity 'lunch', field 'follows': there is no activity 'fly'"),
+        ("motions", ["fly"], r"activity 'lunch', field 'motions': 'fly' is not listed under looks_like"),
+        ("wordings", ["Cook a proper dinner", "Eat"], r"field 'wordings'.*'Cook a proper dinner'"),
+        ("things", {}, r"activity 'lunch', field 'things'"),
+        ("colour", "red", r"activity 'lunch', field 'colour'"),
+    ],
+)
+def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field: str, value: Any, said: str) -> None:
+    path = _broken(tmp_path, lambda data: data["activities"][1].update({field: value}))
+    with pytest.raises(ConfigError, match=said) as refused:
+        load(path)
+    assert str(path) in str(refused.value)
+
+
+def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:
+    path = _broken(tmp_path, lambda data: data["activities"][2].update({"id": "lunch"}))
+    with pytest.raises(ConfigError, match="activity 'lunch', field 'id'"):
+        load(path)
+
+
+@pytest.mark.parametrize("content", [b"activities: [", b"\xff\xfe", b"[]", b"activities: 3\nlooks_like: {a: b}\n"])
+def test_what_is_no_household_file_is_refused(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "home.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError, match=r"home\.yaml"):
+        load(path)
