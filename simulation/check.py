@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import combinations
 
@@ -9,11 +10,12 @@ from core.errors import SimulationError
 from simulation.catalogue import FLAT, surfaces
 from simulation.navigation import REACH, Navigator
 from simulation.scene import Scene, SceneObject
-from simulation.spots import Taken, taken_by
+from simulation.spots import Taken, furniture_on, spots, taken_by
 
 FLOOR_REACH = 0.60
 """Farthest at which a thing on the floor can be taken: the arm points down."""
 _SLACK = 0.02
+_SMALL = (0.08, 0.08, 0.09)
 _FLOATING = 0.03
 
 
@@ -21,7 +23,8 @@ def check(scene: Scene) -> list[str]:
     """Return all problems of a home, empty for a good one; the order is that of the checks and of the scene.
 
     Looked at: rooms that overlap, doors that open into nothing, objects outside their room or inside each other,
-    things that float, rooms nobody gets into, furniture nobody can walk up to, things nobody can take.
+    things that float, rooms nobody gets into, furniture nobody can walk up to or put a thing on, and things that
+    nobody can take.
     """
     problems = [*_rooms(scene), *_doors(scene), *_places(scene), *_overlaps(scene), *_supports(scene)]
     try:
@@ -120,8 +123,15 @@ def _access(scene: Scene, navigator: Navigator) -> Iterator[str]:
         if not navigator.free_in(room.name):
             yield f"Nobody can get into the {room.name}."
     for thing in scene.fixed:
-        if not navigator.approach(thing, most=1):
+        stands = navigator.approach(thing, most=60)
+        if not stands:
             yield f"Nobody can walk up to {thing.name} in the {thing.room}."
+        elif not any(
+            math.dist((spot.x, spot.y), (stand.x, stand.y)) <= REACH
+            for spot in spots(thing, _SMALL, furniture_on(scene, thing))
+            for stand in stands
+        ):
+            yield f"Nobody can put even a small thing on {thing.name} in the {thing.room}."
     for thing in scene.movable:
         if not can_take(scene, navigator, thing):
             yield f"Nobody can reach {thing.name} in the {thing.room}."

@@ -258,10 +258,11 @@ class RoomPlan:
         return bool(near.any())
 
     def _add_on_top(self, cls: str, size: Size, carrier_cls: str) -> bool:
-        """Stand a piece on another one, towards its back."""
+        """Stand a piece on another one, towards its back; on one that carries little."""
         carriers = [piece for piece in self.pieces if piece.cls == carrier_cls]
-        for index in self.rng.permutation(len(carriers)):
-            carrier = carriers[int(index)]
+        carriers = [carriers[int(index)] for index in self.rng.permutation(len(carriers))]
+        carriers.sort(key=lambda carrier: sum(p.z > 0 and p.bounds.overlaps(carrier.bounds) for p in self.pieces))
+        for carrier in carriers:
             spare = carrier.size[0] - size[0] - 0.04
             if spare < 0:
                 continue

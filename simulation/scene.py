@@ -10,10 +10,10 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple, TypeAlias
+from typing import Annotated, Any, Literal, NamedTuple, Self, TypeAlias
 
 from pydantic import Field, ValidationError, model_validator
 
@@ -208,6 +208,13 @@ class Scene(Frozen):
             if thing.on is not None and thing.on not in carriers:
                 raise ValueError(f"object {thing.name!r}: `on` must name a fixed object, not {thing.on!r}")
         return self
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the home with some fields changed; what was worked out of the old ones is not carried over."""
+        copied = super().model_copy(update=update, deep=deep)
+        for derived in ("_by_name", "fixed", "movable"):
+            copied.__dict__.pop(derived, None)
+        return copied
 
     @cached_property
     def _by_name(self) -> dict[str, SceneObject]:

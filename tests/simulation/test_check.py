@@ -73,6 +73,14 @@ def test_a_home_without_doors_has_rooms_nobody_gets_into(maple: Scene) -> None:
     assert sum("Nobody can get into" in problem for problem in problems) == len(maple.rooms) - 1
 
 
+def test_furniture_whose_top_is_full_of_furniture_is_found(maple: Scene) -> None:
+    counter, oven = named(maple, "kitchen_counter_1"), named(maple, "microwave_1")
+    x, y, _ = counter.position
+    wide = (counter.size[0], counter.size[1], oven.size[2])
+    built_in = with_changed(maple, "microwave_1", position=(x, y, counter.size[2]), size=wide, yaw=counter.yaw)
+    assert "Nobody can put even a small thing on kitchen_counter_1 in the kitchen." in check(built_in)
+
+
 def test_a_door_off_the_shared_wall_is_found(maple: Scene) -> None:
     door = maple.doors[0].model_copy(update={"x": maple.bounds.x0 - 3, "y": 0.0})
     problems = check(Scene(id="odd", rooms=maple.rooms, doors=[door, *maple.doors[1:]]))

@@ -111,7 +111,6 @@ def test_the_shipped_home_is_what_its_seed_gives() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rooms", [1, 3, 7, 10, 14])
-@pytest.mark.parametrize("seed", [101, 102])
-def test_homes_of_all_sizes_have_no_problems(rooms: int, seed: int) -> None:
-    assert check(generate(seed, rooms)) == []
+@pytest.mark.parametrize("rooms", [1, 4, 10])
+def test_homes_of_all_sizes_have_no_problems(rooms: int) -> None:
+    assert check(generate(101, rooms)) == []

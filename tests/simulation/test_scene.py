@@ -168,3 +168,12 @@ def test_a_quarter_turn_swaps_width_and_depth_and_turns_the_front_to_minus_x() -
     table = reading(two_rooms()).fixed[0].model_copy(update={"yaw": 1.5707963})
     assert table.bounds == pytest.approx((1.6, 0.9, 2.4, 2.1), abs=1e-6)
     assert table.to_world(0, 1)[0] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_changed_copy_of_a_home_forgets_what_the_old_one_had_worked_out() -> None:
+    home = reading(two_rooms())
+    assert home.object("mug_1") is not None
+    assert len(home.movable) == 1
+    bare = home.model_copy(update={"objects": [home.fixed[0]]})
+    assert bare.movable == ()
+    assert bare.object("mug_1") is None
