@@ -6,7 +6,7 @@ import json
 import threading
 import zlib
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy.typing as npt
 from core.errors import MemoryStoreError
 from memory.folder import DamagedMemoryError
 from memory.minilm import Vector
+from memory.numbering import Numbering, position_of
 from memory.scan import BLOCK, Block
 from memory.store import translated
 
@@ -40,11 +41,11 @@ class Log:
     Implements `scan.Rows`. Calls come under `lock`.
     """
 
-    def __init__(self, collection: Collection, where: str, *, exclusive: bool) -> None:
+    def __init__(self, reach: Callable[[], Collection], where: str, *, exclusive: bool) -> None:
         """Find the end of the log.
 
         Args:
-            collection: The stream's collection.
+            reach: Gets the stream's collection as it now is.
             where: Store and stream, for messages.
             exclusive: Whether no one else can write; if not, each write is read back.
 
@@ -53,8 +54,10 @@ class Log:
         """
         self.lock = threading.RLock()
         self.where = where
-        self._collection = collection
+        self._reach = reach
         self._exclusive = exclusive
+        self._collection = reach()
+        self._numbering = Numbering()
         self._length = 0
         self._tail = _empty(0, 0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
@@ -124,13 +127,15 @@ class Log:
             self._append(texts[part], vectors[part], hours[part], metadata[part])
 
     def cut(self, length: int) -> None:
-        """Drop all records from this position on, the newest first, so that no hole can be left."""
-        while self._length > length:
-            start = max(length, self._length - _PER_CALL)
+        """Drop all records from this position on, at once or not at all."""
+        if length >= self._length:
+            return
+        numbering = self._numbering.cut(length, self._length)
+        try:
             with translated(self.where):
-                self._collection.delete(ids=_ids(range(start, self._length)))
-            self._length = start
-        self._reload()
+                self._collection.modify(metadata={**self._collection.metadata, **numbering.metadata()})
+        finally:
+            self._reload()
 
     def records(self, positions: Sequence[int]) -> list[Record]:
         """Return records by position, in the order asked for.
@@ -142,12 +147,13 @@ class Log:
         for start in range(0, len(positions), _PER_CALL):
             part = positions[start : start + _PER_CALL]
             with translated(self.where):
-                rows = self._collection.get(ids=_ids(part), include=["documents", "metadatas"])
+                rows = self._collection.get(ids=self._ids(part), include=["documents", "metadatas"])
             for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
                 record, whole = restored(text, meta or {})
+                position = position_of(key)
                 if record is None or not whole:
-                    raise DamagedMemoryError(self.where, f"the text of record {int(key)} is not what was written")
-                found[int(key)] = record
+                    raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
+                found[position] = record
         missing = [position for position in positions if position not in found]
         if missing:
             raise DamagedMemoryError(self.where, f"record {missing[0]} is missing")
@@ -156,7 +162,7 @@ class Log:
     def _append(
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
     ) -> None:
-        ids = _ids(range(self._length, self._length + len(texts)))
+        ids = self._ids(range(self._length, self._length + len(texts)))
         entries: list[dict[str, str | int]] = []
         for text, vector, hour, own in zip(texts, vectors, hours, metadata, strict=True):
             own_json = json.dumps(own, ensure_ascii=False, allow_nan=False) if own else ""
@@ -214,6 +220,9 @@ class Log:
         self._starts.clear()
         self._length = 0
         self._tail = _empty(0, 0)
+        with translated(self.where):
+            self._collection = self._reach()
+            self._numbering = Numbering.of(self._collection.metadata)
         length = self._find_length()
         if length == 0:
             return
@@ -227,15 +236,16 @@ class Log:
     def _find_length(self) -> int:
         """Count the records, and make sure that they are numbered without a hole."""
         with translated(self.where):
-            count = self._collection.count()
-            ends = self._collection.get(ids=_ids(range(max(0, count - 1), count + 1)), include=[])["ids"]
-        if ends != (_ids([count - 1]) if count else []):
-            raise DamagedMemoryError(self.where, f"its {count} records are not numbered 0 to {count - 1}")
-        return count
+            length = self._collection.count() - self._numbering.ghosts
+            around = self._ids(range(max(0, length - 1), max(0, length) + 1))
+            ends = self._collection.get(ids=around, include=[])["ids"]
+        if length < 0 or ends != around[:-1]:
+            raise DamagedMemoryError(self.where, f"its {length} records are not numbered 0 to {length - 1}")
+        return length
 
     def _read(self, start: int, stop: int) -> Block:
         """Read the vectors and hours of some records, checking each against its check sum."""
-        ids = _ids(range(start, stop))
+        ids = self._ids(range(start, stop))
         from chromadb.errors import InternalError  # noqa: PLC0415 - heavy
 
         try:
@@ -271,16 +281,15 @@ class Log:
             self._starts[number] = record.hour
         return self._starts
 
+    def _ids(self, positions: Sequence[int]) -> list[str]:
+        return [self._numbering.id(position) for position in positions]
+
     def _hours_of_tail(self) -> npt.NDArray[np.int64]:
         return self._tail.hours[: self._length - self._tail.start]
 
 
 def _empty(start: int, dimension: int) -> Block:
     return Block(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
-
-
-def _ids(positions: Sequence[int]) -> list[str]:
-    return [f"{position:012d}" for position in positions]
 
 
 def restored(text: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, bool]:

@@ -11,6 +11,7 @@ import os
 import struct
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 from core.errors import MemoryStoreError
@@ -88,7 +89,7 @@ def _main(folder: str, *, everything: bool) -> None:
     _check_index(Path(folder))
     store = Store(open_client(Path(folder)), folder, folder, None)
     for name in store.streams():
-        log = Log(store.raw(name), f"the memory stream {name!r}", exclusive=True)
+        log = Log(partial(store.raw, name), f"the memory stream {name!r}", exclusive=True)
         last = (len(log) - 1) // BLOCK
         for number in range(last + 1) if everything else {0, max(0, last - 1)} if len(log) else ():
             log.block(number)

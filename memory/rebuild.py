@@ -22,12 +22,12 @@ from core.errors import ConfigError, MemoryStoreError
 from memory.embeddings import as_array, by_identity, identity
 from memory.folder import CHROMA, locked
 from memory.log import Log, Record, restored
+from memory.numbering import Numbering, position_of
 from memory.probe import damage
 from memory.store import Store
 from memory.stream import unit
 
 _PAGE = 500
-_DELETE = 3  # Chroma's code for a deletion in its queue
 
 
 class Repaired(NamedTuple):
@@ -89,7 +89,8 @@ def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> Repaire
     """Write one stream into a new store."""
     store = Store.open(folder)
     try:
-        log = Log(store.collection(salvage.stream, salvage.model), f"{folder}: {salvage.stream!r}", exclusive=True)
+        store.collection(salvage.stream, salvage.model)
+        log = Log(lambda: store.raw(salvage.stream), f"{folder}: {salvage.stream!r}", exclusive=True)
         for start in range(0, len(salvage.records), _PAGE):
             page = salvage.records[start : start + _PAGE]
             texts = [record.text for record in page]
@@ -109,21 +110,24 @@ def _salvage(folder: Path) -> list[_Salvage]:
     try:
         with closing(sqlite3.connect(f"file:{folder / CHROMA}?mode=rw", uri=True)) as database:
             about: dict[str, dict[str, Any]] = {}
-            for collection, key, value in database.execute(
-                "SELECT collection_id, key, str_value FROM collection_metadata"
-            ):
+            rows = database.execute(
+                "SELECT collection_id, key, coalesce(str_value, int_value) FROM collection_metadata"
+            )
+            for collection, key, value in rows:
                 about.setdefault(collection, {})[key] = value
             named = sorted((entry["stream"], entry["model"], key) for key, entry in about.items() if "stream" in entry)
-            return [_sorted_out(name, model, _stored(database, key)) for name, model, key in named]
+            return [
+                _sorted_out(name, model, _stored(database, key, Numbering.of(about[key]))) for name, model, key in named
+            ]
     except (sqlite3.Error, ValueError, KeyError, UnicodeDecodeError) as err:
         raise MemoryStoreError(
             f"{folder}: the texts of the memory cannot be read either ({err}), so that nothing can be rebuilt"
         ) from err
 
 
-def _stored(database: sqlite3.Connection, collection: str) -> dict[int, dict[str, Any]]:
+def _stored(database: sqlite3.Connection, collection: str, numbering: Numbering) -> dict[int, dict[str, Any]]:
     """Return a stream's metadata by position, the text being under "chroma:document"."""
-    found: dict[int, dict[str, Any]] = {}
+    found: dict[str, dict[str, Any]] = {}
     rows = database.execute(
         "SELECT e.embedding_id, m.key, m.string_value, m.int_value FROM embeddings e "
         "JOIN segments s ON s.id = e.segment_id LEFT JOIN embedding_metadata m ON m.id = e.id "
@@ -131,22 +135,14 @@ def _stored(database: sqlite3.Connection, collection: str) -> dict[int, dict[str
         (collection,),
     )
     for key, field, text, number in rows:
-        found.setdefault(int(key), {})[field] = text if text is not None else number
-    [[applied]] = database.execute(
-        "SELECT coalesce(max(q.seq_id), 0) FROM max_seq_id q JOIN segments s ON s.id = q.segment_id "
-        "WHERE s.collection = ? AND s.scope = 'METADATA'",
-        (collection,),
+        found.setdefault(key, {})[field] = text if text is not None else number
+    waiting = database.execute(  # written, but perhaps not yet part of the tables above
+        "SELECT id, metadata FROM embeddings_queue WHERE topic LIKE ? ORDER BY seq_id", (f"%/{collection}",)
     )
-    waiting = database.execute(  # written, but not yet part of the tables above
-        "SELECT operation, id, metadata FROM embeddings_queue WHERE topic LIKE ? AND seq_id > ? ORDER BY seq_id",
-        (f"%/{collection}", applied),
-    )
-    for operation, key, metadata in waiting:
-        if operation == _DELETE:
-            found.pop(int(key), None)
-        else:
-            found.setdefault(int(key), json.loads(metadata))
-    return found
+    for key, metadata in waiting:
+        if metadata is not None:
+            found.setdefault(key, json.loads(metadata))
+    return {position_of(key): meta for key, meta in found.items() if key == numbering.id(position_of(key))}
 
 
 def _sorted_out(name: str, model: str, stored: dict[int, dict[str, Any]]) -> _Salvage:

@@ -101,9 +101,9 @@ class MemoryStream:
             raise ConfigError(f"the decay of a memory stream must be above 0 and at most 1, not {decay}")
         store = Store.open(path_or_client, create=create)
         try:
-            collection = store.collection(name, identity(embeddings), create=create)
+            store.collection(name, identity(embeddings), create=create)
             where = f"{store.where}: the memory stream {name!r}"
-            log = store.share(name, lambda: Log(collection, where, exclusive=store.exclusive))
+            log = store.share(name, lambda: Log(lambda: store.raw(name), where, exclusive=store.exclusive))
         except (ConfigError, MemoryStoreError):
             store.close()
             raise
@@ -217,7 +217,7 @@ class MemoryStream:
         """Drop all records of this hour and later, for an hour that is done again; return how many went.
 
         Raises:
-            MemoryStoreError: If the store fails; what is then left is a stream without a hole.
+            MemoryStoreError: If the store fails; then all are there or none.
         """
         log = self._open_log
         with log.lock:
