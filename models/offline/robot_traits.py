@@ -15,8 +15,8 @@ from models.offline.reading import Memory, clip, memories
 from models.offline.sense import CommonSense
 from models.offline.statements import sentences
 
-SPREAD = 10.0  # points of a trait per unit of mean loading beyond that of an average day
-PATIENCE = 8.0  # as many activities seen leave an estimate half-way to the middle of the scale
+SPREAD = 15.0  # points of a trait per unit of mean loading beyond that of an average day
+PATIENCE = 20.0  # as many activities seen leave an estimate half-way to the middle of the scale
 KNOWN = 2.0  # how many of today's hours an activity weighs that the earlier profile names
 
 _PARTS = (("morning", 0, 12), ("afternoon", 12, 18), ("evening", 18, 24))
@@ -39,14 +39,12 @@ def infer(sense: CommonSense, variables: Mapping[str, Any]) -> TraitsReply:
     big_five, because = _estimate(sense, weights)
     profile = " ".join((_what(sense, weights), _when(sense, seen), _things(variables["tasks"])))
     kept = sum(index in earlier for index in {index for _, index in seen})
-    told = f"{len(lived)} intentions of today" + (
-        f", {kept} activities of which the earlier profile knew" if earlier else ""
-    )
+    agreed = f"; the earlier profile knew {kept} of the activities" if earlier else ""
     return TraitsReply(
         big_five=big_five,
         profile=clip(profile, 900),
         reasons_big_five=clip(because, 900),
-        reasons_profile=clip(f"It rests on {told}.", 900),
+        reasons_profile=clip(f"It rests on {len(lived)} intentions{agreed}.", 900),
     )
 
 

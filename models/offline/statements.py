@@ -50,6 +50,10 @@ def statements(text: str) -> Statements:
 
 
 def sentences(text: str) -> list[str]:
-    """Split a text into sentences of at least two words, without repeats."""
+    """Split a text into sentences of at least two words, without repeats (whatever their case)."""
     parts = (" ".join(part.split()).strip(" -*") for part in _END.split(text))
-    return list(dict.fromkeys(part for part in parts if len(part.split()) >= 2))
+    kept: dict[str, str] = {}
+    for part in parts:
+        if len(part.split()) >= 2:
+            kept.setdefault(part.lower().rstrip(".!"), part)
+    return list(kept.values())
