@@ -329,13 +329,23 @@ def load_scene(id_or_path: str | Path, folders: Sequence[Path] = ()) -> Scene:
     known = _scene_files(folders)
     given = str(id_or_path)
     path = known.get(given, Path(given))
-    if given not in known and not (path.suffix == ".json" or path.is_file()):
+    if given not in known and not (path.suffix == ".json" or _is_file(path)):
         raise ConfigError(f"There is no scene {given!r}; known are {', '.join(sorted(known)) or 'none'}.")
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as err:
+    except (OSError, ValueError) as err:  # ValueError: bytes that are no text, or a path that cannot be
         raise ConfigError(f"The scene file {path} cannot be read: {err}.") from err
-    return parse_scene(text, str(path))
+    scene = parse_scene(text, str(path))
+    if given in known and scene.id != given:
+        raise ConfigError(f"The scene file {path}, field id: must be {given!r} as the file's name, not {scene.id!r}.")
+    return scene
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # such as a name that is too long
+        return False
 
 
 def parse_scene(text: str, source: str) -> Scene:

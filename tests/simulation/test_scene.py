@@ -74,6 +74,18 @@ def test_an_unknown_id_is_refused_with_the_known_ones() -> None:
         load_scene("castle")
 
 
+@pytest.mark.parametrize("strange", ["", "x" * 5000, "a\0b", "a\0b.json", "y" * 5000 + ".json", ".", "tests"])
+def test_an_id_that_cannot_even_be_a_file_name_is_refused(strange: str) -> None:
+    with pytest.raises(ConfigError, match="scene"):
+        load_scene(strange)
+
+
+def test_a_file_whose_id_is_not_its_name_is_refused_when_asked_for_by_id(tmp_path: Path) -> None:
+    (tmp_path / "other.json").write_text(json.dumps(two_rooms()), encoding="utf-8")
+    with pytest.raises(ConfigError, match=r"other\.json, field id: must be 'other'"):
+        load_scene("other", [tmp_path])
+
+
 def test_a_missing_file_is_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"gone\.json"):
         load_scene(tmp_path / "gone.json")
