@@ -24,6 +24,11 @@ class Album(NamedTuple):
     taken: int
     small: bool
 
+    @property
+    def size(self) -> int:
+        """Characters of all data URIs together."""
+        return sum(len(uri) for views in self.views.values() for files in views.values() for uri in files)
+
 
 def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: int) -> Album:
     """Embed the frames of all hours within `budget` characters, evenly thinned where there are too many.

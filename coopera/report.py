@@ -25,7 +25,6 @@ from core.household import Outcome
 from core.people import BigFive, Persona
 
 MAX_BYTES = 24_000_000
-TEXT_PER_HOUR = 24_000  # characters of an hour's section without its frames, an upper estimate
 TEMPLATES = Path(__file__).parent / "templates"
 
 
@@ -82,21 +81,26 @@ def write_report(run: RunDir) -> Path:
         RunError: If the trace is damaged or the file cannot be written.
     """
     path = run.root / "report.html"
+    album = gather_pictures(run, MAX_BYTES)
+    html = render(run, album)
+    if (over := len(html.encode()) - MAX_BYTES) > 0:
+        html = render(run, gather_pictures(run, max(album.size - over, 0)))
     try:
-        write_atomic(path, render(run))
+        write_atomic(path, html)
     except OSError as err:
         raise RunError(f"{path}: the report cannot be written ({err.strerror or err}).") from err
     return path
 
 
-def render(run: RunDir) -> str:
+def gather_pictures(run: RunDir, budget: int) -> Album:
+    """The run's sampled frames, in at most `budget` characters."""
+    frames = {(one.day, one.hour): one.robot.observation.frames for one in run.hours() if one.robot}
+    return embed(run.root, frames, budget)
+
+
+def render(run: RunDir, album: Album) -> str:
     """The page as text; a run that is not finished is shown as far as it got."""
     records = run.hours()
-    album = embed(
-        run.root,
-        {(one.day, one.hour): one.robot.observation.frames for one in records if one.robot},
-        max(MAX_BYTES - 200_000 - TEXT_PER_HOUR * len(records), 0),
-    )
     people = run.people()
     days = _days(run, records, album, people)
     environment = Environment(

@@ -1,6 +1,7 @@
 "use strict";
 (() => {
   const root = document.documentElement;
+  root.classList.add("js");
   const store = { get: () => { try { return localStorage.getItem("coopera-theme"); } catch { return null; } },
     set: (value) => { try { localStorage.setItem("coopera-theme", value); } catch { /* file pages may have no storage */ } } };
   if (store.get()) root.dataset.theme = store.get();
@@ -74,6 +75,11 @@
       other.parentElement.querySelector(".big").src = frames[at].src;
     }
   };
+  const fill = (hour) => {
+    const strip = hour.querySelector(".strip");
+    if (strip && !hour.querySelector(".big").src) show(strip, 0);
+  };
+  document.addEventListener("toggle", (event) => { if (event.target.matches("details.hour[open]")) fill(event.target); }, true);
   document.addEventListener("pointerover", (event) => {
     const frame = event.target.closest(".strip img");
     if (frame) show(frame.parentElement, [...frame.parentElement.children].indexOf(frame));

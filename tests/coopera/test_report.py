@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from coopera import charts
 from coopera.pictures import embed, thin
-from coopera.report import hour_view, render, write_report
+from coopera.report import gather_pictures, hour_view, render, write_report
 from coopera.rundir import RunDir
 from tests.coopera.fake_run import fake_run
 
@@ -47,7 +48,7 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def html(small_run: RunDir) -> str:
-    return render(small_run)
+    return render(small_run, gather_pictures(small_run, 10**9))
 
 
 @pytest.fixture(scope="module")
@@ -124,13 +125,34 @@ def test_pictures_are_thinned_evenly_until_they_fit(small_run: RunDir) -> None:
     frames = {(one.day, one.hour): one.robot.observation.frames for one in small_run.hours() if one.robot}
     everything = embed(small_run.root, frames, 10**9)
     assert (everything.kept, everything.taken, everything.small) == (2, 2, False)
-    size = sum(len(uri) for views in everything.views.values() for files in views.values() for uri in files)
-    fewer = embed(small_run.root, frames, size * 2 // 3)
+    fewer = embed(small_run.root, frames, everything.size * 2 // 3)
     assert (fewer.kept, fewer.small) == (1, False)
     assert embed(small_run.root, frames, 0).views == {}
     files = [Path(str(n)) for n in range(8)]
     assert [path.name for path in thin(files, 3)] == ["0", "4", "7"]
     assert [path.name for path in thin(files, 1)] == ["4"]
+
+
+def test_a_page_with_more_text_than_expected_carries_fewer_pictures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = fake_run(tmp_path / "run", days=1, hours=3, frames=4)
+    whole = write_report(run).stat().st_size
+    monkeypatch.setattr("coopera.report.MAX_BYTES", whole - 1000)
+    assert write_report(run).stat().st_size <= whole - 1000
+    assert "pictures per view 3 are shown here" in (run.root / "report.html").read_text()
+
+
+def test_curves_leave_out_what_has_no_figure() -> None:
+    curve = charts.lines([charts.Series("predicate", "predicate", [0.25, None, 1.0], True)], ["a", "b", "<c>"])
+    assert curve.count("<circle") == 2
+    assert ">0.25</text>" in curve
+    assert ">1.00</text>" in curve
+    assert "&lt;c&gt;" in curve
+    assert "<c>" not in curve
+    assert charts.bars([None, 0.5], ["9am", "10am"]).count("<rect") == 1
+    assert charts.lines([], []).startswith("<svg")
+    assert charts.traits(None, None).count("<circle") == 0
 
 
 def test_a_trace_cannot_make_the_page_read_files_outside_the_run(small_run: RunDir, tmp_path: Path) -> None:
