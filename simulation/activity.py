@@ -24,8 +24,11 @@ _SEAT_NEAR = 0.9
 """A seat this near to a table or an instrument serves it (metres between their rectangles)."""
 _SEAT_FAR = 5.0
 """A seat this near serves what is only looked at or listened to."""
+_LOOKS_AT = math.radians(70)
+"""A seat serves a table only if one looks at it from there."""
 _WORKTOP = (0.45, 1.3)
-_ROOMY = ("exercise", "move around to music")
+_KEYS = 0.61  # a piano's keyboard, as a share of its height
+_ROOMY = ("exercise", "move around to music", "work near the floor")
 _LIE_ON_WIDTH = ("sofa", "bench")
 
 
@@ -128,8 +131,9 @@ def _seat_for(ground: Ground, target: SceneObject) -> tuple[SceneObject, Rest] |
             continue
         gap = _gap(thing, target)
         if gap <= far:
-            towards = math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x)
-            found.append((round(gap + 0.6 * abs(wrapped(towards - rest.heading)), 6), thing.name, thing, rest))
+            off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))
+            if off <= _LOOKS_AT or far == _SEAT_FAR:
+                found.append((round(gap + 0.6 * off, 6), thing.name, thing, rest))
     if not found:
         return None
     _, _, chair, rest = min(found, key=lambda row: row[:2])
@@ -152,6 +156,10 @@ def _bed_for(ground: Ground, target: SceneObject) -> tuple[SceneObject, Rest] | 
 
 def _worktop(target: SceneObject) -> float | None:
     """The height at which hands work at a piece of furniture."""
+    if target.cls == "piano":
+        return target.position[2] + _KEYS * target.size[2]
+    if target.position[2] >= _WORKTOP[0]:  # a machine on a counter is worked at on that counter
+        return target.position[2] + 0.1
     for surface in surfaces(target):
         height = target.position[2] + surface.z
         if _WORKTOP[0] <= height <= _WORKTOP[1]:

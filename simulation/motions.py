@@ -19,7 +19,7 @@ from core.people import Frozen
 from simulation.rotations import Array
 
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
-Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface"]
+Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
 Triple: TypeAlias = tuple[float, float, float]
 Path3: TypeAlias = Triple | list[Triple]

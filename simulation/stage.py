@@ -35,6 +35,7 @@ _THIN = 0.08
 _TOOL = 0.17
 _LONG = 0.7
 _FINE = 0.125
+_BULKY = 0.35
 _NEAR, _FAR = 0.05, 30.0
 _GLANCE = (64, 48)
 _CLOSE = 0.9  # metres
@@ -243,6 +244,8 @@ def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:
     ahead = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))  # the thing's front away from the body
     if held.hold == "floor" and size[0] > _LONG:
         return _long_tool(right, left, size)
+    if held.hold == "beside" and max(size) > _BULKY:
+        return np.array((0.0, -0.75, 0.0)), ahead
     if held.hold == "head":
         return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ ahead
     if held.hold == "surface" and max(size[:2]) > _TOOL:

@@ -85,7 +85,7 @@ class World:
         person = places[0]
         robot = next((place for place in places[1:] if math.dist(place, person) > 1.0), None)
         if robot is None:
-            cells = self._ground.navigator.free_in(rooms[0].name)
+            cells = self._ground.navigator.free_in(self._scene.room_at(*person).name)
             robot = max(cells, key=lambda cell: round(math.dist(cell, person), 3))
         return HomeState(scene=self.scene, person=PersonState(spot=person, place=person), robot=RobotState(spot=robot))
 
