@@ -270,9 +270,7 @@ class Filming:
         done = reached + 2 * _HOLD
         still, moved = self.person, self.moved
         offer, before = Held(step.thing), self.hand
-        target = to_body(Stand(still.x, still.y, still.yaw, 0.0, 0.0), step.point)
-        receiving = reaching(target) if self.recording.state.person.posture == "stand" else None
-        taking = still if receiving is None else still._replace(pose=receiving)
+        taking = _receiving(still, step) if self.recording.state.person.posture == "stand" else still
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -308,6 +306,13 @@ class Filming:
             self.person, self.hand = body, held
         else:
             self.robot, self.gripper = body, held
+
+
+def _receiving(person: Placed, step: Give) -> Placed:
+    """The person turned to the robot, with a hand at the thing."""
+    yaw = math.atan2(step.stand.y - person.y, step.stand.x - person.x)
+    pose = reaching(to_body(Stand(person.x, person.y, yaw, 0.0, 0.0), step.point))
+    return person if pose is None else person._replace(yaw=yaw, pose=pose)
 
 
 def watching(robot: Placed, person: Placed) -> Placed:
