@@ -6,13 +6,16 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from langchain_core.embeddings import Embeddings
 
 from coopera.config import Config
+from coopera.rundir import RunDir
+from core.hour import ModelCall
 from core.household import SceneId
 from core.people import Persona
-from core.protocols import Ask, Classifier, Home, Recorder, Role
+from core.protocols import Ask, Classifier, Home, Reply, Role
 from evaluation import METHODS, Measure
 from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
@@ -66,33 +69,50 @@ def open_ask(
 
 @contextmanager
 def open_services(
-    config: Config, recorder: Recorder, people: Mapping[str, Persona], prompts: PromptLibrary | None = None
+    config: Config, run: RunDir, people: Mapping[str, Persona], prompts: PromptLibrary | None = None
 ) -> Iterator[Services]:
     """Open everything that a run works with, and close it at the end.
 
     Args:
         config: Resolved by `coopera.catalogues.resolve`.
-        recorder: The run directory.
+        run: The run directory, which may be asked to stop.
         people: Those who may take part, by id.
         prompts: The prompt folder, where it has been read already.
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
-        ask = open_ask(config, prompts=prompts, embeddings=embeddings, root=recorder.root)
+        ask = _Interruptible(open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root), run.check)
         method = METHODS[config.method]
         yield Services(
             ask=ask,
             method=method,
             people={persona.id: persona for persona in people.values()},
             home=_Homes(stack, config, embeddings),
-            stream=_Streams(stack, recorder.root / "memory", embeddings),
+            stream=_Streams(stack, run.root / "memory", embeddings),
             embeddings=embeddings,
-            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, recorder),
-            recorder=recorder,
+            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, run),
+            recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
             frames=config.frames if config.pictures == "sampled" else 0,
         )
+
+
+class _Interruptible:
+    """The one door, shut once the run is asked to stop, so that a slow model does not hold it up for an hour."""
+
+    def __init__(self, ask: Ask, check: Callable[[], None]) -> None:
+        self._ask, self._check = ask, check
+
+    def __call__(self, prompt: str, reply: type[Reply], /, **given: Any) -> Reply:
+        self._check()
+        return self._ask(prompt, reply, **given)
+
+    def sees(self, role: Role) -> bool:
+        return self._ask.sees(role)
+
+    def take_calls(self) -> list[ModelCall]:
+        return self._ask.take_calls()
 
 
 class _Homes:

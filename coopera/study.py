@@ -98,14 +98,19 @@ def plan_days(config: Config) -> list[DayPlan]:
 def _carry_on(run: RunDir, services: Services, on_event: Callable[[Event], None] | None) -> dict[str, Any]:
     with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
         saver = SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
-        _stream(services, saver, plan_days(run.config), on_event)
+        scored = [hour.success.predicate for hour in run.hours() if hour.success]
+        _stream(services, saver, plan_days(run.config), scored, on_event)
     summary = run.finish()
     write_report(run)
     return summary
 
 
 def _stream(
-    services: Services, saver: SqliteSaver, days: list[DayPlan], on_event: Callable[[Event], None] | None
+    services: Services,
+    saver: SqliteSaver,
+    days: list[DayPlan],
+    scored: list[Counts],
+    on_event: Callable[[Event], None] | None,
 ) -> None:
     graph = build_study_graph(saver)
     begun = bool(graph.get_state(_THREAD).values)
@@ -118,7 +123,6 @@ def _stream(
         durability="async",
     )
     now: dict[str, Any] = {"day": 0, "hour": None}
-    scored: list[Counts] = []
     for _, mode, data in cast(Iterator[tuple[Any, str, dict[str, Any]]], stream):
         if mode == "custom":
             now = {"day": data["day"], "hour": data["hour"]}

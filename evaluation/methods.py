@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from graphs import Method
+from graphs.method import Method
 
 OURS = Method(name="ours")
 

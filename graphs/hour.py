@@ -144,7 +144,7 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
             scene=plan.scene,
             human=human,
             robot=robot,
-            world={"outcomes": [o.model_dump() for o in state.get("outcomes", [])], "after": world},
+            world={"outcomes": [o.model_dump() for o in state.get("outcomes", [])], "poses": world},
             success=success,
             status="failed" if "failure" in state else "ok",
             reason=state.get("failure", ""),
