@@ -20,6 +20,7 @@ from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, 
 from memory.probe import damage
 
 if TYPE_CHECKING:
+    import httpx
     from chromadb.api import ClientAPI
     from chromadb.api.models.Collection import Collection
 
@@ -105,7 +106,10 @@ class Store:
                 return
             del Store._open[self._key]
             if not isinstance(self._key, int):  # a client of the caller's stays open
+                sessions = _sessions(self._client)
                 self._client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
+                for session in sessions:
+                    session.close()
             if self._holding is not None:
                 seal(Path(self.where))
                 self._holding.close()
@@ -239,7 +243,18 @@ def _connect(url: str) -> ClientAPI:
         client = chromadb.HttpClient(
             host=parts.hostname, port=port, ssl=secure, settings=Settings(anonymized_telemetry=False)
         )
-    session = getattr(getattr(client, "_server", None), "_session", None)
-    if isinstance(session, httpx.Client):  # Chroma would wait for ever
+    for session in _sessions(client):
         session.timeout = httpx.Timeout(_REQUEST_PATIENCE)
     return client
+
+
+def _sessions(client: ClientAPI) -> list[httpx.Client]:
+    """Return the connection pools of a server's client: Chroma neither limits their waiting nor closes them."""
+    import httpx  # noqa: PLC0415 - heavy
+
+    found = []
+    for part in (client, getattr(client, "_admin_client", None)):
+        session = getattr(getattr(part, "_server", None), "_session", None)
+        if isinstance(session, httpx.Client):
+            found.append(session)
+    return found
