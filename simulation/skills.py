@@ -225,10 +225,21 @@ def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
     drive = np.hypot(*(cells - np.array(robot.spot)).T)
     cost = np.round(np.abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive, 6)
     order = np.argsort(cost, kind="stable")
-    return [
+    here = _where_it_is(ground, state)
+    return ([here] if here is not None else []) + [
         Stand(float(cells[i, 0]), float(cells[i, 1]), float(towards[i]), float(drive[i]), float(gap[i]))
         for i in order[:: max(1, len(order) // _TRIES)]
     ]
+
+
+def _where_it_is(ground: Ground, state: HomeState) -> Stand | None:
+    """The robot's own place, if it is already before the person, in the same room and within handing distance."""
+    (x, y), person = state.robot.spot, state.person
+    gap = math.dist((x, y), person.place)
+    together = ground.scene.room_at(x, y) == ground.scene.room_at(*person.place)
+    if not (together and HANDING[0] <= gap <= HANDING[1]):
+        return None
+    return Stand(x, y, math.atan2(person.place[1] - y, person.place[0] - x), 0.0, gap)
 
 
 def handing_point(person: PersonState, stand: Stand) -> tuple[float, float, float]:

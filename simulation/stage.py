@@ -14,9 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.household import Agent
-from core.randomness import seed_at
 from simulation import fetch
-from simulation.catalogue import catalogue
 from simulation.engine import pybullet  # isort: split
 
 from simulation.build import build  # after the engine: whoever imports pybullet first makes it print
@@ -26,10 +24,9 @@ from simulation.recording import Held, Moment
 from simulation.rotations import Array, about_z, matrix, quaternion
 from simulation.scene import Scene
 from simulation.state import HomeState, ThingState
+from simulation.things import Point3, Shape, shape_of
 
 BODIES = Path(__file__).parent / "bodies"
-_UNKNOWN_SIZE = (0.12, 0.10, 0.12)
-_UNKNOWN_COLOURS = ("#c8503c", "#3c78b4", "#d2a03c", "#5a9650", "#8c5aa0")
 _FAR_BELOW = -50.0
 _THIN = 0.08
 _TOOL = 0.17
@@ -39,7 +36,6 @@ _BULKY = 0.35
 _NEAR, _FAR = 0.05, 30.0
 _GLANCE = (64, 48)
 _CLOSE = 0.9  # metres
-Point3 = tuple[float, float, float]
 Image = NDArray[np.uint8]
 
 
@@ -49,14 +45,6 @@ class Camera(NamedTuple):
     eye: Point3
     target: Point3
     fov: float = 58.0
-
-
-class Shape(NamedTuple):
-    """What a thing looks like: its class in the catalogue (or its own text), size and colour."""
-
-    cls: str
-    size: Point3
-    rgb: Point3
 
 
 class Stage:
@@ -216,25 +204,6 @@ class Stage:
         image, mask, depth = self._render(camera, _GLANCE)
         del image
         return float((mask == self.person).mean()), float(((depth < _CLOSE) & (mask != self.person)).mean())
-
-
-def shape_of(text: str) -> Shape:
-    """How a thing from the magic box looks: a class that its text names, or else a plain box of a fixed colour."""
-    known = catalogue().movable
-    words = text.lower().replace("_", " ").split()
-    for size in range(len(words), 0, -1):
-        for start in range(len(words) - size + 1):
-            cls = "_".join(words[start : start + size])
-            for name in (cls, cls.removesuffix("s")):
-                if name in known:
-                    return Shape(name, known[name].size, _rgb(known[name].colours[0]))
-    colour = _UNKNOWN_COLOURS[seed_at(0, "magic box", text.lower()) % len(_UNKNOWN_COLOURS)]
-    return Shape("_".join(words), _UNKNOWN_SIZE, _rgb(colour))
-
-
-def _rgb(colour: str) -> Point3:
-    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-    return red, green, blue
 
 
 def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:

@@ -10,6 +10,7 @@ from simulation.navigation import Disc, Route
 from simulation.plans import Ground, Plan, UnableError, Walk, discs, other, stand_up
 from simulation.scene import Point
 
+_THERE = 0.02
 _DETOUR = 4.0
 """Longest way around the other one, in metres more than the straight way, before they are asked to step aside."""
 
@@ -21,6 +22,10 @@ def walk(ground: Ground, plan: Plan, agent: Agent, goal: Point, carries: str | N
         UnableError: If there is no way.
     """
     start = plan.state.spot(agent)
+    if math.dist(start, goal) < _THERE:
+        if agent == "human":
+            plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, start)})
+        return
     route = ground.navigator.route(start, goal)
     if route.points is None:
         raise UnableError(f"the {agent} cannot get there: {route.reason}")

@@ -9,7 +9,8 @@ from PIL import Image
 
 from core.errors import SimulationError
 from simulation.cameras import robot_camera
-from simulation.stage import shape_of
+from simulation.catalogue import catalogue
+from simulation.things import LOOKS_LIKE, shape_of
 from simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
@@ -129,3 +130,8 @@ def test_a_folder_that_cannot_be_written_is_named(home, tmp_path) -> None:
 )
 def test_a_thing_from_the_magic_box_looks_like_the_class_that_its_text_names(text, cls) -> None:
     assert shape_of(text).cls == cls
+
+
+def test_every_look_alike_is_a_known_class() -> None:
+    assert set(LOOKS_LIKE.values()) <= set(catalogue().movable)
+    assert not set(LOOKS_LIKE) & set(catalogue().movable)

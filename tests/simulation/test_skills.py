@@ -108,6 +108,19 @@ def test_a_hand_over_happens_before_the_person_at_arms_length() -> None:
     assert plan.state.robot.thing is None
 
 
+def test_the_robot_does_not_hand_a_thing_through_the_wall() -> None:
+    behind_the_wall = home(person=(4.1, 0.9), robot=(4.9, 0.9))
+    plan = hand_over(GROUND, behind_the_wall, bring("banana"))
+    assert SCENE.room_at(*plan.state.robot.spot).name == "living room"
+    assert plan.metres > 2
+
+
+def test_the_robot_stays_where_it_is_if_the_person_is_at_hand() -> None:
+    plan = hand_over(GROUND, home(person=(7.3, 1.2), robot=(8.2, 1.2)), bring("banana"))
+    assert [type(step) for step in plan.steps] == [Give]
+    assert plan.metres == 0
+
+
 def test_a_person_who_sits_takes_up_the_seat_and_the_floor_before_it() -> None:
     sitting = home().with_person(place=(2.0, 0.68), spot=(2.0, 1.35), posture="sit")
     assert [(disc.x, disc.y) for disc in discs(sitting, "human")] == [(2.0, 1.35), (2.0, 0.68)]
