@@ -50,7 +50,7 @@ def person_placements(
     for index in (feasible[i] for i in order[:count]):
         chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], pick))
     if len(chosen) < count:
-        chosen = fill_up(chosen, makeshift_places(sense, activity, variables["intention"], fixed, movable), count)
+        chosen = fill_up(chosen, makeshift_places(sense, activity, fixed, movable), count)
     return sorted(chosen, key=lambda place: place.order)
 
 

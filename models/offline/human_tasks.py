@@ -57,7 +57,7 @@ def free_motions(
     """
     person, activity = known(life), sense.recognise(variables["intention"]).activity
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
-    options = spots(sense, activity, variables["intention"], Surroundings(variables["fixed"]))
+    options = spots(sense, activity, Surroundings(variables["fixed"]))
     if not options:
         raise ModelCallError("human/tasks_type2: the home has no fixed object to make a task of")
     names = activity.thing_names

@@ -82,15 +82,15 @@ class PrivateLife:
         return np.asarray(weights / weights.sum(), dtype=np.float64)
 
     def motion(self, activity: Activity, thing: str, rng: np.random.Generator) -> str:
-        """Choose the motion for a thing: the common one, or one of what comes just before or after it.
+        """Choose the motion for a thing: the common one, or another of the activity's that looks like it.
 
         Which of them is a habit of this person's own; now and then it is another.
         """
-        turn = activity.thing_names.index(thing)
-        around = [activity.things[name] for name in activity.thing_names[max(turn - 1, 0) : turn + 2]]
+        looks, common = self._sense.household.looks_like, activity.things[thing]
+        alike = [motion for motion in activity.all_motions if looks[motion] == looks[common]]
         own = self._rng("motion", activity.id, thing)
-        habit = activity.things[thing] if own.random() < 0.85 else around[int(own.integers(len(around)))]
-        return habit if rng.random() < 0.93 else around[int(rng.integers(len(around)))]
+        habit = common if own.random() < 0.7 else alike[int(own.integers(len(alike)))]
+        return habit if rng.random() < 0.9 else alike[int(rng.integers(len(alike)))]
 
     def favourite(self, names: Sequence[str], what: str) -> str:
         """Choose among equals, such as two mugs, always the same."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from core.household import FreeMotion, PickPlace, plain
+from core.household import FreeMotion, PickPlace
 from models.offline.knowledge import Activity
 from models.offline.reading import Piece, Surroundings, room_kind
 from models.offline.sense import CommonSense
@@ -55,16 +55,14 @@ def placement(
 
 
 def makeshift_places(
-    sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings, movable: Surroundings
+    sense: CommonSense, activity: Activity, fixed: Surroundings, movable: Surroundings
 ) -> list[Placement]:
     """Return placements for a home that lacks the usual objects, the most fitting first.
 
-    Things and spots that the activity knows come first, then others by their likeness to the intention.
+    Things and spots that the activity knows come first, then those that are most like them.
     """
-    known_things = {thing for thing, _ in activity.places}
-    known_spots = {spot for _, spot in activity.places}.union(activity.fixed)
-    things = _by_fit(sense, movable.pieces, known_things, intention)
-    spots = _by_fit(sense, fixed.pieces, known_spots, intention)
+    things = _by_fit(sense, movable.pieces, [thing for thing, _ in activity.places])
+    spots = _by_fit(sense, fixed.pieces, [*(spot for _, spot in activity.places), *activity.fixed])
     spots.sort(key=lambda piece: room_kind(piece.room) not in activity.rooms)
     pairs = [(max(i, j), i, j) for i in range(min(len(things), 12)) for j in range(min(len(spots), 12))]
     return [Placement(things[i], spots[j], len(activity.places) + rank) for rank, (_, i, j) in enumerate(sorted(pairs))]
@@ -84,12 +82,12 @@ def fill_up(chosen: Sequence[Placement], spare: Sequence[Placement], count: int)
     return result
 
 
-def spots(sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings) -> dict[str, list[Piece]]:
+def spots(sense: CommonSense, activity: Activity, fixed: Surroundings) -> dict[str, list[Piece]]:
     """Return where the activity can be done, by class in its own order; never empty if there is furniture."""
     found = {cls: in_rooms(fixed.of(cls), activity) for cls in activity.fixed if fixed.of(cls)}
     if found or not fixed.pieces:
         return found
-    nearest = _by_fit(sense, fixed.pieces, set(), intention)[0]
+    nearest = _by_fit(sense, fixed.pieces, activity.fixed)[0]
     return {nearest.cls: [nearest]}
 
 
@@ -98,7 +96,8 @@ def free_motion(spot: Piece, thing: str, motion: str) -> FreeMotion:
     return FreeMotion(target_id=spot.id, target=spot.name, in_hand=thing, motion=motion)
 
 
-def _by_fit(sense: CommonSense, pieces: Sequence[Piece], known: set[str], intention: str) -> list[Piece]:
-    """Sort objects: known classes first, then by likeness of their names to the intention."""
-    likeness = {piece.cls: sense.similarity(plain(piece.cls), intention) for piece in pieces}
-    return sorted(pieces, key=lambda piece: (piece.cls not in known, -round(likeness[piece.cls], 6), piece.name))
+def _by_fit(sense: CommonSense, pieces: Sequence[Piece], known: Sequence[str]) -> list[Piece]:
+    """Sort objects by how like their class is to the likest of the known classes; the known ones come first."""
+    classes = list(dict.fromkeys(known))
+    likeness = {piece.cls: round(sense.nearest(piece.cls, classes)[1], 6) for piece in pieces}
+    return sorted(pieces, key=lambda piece: (-likeness[piece.cls], piece.name))

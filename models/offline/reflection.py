@@ -82,7 +82,7 @@ def profile_type2(
     """Answer human/reflect_profile_type2: do things, spots, motions and their order fit this person's way?"""
     person, activity = known(life), sense.recognise(variables["intention"]).activity
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
-    options = spots(sense, activity, variables["intention"], fixed)
+    options = spots(sense, activity, fixed)
     weights = dict(zip(activity.thing_names, person.thing_weights(activity), strict=True))
     favourites = sorted(weights, key=lambda thing: (-weights[thing], thing))
     for item in items:
@@ -122,7 +122,7 @@ def scene_type1(
     _heed(items, variables["findings"])
     mended = [item for item in items if item.problems and all(MENDED in said for said in item.problems)]
     wanting = len(mended) < sum(bool(item.problems) for item in items) or len(items) < count
-    spare = _usual_placements(sense, activity, variables["intention"], fixed, movable) if wanting else []
+    spare = _usual_placements(sense, activity, fixed, movable) if wanting else []
     _replace([item for item in items if item not in mended], spare, beside=items)
     verdicts = [_verdict(item) for item in items]
     del items[count:]
@@ -149,7 +149,7 @@ def scene_type2(
             _other_thing(items, item, activity, activity.thing_names)
     verdicts = [_verdict(item) for item in items]
     del items[count:]
-    options = [piece for some in spots(sense, activity, variables["intention"], fixed).values() for piece in some]
+    options = [piece for some in spots(sense, activity, fixed).values() for piece in some]
     for thing in activity.thing_names:
         if len(items) < count and options and thing not in [item.act.in_hand for item in items]:
             act = free_motion(options[0], thing, activity.things[thing])
@@ -204,13 +204,13 @@ def _mend(sense: CommonSense, item: _Item[A], name: str, number: int, objects: S
 
 
 def _usual_placements(
-    sense: CommonSense, activity: Activity, intention: str, fixed: Surroundings, movable: Surroundings
+    sense: CommonSense, activity: Activity, fixed: Surroundings, movable: Surroundings
 ) -> list[Placement]:
     """Return what anybody would place for the activity in this home: enough to replace all that a reply may hold."""
     usual: list[Placement] = []
     for index in feasible_places(activity, fixed, movable):
         usual.append(placement(activity, index, fixed, movable, [p.thing.name for p in usual], by_name))
-    return fill_up(usual, makeshift_places(sense, activity, intention, fixed, movable), len(usual) + MOST)
+    return fill_up(usual, makeshift_places(sense, activity, fixed, movable), len(usual) + MOST)
 
 
 def _replace(

@@ -43,7 +43,7 @@ def pick_and_place(
     for index in (places[i] for i in _ranked(logits, rng, temperature)[:count]):
         chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], by_name))
     if len(chosen) < count:
-        spare = makeshift_places(sense, activity, variables["intention"], fixed, movable)
+        spare = makeshift_places(sense, activity, fixed, movable)
         chosen = fill_up(chosen, [place for place in spare if not _is_act(place.act(), done)], count)
     if not chosen:
         raise ModelCallError("robot/tasks_type1: the home has no movable or no fixed object to make a task of")

@@ -71,6 +71,20 @@ def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
         assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
 
 
+def test_everything_that_is_placed_fits_where_it_is_placed() -> None:
+    catalogue = _read("simulation/catalogue.yaml")
+
+    def fits(thing: str, spot: str) -> bool:
+        (width, depth, height), kind = catalogue["movable"][thing]["size"], catalogue["fixed"][spot]
+        for _, x0, x1, y0, y1, clear in kind["surfaces"]:
+            room = sorted(((x1 - x0) * kind["size"][0], (y1 - y0) * kind["size"][1]))
+            if min(width, depth) <= room[0] and max(width, depth) <= room[1] and height <= clear:
+                return True
+        return spot in catalogue["movable"][thing]["put"]  # homes have it there, so it does
+
+    assert [(a.id, *place) for a in ACTIVITIES for place in a.places if not fits(*place)] == []
+
+
 def test_motions_are_those_of_the_simulation_and_look_as_it_says() -> None:
     motions = _read("simulation/motions.yaml")["motions"]
     assert shipped().looks_like == {motion["caption"]: motion["class"] for motion in motions}
