@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-import pybullet
-
 from simulation.catalogue import catalogue, parts_of
+from simulation.engine import pybullet
 from simulation.navigation import WALL_THICKNESS
 from simulation.scene import Room, Scene, Wall, rgb_of
 from simulation.shapes import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade

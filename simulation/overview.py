@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
 
 from simulation.build import build
+from simulation.engine import pybullet
 from simulation.scene import Scene
 
 _FOV = 46.0
