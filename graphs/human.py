@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, TypeAlias
 
 from langgraph.graph import END, START, StateGraph
@@ -248,12 +248,21 @@ def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
     return {name: objects[name] for name in ranked[: Numbers.SEARCH_OBJECTS]}
 
 
+def _with_reasons(task: Task, said: Mapping[str, Reasons]) -> Task:
+    """A task that a reflection left as it was keeps its reasons where the reflection gave none."""
+    if task.reasons == Reasons() and task.act.describe() in said:
+        return task.model_copy(update={"reasons": said[task.act.describe()]})
+    return task
+
+
 def _revised(
     state: HumanState,
     reply: PickPlaceReflectionReply | FreeMotionReflectionReply,
     node: Literal["reflect_profile", "reflect_scene"],
 ) -> dict[str, Any]:
-    before, after = state["tasks"], number(reply.tasks, state["clock"])
+    before = state["tasks"]
+    said = {task.act.describe(): task.reasons for task in before}
+    after = [_with_reasons(task, said) for task in number(reply.tasks, state["clock"])]
     texts = [task.act.describe() for task in before]
     changes = [
         f"{new.id}: {old or 'nothing'} -> {new.act.describe()}"

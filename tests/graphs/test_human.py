@@ -67,6 +67,14 @@ def test_what_a_reflection_changes_stands_in_the_trace(make_services: MakeServic
     assert second.changes == ["9.5: stir a pot spatula at the stove with the spatula in hand -> dropped"]
 
 
+def test_a_task_that_no_reflection_touched_keeps_its_reasons(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    reasoned = [{**STIR[0], "reason_human": "I love stirring."}, *STIR[1:]]
+    answers["human/tasks_type2"] = lambda v: {"tasks": reasoned}
+    hour = live(person(make_services, ask=ScriptedAsk(answers)))
+    assert hour.tasks[0].reasons.human == "I love stirring."
+
+
 def test_the_second_reflection_is_told_what_code_found(make_services: MakeServices) -> None:
     answers = type2_answers()
     wrong = [moving("oven_1", "spoon", "stir a pot"), moving("stove_1", "none", "stir a pot", 99), *STIR[2:]]
