@@ -5,8 +5,9 @@ Names are loaded when they are first used, so that `import coopera` costs nothin
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.config import Config
@@ -23,9 +24,4 @@ _HOME = {
     "run_study": "coopera.study",
 }
 
-
-def __getattr__(name: str) -> Any:
-    """Load a public name on first use."""
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module 'coopera' has no attribute {name!r}")
+__getattr__ = lazy_names(__name__, _HOME)

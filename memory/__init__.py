@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
@@ -49,9 +50,4 @@ __all__ = [
     "streams",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """Load a public name with its first use, so that importing the package costs nothing."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+__getattr__ = lazy_names(__name__, _HOMES)

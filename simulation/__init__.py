@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from simulation.scene import Scene, list_scenes, load_scene
@@ -18,9 +19,4 @@ _HOMES = {
     "World": "simulation.world",
 }
 
-
-def __getattr__(name: str) -> Any:
-    """Import a public name's module on first use, so that `import simulation` stays light."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+__getattr__ = lazy_names(__name__, _HOMES)
