@@ -7,7 +7,7 @@ import threading
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -24,7 +24,11 @@ if TYPE_CHECKING:
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
 _BLOCKS_IN_RAM = 48  # 38 MB of MiniLM's
+_TEXTS_IN_RAM = 2048
 _FAN = 32  # positions looked at together when searching by hour
+
+
+_Stored: TypeAlias = tuple[str | None, Mapping[str, Any]]
 
 
 class Record(NamedTuple):
@@ -62,6 +66,7 @@ class Log:
         self._tail = _empty(0, 0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
+        self._lately: OrderedDict[int, _Stored] = OrderedDict()
         self._reload()
 
     def __len__(self) -> int:
@@ -143,21 +148,35 @@ class Log:
         Raises:
             MemoryStoreError: If one is missing or is not what was written.
         """
-        found: dict[int, Record] = {}
-        for start in range(0, len(positions), _PER_CALL):
-            part = positions[start : start + _PER_CALL]
-            with translated(self.where):
-                rows = self._collection.get(ids=self._ids(part), include=["documents", "metadatas"])
-            for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
-                record, whole = restored(text, meta or {})
-                position = position_of(key)
-                if record is None or not whole:
-                    raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
-                found[position] = record
+        records = []
+        stored = self._stored(positions)
+        for position in positions:
+            if position not in stored:
+                raise DamagedMemoryError(self.where, f"record {position} is missing")
+            record, whole = restored(*stored[position])
+            if record is None or not whole:
+                raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
+            records.append(record)
+        return records
+
+    def _stored(self, positions: Sequence[int]) -> dict[int, _Stored]:
+        """Return texts with their metadata by position: those asked for lately from RAM, the others from the store."""
+        found = {position: self._lately[position] for position in positions if position in self._lately}
         missing = [position for position in positions if position not in found]
-        if missing:
-            raise DamagedMemoryError(self.where, f"record {missing[0]} is missing")
-        return [found[position] for position in positions]
+        for start in range(0, len(missing), _PER_CALL):
+            with translated(self.where):
+                part = self._ids(missing[start : start + _PER_CALL])
+                rows = self._collection.get(ids=part, include=["documents", "metadatas"])
+            for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
+                found[position_of(key)] = (text, meta or {})
+        if len(positions) <= _TEXTS_IN_RAM // 8:
+            for position in positions:
+                if position in found:
+                    self._lately.pop(position, None)
+                    self._lately[position] = found[position]
+            while len(self._lately) > _TEXTS_IN_RAM:
+                self._lately.popitem(last=False)
+        return found
 
     def _append(
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
@@ -218,6 +237,7 @@ class Log:
         """Read the log's end from the store."""
         self._blocks.clear()
         self._starts.clear()
+        self._lately.clear()
         self._length = 0
         self._tail = _empty(0, 0)
         with translated(self.where):

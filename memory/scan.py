@@ -18,6 +18,9 @@ from memory.minilm import Vector
 BLOCK = 512
 """Records per block: what is read at once."""
 
+STEP = 192
+"""Records scored at once: about as many as decide a recall, so that where blocks begin matters little."""
+
 _MARGIN = 1e-4
 """More than float32 arithmetic can err in a score; what is that near to the k-th best is computed in float64."""
 
@@ -110,7 +113,7 @@ def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int
     position = high
     while position > low and not window.complete:
         block = rows.block((position - 1) // BLOCK)
-        start = max(low, block.start)
+        start = max(low, block.start, position - STEP)
         part = slice(start - block.start, position - block.start)
         window.take(Block(start, block.vectors[part], block.hours[part]))
         position = start

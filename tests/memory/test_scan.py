@@ -88,6 +88,7 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a few records fill many blocks, and little of it stay in RAM."""
     for module in ("memory.scan", "memory.log"):
         monkeypatch.setattr(f"{module}.BLOCK", 4)
+    monkeypatch.setattr("memory.scan.STEP", 3)
     monkeypatch.setattr("memory.log._BLOCKS_IN_RAM", 2)
     monkeypatch.setattr("memory.log._FAN", 2)
 

@@ -1,0 +1,320 @@
+"""How fast and how exact is the memory? `python benchmarks/memory_stream.py [--quick] [--store DIR] [--out FILE]`.
+
+One run measures everything that is compared. Calls on the different sizes alternate, so that a busy machine slows all
+of them alike. Records are six per waking hour, thirteen hours a day, with MiniLM vectors of household sentences.
+Texts are encoded beforehand: what is timed is the recall (or the baseline's answer), not the encoding.
+
+Baselines, each asked the same questions about the same records:
+- `brute force`: score every record in numpy, float32, vectors in RAM;
+- `LangChain`: TimeWeightedVectorStoreRetriever over Chroma (needs `pip install langchain-classic langchain-chroma`;
+  skipped with a word if they are not there). What it rewrites in reading is put back before each question;
+- `encode everything`: encode the whole history at each question, as the paper's published code does. Measured on 60
+  records; for other sizes that time is scaled, and marked so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from datetime import datetime, timedelta
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from langchain_core.documents import Document
+from langchain_core.embeddings import Embeddings
+from typing_extensions import override
+
+from memory import MemoryStream, Record, bundled
+from memory.minilm import Vector, shared
+from memory.scan import ArrayRows, top
+from memory.stream import unit
+
+DECAY = 0.95
+K = 5
+IN_PROCESS = "ours in process"
+LONG_AGO = "ours, on a day long ago"
+WARM_UP, SLOW_ROUNDS = 2, 40
+PER_HOUR, HOURS_PER_DAY = 6, 13
+PAGE = 4000
+ACTIVITIES = (
+    "make a cup of tea", "read a novel", "water the plants", "cook pasta for dinner", "play the guitar",
+    "do some yoga", "clean the kitchen counter", "write in a diary", "watch a film", "fold the laundry",
+    "call a friend", "paint a landscape", "repair a radio", "bake bread", "feed the cat", "take a nap",
+    "sort old photographs", "study for an exam", "lift weights", "plan the week",
+)  # fmt: skip
+DETAILS = (
+    "in the kitchen", "on the sofa", "by the window", "at the desk", "in the living room", "before breakfast",
+    "after lunch", "slowly and with care", "in a hurry", "with some music", "to relax", "to be kind to a guest",
+    "while it rains", "with the door open", "once more", "for the first time", "with a favourite mug",
+    "in silence", "late in the day", "as every week",
+)  # fmt: skip
+QUESTIONS = (
+    "something warm to drink", "physical exercise", "a quiet evening", "tidy up the home", "creative hobby",
+    "prepare a meal", "care for animals and plants", "learn something new", "contact with other people", "rest",
+)  # fmt: skip
+
+
+class Prepared(Embeddings):
+    """Embeddings looked up by the text's number ("… #17"): sentences that repeat, each a little different."""
+
+    model_id, dimension = "benchmark", 384
+
+    def __init__(self, sentences: Vector, questions: dict[str, Vector]) -> None:
+        self._sentences = sentences
+        self._questions = questions
+
+    def vectors(self, start: int, stop: int) -> Vector:
+        """Return the vectors of records start … stop - 1."""
+        rng = np.random.default_rng(start)
+        chosen = self._sentences[np.random.default_rng([1, start]).integers(0, len(self._sentences), stop - start)]
+        return unit(chosen + 0.01 * rng.standard_normal(chosen.shape).astype(np.float32), [""] * (stop - start))
+
+    @override
+    def embed_documents(self, texts: list[str]) -> list[list[float]]:
+        if texts[0] in self._questions:
+            return [self._questions[text].tolist() for text in texts]
+        numbers = [number_of(text) for text in texts]
+        page = self.vectors(numbers[0], numbers[0] + PAGE)[: len(numbers)]
+        assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+        assert numbers[0] % PAGE == 0
+        vectors: list[list[float]] = page.tolist()
+        return vectors
+
+    @override
+    def embed_query(self, text: str) -> list[float]:
+        return self.embed_documents([text])[0]
+
+
+def number_of(text: str) -> int:
+    """Return the number in a record's text."""
+    return int(text.rpartition("#")[2])
+
+
+def exactly(rows: ArrayRows, query: Vector, now: int) -> list[int]:
+    """Return the best records' positions by the windowed scan."""
+    return [hit.position for hit in top(rows, query, K, now=now, decay=DECAY).hits]
+
+
+def hour_of(number: int) -> int:
+    """Return the hour of a record: nights pass without records."""
+    day, within = divmod(number, PER_HOUR * HOURS_PER_DAY)
+    return day * 24 + 9 + within // PER_HOUR
+
+
+def milliseconds(ask: Callable[[], Any]) -> float:
+    """Return how long a call takes."""
+    start = time.perf_counter()
+    ask()
+    return (time.perf_counter() - start) * 1e3
+
+
+def summary(times: Sequence[float]) -> dict[str, float]:
+    """Return median and 95th percentile, in ms."""
+    return {"p50_ms": round(float(np.median(times)), 3), "p95_ms": round(float(np.percentile(times, 95)), 3)}
+
+
+def build(folder: Path, size: int, embeddings: Prepared) -> tuple[MemoryStream, dict[str, float]]:
+    """Return an open stream of `size` records, made if it is not there, and how fast it was made and opened."""
+    took: dict[str, float] = {}
+    path = folder / str(size)
+    with MemoryStream.open(path, "life", embeddings, DECAY) as stream:
+        missing = range(len(stream), size, PAGE)
+        start = time.perf_counter()
+        for page in missing:
+            numbers = range(page, min(page + PAGE, size))
+            stream.extend([Record(f"record #{number}", hour_of(number), {}) for number in numbers])
+        if missing:
+            took["inserted_per_s"] = round((size - missing[0]) / (time.perf_counter() - start))
+    start = time.perf_counter()
+    stream = MemoryStream.open(path, "life", embeddings, DECAY)
+    took["open_ms"] = round((time.perf_counter() - start) * 1e3)
+    took["mb_on_disk"] = round(sum(file.stat().st_size for file in path.rglob("*") if file.is_file()) / 1e6, 1)
+    return stream, took
+
+
+def brute_force(vectors: Vector, hours: np.ndarray, query: Vector, now: int) -> list[int]:
+    """Score everything; return the positions of the best."""
+    scores = (vectors @ query) * DECAY ** (now - hours)
+    best = np.argpartition(scores, -K)[-K:]
+    return [int(place) for place in best[np.argsort(-scores[best])]]
+
+
+def langchain_retriever(
+    folder: Path, size: int, embeddings: Prepared
+) -> tuple[Callable[[str], list[int]], Callable[[], None]] | None:
+    """Return a function that asks LangChain's retriever and one that undoes what reading changed; None without it."""
+    try:
+        retrievers: Any = import_module("langchain_classic.retrievers")
+        store: Any = import_module("langchain_chroma")
+    except ModuleNotFoundError:
+        return None
+    chroma = store.Chroma(
+        f"langchain-{size}",
+        embeddings,
+        persist_directory=str(folder / f"langchain-{size}"),
+        collection_metadata={"hnsw:space": "cosine"},
+    )
+    now = datetime.now()
+    last = hour_of(size - 1) + 1
+    documents = []
+    for number in range(size):
+        when = now - timedelta(hours=last - hour_of(number))
+        documents.append(Document(f"record #{number}", metadata={"buffer_idx": number, "last_accessed_at": when}))
+    if chroma._collection.count() == 0:
+        for start in range(0, size, PAGE):
+            page = documents[start : start + PAGE]
+            chroma.add_texts([d.page_content for d in page], [{"buffer_idx": d.metadata["buffer_idx"]} for d in page])
+    retriever = retrievers.TimeWeightedVectorStoreRetriever(
+        vectorstore=chroma, decay_rate=1 - DECAY, k=K, memory_stream=documents
+    )
+    times = [document.metadata["last_accessed_at"] for document in documents]
+    changed: list[int] = []
+
+    def ask(query: str) -> list[int]:
+        changed[:] = [document.metadata["buffer_idx"] for document in retriever.invoke(query)]
+        return list(changed)
+
+    def undo() -> None:
+        for number in changed:
+            documents[number].metadata["last_accessed_at"] = times[number]
+
+    return ask, undo
+
+
+def encode_everything_ms() -> float:
+    """Return the ms per record of encoding the history at each question, measured on 60 records."""
+    texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES[:6], DETAILS[:10])]
+    encode = shared().encode
+    encode("warm up")
+    return milliseconds(lambda: [encode(text) for text in texts]) / len(texts)
+
+
+class Race:
+    """Asks all contestants the same questions in turns."""
+
+    def __init__(self, folder: Path, sizes: list[int], in_process: int) -> None:
+        """Build what is missing."""
+        plain = bundled(folder / "embeddings.sqlite")
+        sentences = plain.array([f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)])
+        self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
+        self.sizes = sizes
+        self.in_process = in_process
+        embeddings = Prepared(sentences, self.questions)
+        self.streams: dict[int, MemoryStream] = {}
+        self.built: dict[int, dict[str, Any]] = {}
+        for size in sizes:
+            self.streams[size], self.built[size] = build(folder, size, embeddings)
+            print(f"{size} records: {self.built[size]}", flush=True)
+        most = max(in_process, *sizes)
+        pages = [embeddings.vectors(page, page + PAGE) for page in range(0, most, PAGE)]
+        self.vectors = np.concatenate(pages)[:most]
+        self.hours = np.array([hour_of(number) for number in range(most)], np.int64)
+        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in sizes if size <= 100_000}
+        if not any(self.rivals.values()):
+            print("LangChain's retriever is not installed (langchain-classic, langchain-chroma): skipped")
+        self.times: dict[tuple[str, int], list[float]] = {}
+        self.found: dict[tuple[str, int], list[float]] = {}
+
+    def run(self, rounds: int) -> dict[str, Any]:
+        """Ask, and return the figures; the first two rounds warm up."""
+        for number in range(rounds + WARM_UP):
+            for size in [*self.sizes, self.in_process][:: 1 if number % 2 else -1]:
+                self._ask(number, size)
+        result: dict[str, Any] = {"streams": dict(self.built), "in_process": {}, "rounds": rounds}
+        for (name, size), values in sorted(self.times.items()):
+            entry = {**summary(values[WARM_UP:]), "recall_at_5": round(float(np.mean(self.found[name, size])), 3)}
+            kind = "streams" if size in self.streams and name != IN_PROCESS else "in_process"
+            result[kind].setdefault(size, {})[name] = entry
+        per_record = encode_everything_ms()
+        for size, stream in self.streams.items():
+            result["streams"][size]["encode everything"] = {"p50_ms_scaled": round(per_record * size, 1)}
+            stream.close()
+        return result
+
+    def _ask(self, number: int, size: int) -> None:
+        """Ask the same question of all who hold `size` records; each round lies one hour before the last one."""
+        question = QUESTIONS[number % len(QUESTIONS)]
+        query, now = self.questions[question], hour_of(size - 1) + 1
+        asked_at = now - number % 200
+        rows = ArrayRows(self.vectors[:size], self.hours[:size])
+        answer = self._turn(IN_PROCESS, size, None, lambda: exactly(rows, query, asked_at))
+        if size in self.streams:
+            recall = self.streams[size].recall
+            self._turn("ours", size, answer, lambda: [number_of(r.text) for r in recall(question, asked_at, K)])
+            past = int(np.random.default_rng(number).integers(24, now))
+            then = exactly(rows, query, past)
+            self._turn(LONG_AGO, size, then, lambda: [number_of(r.text) for r in recall(question, past, K)])
+        end = int(np.searchsorted(self.hours[:size], asked_at, "right"))
+        vectors, hours = self.vectors[:end], self.hours[:end]
+        self._turn("brute force", size, answer, lambda: brute_force(vectors, hours, query, asked_at))
+        rival = self.rivals.get(size)
+        if rival is not None and number < SLOW_ROUNDS:  # it knows no other time than the present
+            ask, undo = rival
+            self._turn("LangChain", size, exactly(rows, query, now), lambda: ask(question))
+            undo()
+
+    def _turn(self, name: str, size: int, exact: list[int] | None, ask: Callable[[], list[int]]) -> list[int]:
+        """Ask one contestant, and note how long it took and how many of the best it found."""
+        start = time.perf_counter()
+        answer = ask()
+        self.times.setdefault((name, size), []).append((time.perf_counter() - start) * 1e3)
+        self.found.setdefault((name, size), []).append(len({*answer} & {*(exact or answer)}) / K)
+        return answer
+
+
+def report(result: dict[str, Any], sizes: list[int], in_process: int) -> dict[str, float]:
+    """Print the table; return the ratios that the project promises."""
+    names = ("ours", LONG_AGO, "brute force", "LangChain", "encode everything")
+    print(f"\n{'records':>9} " + " ".join(f"{name + ' ms (recall@5)':>40}" for name in names))
+    for size, row in result["streams"].items():
+        cells = []
+        for name in names:
+            entry = row.get(name, {})
+            middle = entry.get("p50_ms", entry.get("p50_ms_scaled"))
+            recall = f" ({entry['recall_at_5']:.2f})" if "recall_at_5" in entry else " (scaled)"
+            cells.append(f"{'-' if middle is None else f'{middle:.3f}' + recall:>40}")
+        print(f"{size:>9} " + " ".join(cells))
+    ours = {size: result["streams"][size]["ours"]["p50_ms"] for size in sizes}
+    ratios = {"growth": round(ours[sizes[-1]] / ours[sizes[0]], 3)}
+    inside = {size: entry[IN_PROCESS]["p50_ms"] for size, entry in result["in_process"].items()}
+    if in_process in inside and sizes[0] in inside:
+        ratios["growth in process"] = round(inside[in_process] / inside[sizes[0]], 3)
+    for name in names[1:]:
+        for size in sizes:
+            entry = result["streams"][size].get(name)
+            if entry:
+                ratios[f"{name} / ours at {size}"] = round(next(iter(entry.values())) / ours[size], 1)
+    for name, ratio in ratios.items():
+        print(f"{name}: {ratio}")
+    return ratios
+
+
+def main() -> None:
+    """Parse the command line, measure, print and perhaps write."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="1k and 10k records in Chroma, 100k in process")
+    parser.add_argument("--rounds", type=int, default=200, help="questions per size")
+    parser.add_argument("--store", type=Path, help="folder that keeps the stores for another run")
+    parser.add_argument("--out", type=Path, help="JSON file for the figures")
+    given = parser.parse_args()
+    sizes, in_process = ([1000, 10_000], 100_000) if given.quick else ([1000, 10_000, 100_000, 250_000], 1_000_000)
+    folder = given.store or Path(tempfile.mkdtemp(prefix="memory-benchmark-"))
+    try:
+        result = Race(folder, sizes, in_process).run(given.rounds)
+        result["ratios"] = report(result, sizes, in_process)
+        if given.out:
+            given.out.write_text(json.dumps(result, indent=1))
+    finally:
+        if given.store is None:
+            shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()
