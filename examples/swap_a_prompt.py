@@ -13,7 +13,7 @@ from pathlib import Path
 
 from coopera import Config, run_study
 from coopera.rundir import RunDir
-from prompts.library import SHIPPED
+from prompts.loader import SHIPPED
 
 NAME = "human/intention"
 

@@ -102,9 +102,7 @@ def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]
         IntentionReply,
         at=_at(state, ctx, "propose"),
         variables={
-            **when(state["clock"]),
-            **who(ctx),
-            **as_variables(state["recalled"], state["clock"]),
+            **_known(state, ctx),
             "rooms": ctx.home.rooms,
             "today": state["today"],
         },
@@ -138,9 +136,7 @@ def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, An
         TASKS_REPLY[ctx.collab],
         at=_at(state, ctx, "decompose"),
         variables={
-            **when(state["clock"]),
-            **who(ctx),
-            **as_variables(state["recalled"], state["clock"]),
+            **_known(state, ctx),
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
@@ -159,9 +155,7 @@ def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[s
         REFLECTION_REPLY[ctx.collab],
         at=_at(state, ctx, "reflect_profile"),
         variables={
-            **when(state["clock"]),
-            **who(ctx),
-            **as_variables(state["recalled"], state["clock"]),
+            **_known(state, ctx),
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
@@ -234,6 +228,10 @@ def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:
         {"id": t.id, "thought": t.thought, "text": t.act.describe(), "act": t.act.model_dump(exclude={"kind"})}
         for t in tasks
     ]
+
+
+def _known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
+    return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
 
 
 def _at(state: HumanInput, ctx: HumanContext, node: str) -> Address:

@@ -6,9 +6,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from prompts.library import PromptLibrary, check
+    from prompts.loader import PromptLibrary, check
 
-_HOMES = {"PromptLibrary": "prompts.library", "check": "prompts.library"}
+_HOMES = {"PromptLibrary": "prompts.loader", "check": "prompts.loader"}
 
 __all__ = ["PromptLibrary", "check"]
 

@@ -43,7 +43,7 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     """
     plan = Plan(state)
     target = ground.fixed(act.target)
-    motion = ground.library.match(act.motion, ground.search)
+    motion = ground.motions.match(act.motion, ground.search)
     person, used = _placed(ground, plan, target, motion)
     if watch is not None:
         pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
@@ -64,7 +64,7 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
 def stay(ground: Ground, state: HomeState, watch: Watch) -> Plan:
     """Plan that the person goes on with what they are doing, and the robot comes to see it."""
     plan, person = Plan(state), state.person
-    motion = ground.library[person.motion]
+    motion = ground.motions[person.motion]
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(person, motion))

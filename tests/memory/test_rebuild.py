@@ -144,6 +144,7 @@ def test_altered_and_missing_records_are_counted_and_the_rest_is_kept(store: Pat
     assert records[299].text == text(300)
 
 
+@pytest.mark.slow
 def test_where_the_texts_are_lost_too_repair_says_so_and_changes_nothing(store: Path) -> None:
     database = store / "chroma.sqlite3"
     database.write_bytes(halved(database.read_bytes()))

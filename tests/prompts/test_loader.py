@@ -15,7 +15,7 @@ from core.asks import ASKS
 from core.errors import PromptError
 from prompts import PromptLibrary, check
 from prompts.examples import examples
-from prompts.library import SHIPPED
+from prompts.loader import SHIPPED
 
 GUESSES = "human/feedback_intentions"
 HEAD = """---
