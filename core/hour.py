@@ -253,4 +253,9 @@ class Example(Frozen):
     """Previous relevant intentions, best first."""
     tasks: list[str] = []
     """Previous relevant tasks, best first."""
+    rank: int | None = Field(None, ge=0)
+    """Place of the intention (for a task: of its intention) in the robot's own list, 0 being its first guess.
+
+    None where the robot did not imagine it, or where its order is not to be known.
+    """
     label: bool | None = None

@@ -23,7 +23,7 @@ Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
 
 _SENTENCES, _INTENTIONS, _TASKS = 6, 3, 5  # so many are looked at: PAPER App. D retrieves 3 intentions and 5 tasks
-MATCHES = 6
+_FADING = 0.7  # a recalled text counts so much of the one before it
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +41,8 @@ class Batch:
     tasks: Ints
     """(n, 5)"""
     hour: Floats
+    rank: Floats
+    """-1 where unknown."""
     big_five: Floats
     """(n, 5), each in [1, 5]; 3 where unknown."""
     person: npt.NDArray[np.str_]
@@ -83,21 +85,53 @@ def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
         intentions=intentions,
         tasks=tasks,
         hour=np.array([e.hour for e in examples], np.float64),
+        rank=np.array([-1 if e.rank is None else e.rank for e in examples], np.float64),
         big_five=np.array(traits, np.float64).reshape(-1, len(TRAITS)),
         person=np.array([e.person for e in examples], np.str_),
     )
 
 
 @dataclass(frozen=True, slots=True)
+class _Shared:
+    """One vector per example, the equal ones stored once: `rows[of]` has shape (n, d)."""
+
+    rows: Floats
+    of: npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """What the similarity of n examples is computed from; see `Similarity.points`."""
+
+    candidate: _Shared
+    intention: _Shared
+    after: _Shared
+    who: _Shared
+    matches: Floats
+    rank: Floats
+    hour: Floats
+    big_five: Floats
+    person: npt.NDArray[np.str_]
+
+
+@dataclass(frozen=True, slots=True)
 class Similarity:
     """The product kernel, with its widths and weights.
 
-    Widths were chosen on simulated people whom no benchmark uses (see benchmarks/classifier.py), with a wide optimum.
+    The widths were chosen on people whom no benchmark uses; the optimum is wide (halving or doubling one of them
+    changes F1 by about 0.01).
 
     Attributes:
         task: Whether what is judged is a task, which belongs to an intention.
         centre: Mean vector of the learned candidates and of their intentions, shape (2, d): what all have in common
             says nothing, so it is taken off.
+        width: Width of the kernels over what is proposed and over what was before, in distance of unit vectors.
+        hours: Width over the hour.
+        match: Width over the cosines of a candidate with what is recalled and with the profile, per cosine.
+        rank: Width over the place in the robot's list, in doublings of the place counted from 1.
+        profile: Width over profiles, in distance of mean vectors.
+        traits: Width over the Big Five, in points.
+        kin: How far a person just like this one counts as this one, in [0, 1].
     """
 
     task: bool
@@ -105,38 +139,49 @@ class Similarity:
     width: float = 0.7
     hours: float = 1.5
     match: float = 0.37
+    rank: float = 0.5
     profile: float = 0.5
     traits: float = 3.0
     kin: float = 0.5
-    """How far a person just like this one counts as this one, in [0, 1]."""
-    private: float = 1.0
-    """Weight of what is learned of one person, relative to what is learned of all."""
 
-    def gram(self, a: Batch, b: Batch) -> Floats:
+    def points(self, batch: Batch) -> Points:
+        """Prepare examples for `gram`."""
+        return Points(
+            candidate=_shared(batch, batch.candidate[:, None], self.centre[0]),
+            intention=_shared(batch, batch.intention[:, None], self.centre[1]),
+            after=_shared(batch, batch.intentions, 0.0),
+            who=_shared(batch, batch.profile, 0.0),
+            matches=_matches(batch) / (self.match * np.sqrt(6)),
+            rank=np.where(batch.rank < 0, np.inf, np.log2(1 + np.abs(batch.rank)) / self.rank),
+            hour=batch.hour / self.hours,
+            big_five=batch.big_five / self.traits,
+            person=batch.person,
+        )
+
+    def gram(self, a: Points, b: Points) -> Floats:
         """Return how alike each example of `a` is to each of `b`, shape (len(a), len(b)); symmetric and PSD."""
-        hours = np.exp(-((a.hour[:, None] - b.hour[None]) ** 2) / (2 * self.hours**2))
-        who = self._persons(a, b) * self.private + 1.0
-        total = 1.0 + _rbf(_matches(a), _matches(b), self.match * np.sqrt(MATCHES))
-        after = _rbf(_mean(a, a.intentions), _mean(b, b.intentions), self.width)
-        what = self._texts(a, b, "candidate", 0)
-        if not self.task:
-            return total + what * (1.0 + hours + after) * who / 2
-        aim = self._texts(a, b, "intention", 1)
-        return total + (aim * (1.0 + hours + after + 2.0 * what) + what) * who / 2
+        when = 1.0 + np.exp((a.hour[:, None] - b.hour[None]) ** 2 / -2) + self._alike(a.after, b.after, self.width)
+        what = self._alike(a.candidate, b.candidate, self.width)
+        if self.task:
+            aim = self._alike(a.intention, b.intention, self.width)
+            what = aim * (when + 2.0 * what) + what
+        else:
+            what *= when
+        what *= (1.0 + self._same_person(a, b)) / 2
+        what += _rbf(a.matches, b.matches, 1.0)
+        what += _rank_alike(a.rank, b.rank)
+        what += 1.0
+        return what
 
-    def _texts(self, a: Batch, b: Batch, column: str, centre: int) -> Floats:
-        ia, ib = getattr(a, column), getattr(b, column)
-        ua, ja = np.unique(ia, return_inverse=True)
-        ub, jb = np.unique(ib, return_inverse=True)
-        kernel = _rbf(_rows(a, ua) - self.centre[centre], _rows(b, ub) - self.centre[centre], self.width)
-        spread: Floats = kernel[np.ix_(ja, jb)]
+    def _alike(self, a: _Shared, b: _Shared, width: float) -> Floats:
+        spread: Floats = _rbf(a.rows, b.rows, width)[np.ix_(a.of, b.of)]
         return spread
 
-    def _persons(self, a: Batch, b: Batch) -> Floats:
+    def _same_person(self, a: Points, b: Points) -> Floats:
         """1 for the same person; for others at most `kin`, less the less their profiles and traits are alike."""
         same = (a.person[:, None] == b.person[None]).astype(np.float64)
-        alike = _rbf(_mean(a, a.profile), _mean(b, b.profile), self.profile)
-        alike *= _rbf(a.big_five, b.big_five, self.traits)
+        alike = self._alike(a.who, b.who, self.profile)
+        alike *= _rbf(a.big_five, b.big_five, 1.0)
         mixed: Floats = (1 - self.kin) * same + self.kin * alike
         return mixed
 
@@ -153,26 +198,37 @@ def _rows(batch: Batch, indices: Ints) -> Floats:
     return padded[indices]
 
 
-def _mean(batch: Batch, indices: Ints) -> Floats:
-    """Return the mean vector of each row's texts, earlier ones counting more; zeros where there are none."""
-    weights = (indices >= 0) * 0.7 ** np.arange(indices.shape[1])
+def _shared(batch: Batch, indices: Ints, centre: Floats | float) -> _Shared:
+    """Return the mean vector of each row's texts, earlier ones counting more, less a centre; zeros where are none."""
+    unique, of = np.unique(indices, axis=0, return_inverse=True)
+    weights = (unique >= 0) * _FADING ** np.arange(unique.shape[1])
     total = weights.sum(axis=1, keepdims=True)
     weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-    mean: Floats = np.einsum("nk,nkd->nd", weights, _rows(batch, indices))
-    return mean
+    return _Shared(np.einsum("nk,nkd->nd", weights, _rows(batch, unique)) - centre, of.reshape(-1))
 
 
 def _matches(batch: Batch) -> Floats:
     """Return how well each candidate fits what is known: cosines with the recalled and the profile, shape (n, 6)."""
+    cosines = np.zeros((len(batch.vectors) + 1, len(batch.vectors) + 1))
+    cosines[:-1, :-1] = batch.vectors @ batch.vectors.T
     aim = np.where(batch.intention >= 0, batch.intention, batch.candidate)
     parts = []
     for what, known in ((aim, batch.intentions), (batch.candidate, batch.tasks), (aim, batch.profile)):
-        cosines = np.einsum("nd,nkd->nk", _rows(batch, what), _rows(batch, known))
+        found = cosines[what[:, None], known]
         there = known >= 0
-        best = np.where(there.any(axis=1), np.where(there, cosines, -1.0).max(axis=1), 0.0)
-        mean = np.where(there, cosines, 0.0).sum(axis=1) / np.maximum(there.sum(axis=1), 1)
+        best = np.where(there.any(axis=1), np.where(there, found, -1.0).max(axis=1), 0.0)
+        mean = found.sum(axis=1) / np.maximum(there.sum(axis=1), 1)
         parts += [best, mean]
     return np.stack(parts, axis=1)
+
+
+def _rank_alike(a: Floats, b: Floats) -> Floats:
+    """Compare places; an unknown one is like an unknown one and like no other."""
+    known_a, known_b = np.isfinite(a), np.isfinite(b)
+    a, b = np.where(known_a, a, 0.0), np.where(known_b, b, 0.0)
+    alike: Floats = np.exp((a[:, None] - b[None]) ** 2 / -2)
+    alike *= known_a[:, None] == known_b[None]
+    return alike
 
 
 def _rbf(a: Floats, b: Floats, width: float) -> Floats:

@@ -19,7 +19,7 @@ from core.errors import CooperaError
 from core.hour import Example
 from memory.embeddings import as_array
 from models.classifiers.calibration import Scale, scale
-from models.classifiers.features import Batch, Floats, Similarity, centre_of, read
+from models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
 from models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from models.classifiers.text import Inputs, Kind, Lesson, lesson
 
@@ -39,7 +39,8 @@ class _Fitted:
     """What was learned: score(x) = similarity(x, landmarks) @ weights."""
 
     landmarks: Batch
-    centre: Floats
+    similarity: Similarity
+    points: Points
     weights: Floats
     scale: Scale
 
@@ -65,7 +66,7 @@ class KernelClassifier:
         with threadpool_limits(1, user_api="blas"):
             batch = read([self._inputs.show(example) for example in examples], self._embeddings)
             fitted = self._fitted
-            scores = self._similarity(fitted.centre).gram(batch, fitted.landmarks) @ fitted.weights
+            scores = fitted.similarity.gram(fitted.similarity.points(batch), fitted.points) @ fitted.weights
             return [round(float(p), _DECIMALS) for p in fitted.scale.probabilities(scores)]
 
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
@@ -78,7 +79,8 @@ class KernelClassifier:
             seed: Only chooses the landmarks where there are more than `LANDMARKS` examples.
 
         Returns:
-            `examples`, `positives`, and, measured on days left out of learning (on hours, with a single day):
+            `examples`, `positives`, and, measured on days left out of learning (on hours, with a single day) and on
+            what the robot had imagined (not on true intentions added in the evening, which have no rank):
             `f1` at the chosen threshold and `f1_always_yes`.
         """
         taught = lesson(examples, self._inputs, most=MOST)
@@ -89,28 +91,32 @@ class KernelClassifier:
             self._fitted, measured = self._fit(taught, np.random.default_rng(seed))
         return counts | measured
 
-    def _similarity(self, centre: Floats) -> Similarity:
-        return Similarity(task=self._kind == "task", centre=centre)
-
     def _fit(self, taught: Lesson, rng: np.random.Generator) -> tuple[_Fitted, dict[str, float]]:
         batch = read(taught.examples, self._embeddings)
-        labels = np.array(taught.labels)
-        hours = np.array(taught.hours)
-        centre = centre_of(batch)
-        similarity = self._similarity(centre)
+        labels, hours = np.array(taught.labels), np.array(taught.hours)
+        similarity = self._similarity(centre_of(batch))
+        points = similarity.points(batch)
         landmarks = batch.take(_landmarks(labels, rng))
-        among = similarity.gram(landmarks, landmarks)
+        standing = similarity.points(landmarks)
+        among = similarity.gram(standing, standing)
         lower = cholesky(among + 1e-6 * np.eye(len(landmarks)), lower=True)
-        features = solve_triangular(lower, similarity.gram(landmarks, batch), lower=True).T
+        features = solve_triangular(lower, similarity.gram(standing, points), lower=True).T
         n_days = len(np.unique(hours // 24))
         weights, unseen = _ridge(features, labels, hours // 24 if n_days > 1 else hours)
+        asked = batch.rank >= 0
+        if len(set(labels[asked])) < 2:
+            asked[:] = True
+        unseen, labels = unseen[asked], labels[asked]
         chosen = scale(unseen, labels, days=n_days)
-        solution = solve_triangular(lower, weights, lower=True, trans="T")
         measured = {
             "f1": _f1(chosen.probabilities(unseen) >= 0.5, labels),
             "f1_always_yes": _f1(np.ones(len(labels), bool), labels),
         }
-        return _Fitted(landmarks, centre, solution, chosen), measured
+        solution = solve_triangular(lower, weights, lower=True, trans="T")
+        return _Fitted(landmarks, similarity, standing, solution, chosen), measured
+
+    def _similarity(self, centre: Floats) -> Similarity:
+        return Similarity(task=self._kind == "task", centre=centre)
 
     def save(self, folder: Path) -> None:
         """Write `classifier.json` and, once trained, `kernel.npz`.
@@ -123,7 +129,9 @@ class KernelClassifier:
             buffer = io.BytesIO()
             arrays = fitted.landmarks.arrays()
             arrays["vectors"] = fitted.landmarks.vectors.astype(np.float32)  # exact: they came as float32
-            np.savez_compressed(buffer, allow_pickle=False, centre=fitted.centre, weights=fitted.weights, **arrays)
+            np.savez_compressed(
+                buffer, allow_pickle=False, centre=fitted.similarity.centre, weights=fitted.weights, **arrays
+            )
             replace_bytes(folder / ARRAYS, buffer.getvalue())
             manifest["scale"] = list(fitted.scale)
         manifest["probe"] = self._probe().tolist()
@@ -146,31 +154,29 @@ class KernelClassifier:
         ours = self._probe()
         if probe.shape != ours.shape or not np.allclose(probe, ours, atol=1e-3):
             raise CooperaError(f"{folder}: the classifier was learned on other embeddings than those given")
-        self._fitted = None if chosen is None else _read_arrays(folder / ARRAYS, chosen)
+        self._fitted = None if chosen is None else self._read_arrays(folder / ARRAYS, chosen)
+
+    def _read_arrays(self, path: Path, chosen: Scale) -> _Fitted:
+        try:
+            with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
+                columns = {field.name: arrays[field.name] for field in fields(Batch)}
+                columns["vectors"] = columns["vectors"].astype(np.float64)
+                centre, weights = arrays["centre"], arrays["weights"]
+        except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
+            raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
+        rows = {len(column) for name, column in columns.items() if name != "vectors"}
+        if rows != {len(weights)} or centre.shape != (2, columns["vectors"].shape[1]):
+            raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
+        landmarks, similarity = Batch(**columns), self._similarity(centre)
+        return _Fitted(landmarks, similarity, similarity.points(landmarks), weights, chosen)
 
     def _identity(self) -> dict[str, Any]:
-        seen = [name for name in ("traits", "context", "time") if getattr(self._inputs, name)]
-        return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": seen}
+        return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": self._inputs.names}
 
     def _probe(self) -> Floats:
         """Return the vector of a fixed sentence, by which embeddings are told apart; shape (d,)."""
         probe: Floats = as_array(self._embeddings, [_PROBE])[0].astype(np.float64).round(6)
         return probe
-
-
-def _read_arrays(path: Path, chosen: Scale) -> _Fitted:
-    try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
-            columns = {field.name: arrays[field.name] for field in fields(Batch)}
-            columns["vectors"] = columns["vectors"].astype(np.float64)
-            fitted = _Fitted(Batch(**columns), arrays["centre"], arrays["weights"], chosen)
-    except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
-        raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
-    n, (_, d) = len(fitted.weights), fitted.landmarks.vectors.shape
-    rows = {len(column) for name, column in columns.items() if name != "vectors"}
-    if rows != {n} or fitted.centre.shape != (2, d):
-        raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
-    return fitted
 
 
 def _landmarks(labels: npt.NDArray[np.bool_], rng: np.random.Generator) -> npt.NDArray[np.int64]:

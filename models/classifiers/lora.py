@@ -239,14 +239,13 @@ class LoraClassifier:
         self._net, self._learned, self._shift = net, learned, shift
 
     def _identity(self) -> dict[str, Any]:
-        seen = [name for name in ("traits", "context", "time") if getattr(self._inputs, name)]
         base = f"{_PACKAGE} {version(_PACKAGE)}" if self._base is None else self._base.name
         recipe = asdict(self._recipe) | {"epochs": list(self._recipe.epochs)}  # as JSON gives it back
         return {
             "classifier": "lora",
             "kind": self._kind,
             "version": VERSION,
-            "inputs": seen,
+            "inputs": self._inputs.names,
             "base": base,
             "recipe": recipe,
         }

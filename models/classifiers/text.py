@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal, NamedTuple, TypeAlias
 
 from core.clock import hour_label
@@ -28,11 +28,19 @@ class Inputs:
             the person by nothing else.
         context: The recalled earlier intentions and tasks.
         time: The hour.
+        rank: The robot's own order of its guesses. DEVIATES: the paper's classifiers do not see it. But they see
+            nothing of what the robot saw either, and its order is the sum of that.
     """
 
     traits: bool = True
     context: bool = True
     time: bool = True
+    rank: bool = True
+
+    @property
+    def names(self) -> list[str]:
+        """What may be seen, in fixed order."""
+        return [field.name for field in fields(self) if getattr(self, field.name)]
 
     def show(self, example: Example) -> Example:
         """Return the example with every field blank that is not to be seen."""
@@ -43,6 +51,8 @@ class Inputs:
             hidden |= {"intentions": [], "tasks": []}
         if not self.time:
             hidden |= {"hour": _NO_HOUR}
+        if not self.rank:
+            hidden |= {"rank": None}
         return example.model_copy(update=hidden) if hidden else example
 
 
@@ -111,6 +121,8 @@ def sentence_pair(example: Example) -> tuple[str, str]:
     short statements better, most telling first, since it reads only the beginning of a long text.
     """
     parts = [f"{hour_label(example.hour)}."]
+    if example.rank is not None:
+        parts.append(f"Guess {example.rank + 1}.")
     if example.intentions:
         parts.append(f"Earlier: {'; '.join(example.intentions)}.")
     if example.profile:

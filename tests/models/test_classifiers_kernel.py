@@ -167,6 +167,37 @@ def test_without_traits_people_cannot_be_told_apart() -> None:
     assert len(set(judge.probabilities([known, stranger]))) == 1
 
 
+def ranked(n_days: int = 3) -> list[Example]:
+    """Feedback where the robot's first guess is right four times of five and nothing else tells."""
+    rng = rng_at(0, "ranks")
+    return [
+        Example(person=PersonId("ann"), day=day, hour=hour, candidate=str(thing), rank=rank, label=rank == right)
+        for day in range(n_days)
+        for hour in range(9, 22)
+        for right in [0 if rng.random() < 0.8 else int(rng.integers(1, 5))]
+        for rank, thing in enumerate(rng.permutation(THINGS))
+    ]
+
+
+def test_it_learns_how_far_to_trust_the_robots_own_order() -> None:
+    judge, blind = kernel(), kernel(inputs=Inputs(rank=False))
+    for one in (judge, blind):
+        one.train(ranked(), seed=0)
+    questions = [ask(thing, 12, rank=rank) for rank, thing in enumerate(THINGS)]
+    assert [p >= 0.5 for p in judge.probabilities(questions)] == [True, False, False, False, False]
+    assert blind.probabilities(questions) == blind.probabilities(
+        [q.model_copy(update={"rank": None}) for q in questions]
+    )
+
+
+def test_intentions_added_in_the_evening_do_not_loosen_the_threshold() -> None:
+    told = [ask("wash clothes", hour, label=True).model_copy(update={"day": d}) for d in range(3) for hour in range(24)]
+    judge = kernel()
+    assert judge.train([*ranked(), *told], seed=0)["f1"] > 0.7
+    answers = judge.probabilities([ask(thing, 12, rank=rank) for rank in range(5) for thing in THINGS[:4]])
+    assert np.mean([p >= 0.5 for p in answers]) < 0.4
+
+
 @pytest.mark.parametrize(
     ("inputs", "fields"),
     [
@@ -348,6 +379,7 @@ def _some_examples(seed: int, n: int) -> Sequence[Example]:
             str(rng.choice(["ann", "bob", "eve"])),
             intention=str(rng.choice(["", *THINGS])),
             profile=str(rng.choice(["", "Reads. Writes.", "Runs far."])),
+            rank=None if rng.random() < 0.3 else int(rng.integers(0, 5)),
             big_five=None if rng.random() < 0.5 else BigFive(openness=1 + 4 * rng.random()),
             intentions=[str(thing) for thing in rng.choice(THINGS, rng.integers(0, 4))],
             tasks=[str(thing) for thing in rng.choice(THINGS, rng.integers(0, 6))],
@@ -360,7 +392,9 @@ def _some_examples(seed: int, n: int) -> Sequence[Example]:
 @given(seed=st.integers(0, 10**6), task=st.booleans())
 def test_likeness_is_a_kernel(seed: int, task: bool) -> None:
     batch = read(_some_examples(seed, 20), WORDS)
-    gram = Similarity(task=task, centre=centre_of(batch)).gram(batch, batch)
+    similarity = Similarity(task=task, centre=centre_of(batch))
+    points = similarity.points(batch)
+    gram = similarity.gram(points, points)
     assert np.allclose(gram, gram.T, atol=1e-9)
     assert np.linalg.eigvalsh(gram).min() > -1e-8
 
