@@ -129,6 +129,8 @@ class Store:
         """
         if not isinstance(name, str) or not name.strip() or len(name) > MAX_NAME:
             raise ConfigError(f"the name of a memory stream must have 1 to {MAX_NAME} characters, not {name!r:.80}")
+        if not name.isprintable():
+            raise ConfigError(f"the name of a memory stream must be printable, not {name!r:.80}")
         known = create or name in self.streams()
         if not known:
             there = ", ".join(self.streams()) or "none"

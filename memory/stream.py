@@ -33,6 +33,7 @@ MAX_TEXT = 100_000
 
 _UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PAGE = 1000
+_FAR = 10**9  # hours; a hundred thousand years
 
 
 class Recollection(NamedTuple):
@@ -174,6 +175,7 @@ class MemoryStream:
         """
         _check_text(query, "a query")
         now, k = _whole(now, "the hour of a recall"), _whole(k, "k")
+        since = since if since is None else _whole(since, "the first hour of a recall")
         if k < 1:
             raise ConfigError(f"k must be at least 1, not {k}")
         log = self._open_log
@@ -283,7 +285,7 @@ class MemoryStream:
         if not isinstance(record.metadata, Mapping):
             raise ConfigError(f"{self._where}: metadata must be a mapping, not {record.metadata!r:.80}")
         try:
-            json.dumps(dict(record.metadata), allow_nan=False)
+            json.dumps(dict(record.metadata), allow_nan=False, ensure_ascii=False).encode()
         except (TypeError, ValueError) as err:
             raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
         return Record(record.text, _whole(record.hour, "the hour of a memory"), dict(record.metadata))
@@ -313,10 +315,17 @@ def _check_text(text: str, what: str) -> None:
         raise ConfigError(f"{what} must be a text that is not empty, not {text!r:.80}")
     if len(text) > MAX_TEXT:
         raise ConfigError(f"{what} may have at most {MAX_TEXT} characters, not {len(text)}")
+    try:
+        text.encode()
+    except UnicodeEncodeError as err:
+        raise ConfigError(f"{what} must be valid Unicode, not {text!r:.80}") from err
 
 
 def _whole(number: int, what: str) -> int:
     """Return a whole number as an int, whatever type of integer it is."""
     if isinstance(number, bool) or not hasattr(number, "__index__"):
         raise ConfigError(f"{what} must be a whole number, not {number!r:.80}")
-    return operator.index(number)
+    whole = operator.index(number)
+    if abs(whole) > _FAR:
+        raise ConfigError(f"{what} must lie within ±{_FAR}, not at {whole}")
+    return whole

@@ -174,6 +174,11 @@ def test_with_real_embeddings_what_was_meant_is_recalled(tmp_path: Path) -> None
         (lambda s: s.add([None], 1), "not empty"),
         (lambda s: s.add("abc", 1), "list of texts"),
         (lambda s: s.add(["a" * 5_000_000], 1), "at most 100000 characters, not 5000000"),
+        (lambda s: s.add(["a \ud800"], 1), "valid Unicode"),
+        (lambda s: s.add(["a"], 1, [{"x": "\ud800"}]), "JSON"),
+        (lambda s: s.add(["a"], 10**18), "within"),
+        (lambda s: s.recall("a", 10**30, 1), "within"),
+        (lambda s: s.recall("a", 1, 1, since="monday"), "whole number, not 'monday'"),
         (lambda s: s.add(["a"], 0), "hour 0 is before hour 1"),
         (lambda s: s.add(["a"], 1.5), "whole number, not 1.5"),
         (lambda s: s.add(["a"], True), "whole number"),
@@ -210,6 +215,19 @@ def test_a_vector_that_is_no_direction_is_refused(stream: MemoryStream) -> None:
 def test_a_bad_name_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ConfigError, match="1 to 200 characters"):
         MemoryStream.open(tmp_path, name, Letters())
+
+
+def test_a_name_that_cannot_be_printed_is_refused(tmp_path: Path) -> None:
+    for name in ("a\nb", "a\0b", "\ud800"):
+        with pytest.raises(ConfigError, match="must be printable"):
+            MemoryStream.open(tmp_path, name, Letters())
+
+
+def test_odd_texts_come_back_as_they_were(stream: MemoryStream) -> None:
+    odd = ["a\0b", "a\r\n\tb", "a 'quoted' \"text\"; DROP TABLE", "a" * 100_000, "a 茶 \U0001f600 e\u0301", "  a  "]
+    stream.add(odd, 0, [{"text": text} for text in odd])
+    assert [(record.text, record.metadata["text"]) for record in stream.records()] == [(text, text) for text in odd]
+    assert {item.text for item in stream.recall("a\0", 0, 9)} == set(odd)
 
 
 @pytest.mark.parametrize("decay", [0, -1, 1.01, float("nan")])
