@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -67,16 +68,24 @@ def seen_share(stage: Stage, eyes: Array, points: Array) -> Array:
 
 
 def watching_place(
-    stage: Stage, navigator: Navigator, focus: Focus, start: Point, keep_clear: list[Point], taken: list[Disc]
+    stage: Stage,
+    navigator: Navigator,
+    focus: Focus,
+    start: Point,
+    keep_clear: list[Point],
+    taken: list[Disc],
 ) -> Point | None:
     """Choose where the robot stands to watch: it sees most of the person, from the front, and is in nobody's way.
+
+    Where the person's way leaves no such place (a narrow kitchen), it may stand beside the way, if the person can
+    still get past.
 
     Args:
         stage: Set to the home as it is, without anything in the way that is not there.
         navigator: Of the same home.
         focus: What to see.
         start: Where the robot is; a short drive is preferred.
-        keep_clear: The person's way, as corner points.
+        keep_clear: The person's way, as corner points from where they are to where they act.
         taken: Floor that the person takes up.
 
     Returns:
@@ -90,15 +99,36 @@ def watching_place(
     off = np.full(len(cells), np.inf)
     for a, b in zip(keep_clear, keep_clear[1:], strict=False):
         off = np.minimum(off, _to_segment(cells, a, b))
-    near = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
-    if near.sum() < 20:
-        near = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
-    cells, away = cells[near], away[near]
-    cells, away = cells[::4] if len(cells) > 400 else cells, away[::4] if len(away) > 400 else away
-    keep = [i for i, (x, y) in enumerate(cells) if clear_of((float(x), float(y)), taken)]
-    if not keep:
+    apart = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
+    if apart.sum() < 20:
+        apart = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
+    place = _best_sight(stage, focus, start, cells[apart], taken, _anywhere)
+    if place is not None:
+        return place
+    beside = (away >= 0.9) & (away <= 5.0) & (off < 0.65)
+
+    def can_pass(place: Point) -> bool:
+        past = Disc(*place, fetch.RADIUS)
+        return navigator.route(keep_clear[0], keep_clear[-1], avoid=past).points is not None
+
+    return _best_sight(stage, focus, start, cells[beside], taken, can_pass)
+
+
+def _best_sight(
+    stage: Stage,
+    focus: Focus,
+    start: Point,
+    cells: Array,
+    taken: list[Disc],
+    allowed: Callable[[Point], bool],
+) -> Point | None:
+    """The allowed cell, of shape (n, 2), from which the person is seen best; None if they are seen from none."""
+    person = focus.person
+    cells = cells[::4] if len(cells) > 400 else cells
+    cells = cells[[i for i, (x, y) in enumerate(cells) if clear_of((float(x), float(y)), taken)]]
+    if not len(cells):
         return None
-    cells, away = cells[keep], away[keep]
+    away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
     towards = np.arctan2(person.y - cells[:, 1], person.x - cells[:, 0])
     eyes = np.stack(
         (cells[:, 0] + 0.27 * np.cos(towards), cells[:, 1] + 0.27 * np.sin(towards), 1.1 + 0 * away), axis=1
@@ -109,21 +139,32 @@ def watching_place(
     side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
     drive = np.hypot(cells[:, 0] - start[0], cells[:, 1] - start[1])
     score = 3 * share - 0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
-    best = [i for i in _best_apart(cells, score) if share[i] > 0.2]
+    seeing = np.flatnonzero(share > 0.2)
+    best = [int(seeing[i]) for i in _best_apart(cells[seeing], score[seeing], allowed)]
     if not best:
         return None
     aim = body_points(person)[1]
     cameras = [Camera(_point(eyes[i]), _point(aim), ROBOT_FOV) for i in best]
-    chosen = best[_clearest(stage, cameras, score[best])]
-    return float(cells[chosen, 0]), float(cells[chosen, 1])
+    return _floor(cells[best[_clearest(stage, cameras, score[best])]])
 
 
-def _best_apart(places: Array, score: Array) -> list[int]:
-    """The few best places that lie apart, best first."""
+def _anywhere(place: Point) -> bool:
+    return True
+
+
+def _floor(cell: Array) -> Point:
+    return float(cell[0]), float(cell[1])
+
+
+def _best_apart(places: Array, score: Array, allowed: Callable[[Point], bool]) -> list[int]:
+    """The few best allowed places that lie apart, best first."""
     found: list[int] = []
+    tried: list[int] = []
     for i in np.argsort(-np.round(score, 6), kind="stable"):
-        if all(math.hypot(*(places[i, :2] - places[j, :2])) >= _APART for j in found):
-            found.append(int(i))
+        if all(math.hypot(*(places[i, :2] - places[j, :2])) >= _APART for j in tried):
+            tried.append(int(i))
+            if allowed(_floor(places[i])):
+                found.append(int(i))
         if len(found) == _GLANCES:
             break
     return found
@@ -181,7 +222,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     side = np.array([abs(wrapped(float(a) - person.yaw)) for a in angle])
     away = np.hypot(eyes[:, 0] - person.x, eyes[:, 1] - person.y)
     score = 3 * share - 0.3 * np.abs(side - 0.7) - 0.2 * np.abs(away - 2.5) - 0.1 * np.abs(eyes[:, 2] - 1.9)
-    best = _best_apart(eyes, score)
+    best = _best_apart(eyes, score, _anywhere)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
     return cameras[_clearest(stage, cameras, score[best])]
 

@@ -8,8 +8,10 @@ import pytest
 from PIL import Image
 
 from core.errors import SimulationError
+from core.household import FreeMotion
 from simulation.cameras import robot_camera
 from simulation.catalogue import catalogue
+from simulation.scene import load_scene
 from simulation.things import LOOKS_LIKE, shape_of
 from simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
@@ -51,6 +53,17 @@ def test_both_views_show_the_person_at_the_deed(home, act) -> None:
         assert robot > 0.008
         assert third > 0.015
         start += shot.ticks
+
+
+@pytest.mark.parametrize("target", ["kitchen_sink_1", "stove_1", "fridge_1"])
+def test_where_the_persons_way_fills_the_room_the_robot_still_finds_a_place_to_see_from(target) -> None:
+    with World(load_scene("maple")) as world:
+        put_down = FreeMotion(target_id=0, target="sofa_1", in_hand="book", motion="sit and read")
+        cook = put_down.model_copy(update={"target": target, "motion": "wipe the surface"})
+        for act in (put_down, cook):
+            assert world.perform("human", act, record=True).ok
+        last = world._recording.ticks - 1
+        assert persons_share(world, last)[0] > 0.01
 
 
 def test_the_robot_goes_to_where_it_sees_the_person_and_keeps_out_of_the_way(home) -> None:
