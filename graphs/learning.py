@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import ValidationError
 
+from core.clock import Clock
 from core.errors import RunError
 from core.hour import Example, FeedbackItem, HourRecord
 from core.people import PersonId, Picture
@@ -22,9 +23,17 @@ EXAMPLES = "examples.jsonl"
 
 
 def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task: str | None = None) -> Example:
-    """What a classifier is shown of a candidate in the robot's present state (PAPER App. C.2)."""
+    """What a classifier is shown of a candidate in the robot's present state (PAPER App. C.2).
+
+    Args:
+        state: With the keys `clock`, `recalled`, `picture` and `intentions` of `RobotState`.
+        person: Whom the robot is with.
+        intention: The candidate, or the intention that a candidate task belongs to.
+        task: The candidate task in words.
+    """
     picture: Picture = state["picture"]
     recalled = state["recalled"]
+    order = [candidate.text for candidate in state["intentions"]]
     return Example(
         person=person,
         day=state["clock"].day,
@@ -35,6 +44,7 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
         big_five=picture.big_five,
         intentions=[m.text for m in recalled if m.kind == "intention"],
         tasks=[m.text for m in recalled if m.kind == "task"],
+        rank=order.index(intention) if intention in order else None,
     )
 
 
@@ -51,13 +61,18 @@ def labelled(
     for hour in hours:
         if hour.robot is None or hour.human is None:
             continue
-        clock = {"clock": _HourOfLife(hour.episode_day, hour.hour), "recalled": hour.robot.recalled, "picture": picture}
+        known = {
+            "clock": Clock(day=hour.episode_day, hour=hour.hour),
+            "recalled": hour.robot.recalled,
+            "picture": picture,
+            "intentions": hour.robot.intentions,
+        }
         truth = hour.human.intention.text
         for text, yes in {truth: True, **_verdicts(hour, said, "intention")}.items():
-            examples["intention"].append(_label(example(clock, hour.person, intention=text), yes))
+            examples["intention"].append(_label(example(known, hour.person, intention=text), yes))
         of = {task.act.describe(): task.intention for task in hour.robot.tasks}
         for text, yes in _verdicts(hour, said, "task").items():
-            examples["task"].append(_label(example(clock, hour.person, intention=of[text], task=text), yes))
+            examples["task"].append(_label(example(known, hour.person, intention=of[text], task=text), yes))
     return examples
 
 
@@ -122,12 +137,6 @@ class Learner:
             learned[kind] = {"examples": len(known) + len(today), "positives": positives, **measured}
         self._day = day
         return learned
-
-
-@dataclass(frozen=True, slots=True)
-class _HourOfLife:
-    day: int
-    hour: int
 
 
 def _verdicts(hour: HourRecord, said: Mapping[tuple[int, Kind, str], bool | None], kind: Kind) -> dict[str, bool]:

@@ -77,7 +77,7 @@
   };
   const fill = (hour) => {
     const strip = hour.querySelector(".strip");
-    if (strip && !hour.querySelector(".big").src) show(strip, 0);
+    if (strip && !hour.querySelector(".big").src) show(strip, strip.children.length >> 1); // the middle of the deed
   };
   document.addEventListener("toggle", (event) => { if (event.target.matches("details.hour[open]")) fill(event.target); }, true);
   document.addEventListener("pointerover", (event) => {

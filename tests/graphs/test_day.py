@@ -9,7 +9,7 @@ from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 
 from core.errors import ModelOutputError
-from core.hour import DayPlan
+from core.hour import DayPlan, Example
 from core.household import SceneId
 from graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
 from tests.fakes import MARA, FakeHome, ScriptedAsk, type2_answers
@@ -101,6 +101,23 @@ def test_what_was_learned_on_the_first_day_is_used_on_the_second(make_services: 
     assert second.success is not None
     assert (first.success.predicate.f1 or 0) < (second.success.predicate.f1 or 0)
     assert "Cook a meal" in {m.text for m in second.robot.recalled}
+
+
+def test_examples_tell_the_place_of_the_guess_and_the_truth_that_was_not_guessed_has_none(
+    make_services: MakeServices,
+) -> None:
+    answers = type2_answers()
+    answers["human/intention"] = lambda v: {"intention": "Sing loudly"}
+    services = make_services(ask=ScriptedAsk(answers))
+    run_study(services, n=1)
+    lines = (services.recorder.adapters_folder(0) / "intention" / "examples.jsonl").read_text().splitlines()
+    ranks = {e.candidate: (e.rank, e.label) for e in map(Example.model_validate_json, lines)}
+    assert ranks == {
+        "Sing loudly": (None, True),
+        "Cook a meal": (0, False),
+        "Read quietly": (1, False),
+        "Tidy the home": (2, False),
+    }
 
 
 def test_a_new_episode_starts_with_a_robot_that_knows_nothing(make_services: MakeServices) -> None:
