@@ -22,7 +22,9 @@ check: $(READY)
 	$(BIN)/pytest $(ARGS)
 
 bench: $(READY)
-	for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
+	$(BIN)/python -m benchmarks.classifier
+	$(BIN)/python -m benchmarks.memory_stream
+	$(BIN)/python -m benchmarks.learning
 
 # torch comes first and pinned, so that nothing that depends on it brings another build.
 $(READY): pyproject.toml constraints.txt

@@ -1,6 +1,6 @@
 """Does the robot learn? Success by day over the shipped people and several seeds, with intervals.
 
-.venv/bin/python benchmarks/learning.py --seeds 5 --collab 2 --methods ours,random --out runs/learning
+.venv/bin/python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,random --out runs/learning
 
 Each seed lives with two of the ten people (seed 0 with the first two, and so on in turn), five days each, in one home,
 without pictures. Runs that are finished already are read, not done again. Prints a Markdown table: the mean predicate

@@ -144,7 +144,7 @@ class _Streams:
 
 
 def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddings) -> Callable[[], Classifier]:
-    inputs = Inputs(traits=method.traits, context=method.context)
+    inputs = Inputs(traits=method.traits, context=method.context, rank=method.order)
     return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
 
 

@@ -15,6 +15,7 @@ METHODS: dict[str, Method] = {
         replace(OURS, name="random", verdicts="accept", learns=False),  # PAPER §4.3: no classifiers, all accepted
         replace(OURS, name="no_traits", traits=False),  # PAPER §4.5
         replace(OURS, name="no_context", context=False),  # PAPER §4.5
+        replace(OURS, name="no_order", order=False),  # classifiers see the paper's fields and nothing else
     )
 }
 """All methods by name."""

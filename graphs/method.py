@@ -14,6 +14,8 @@ class Method:
         name: As given to `--method`.
         traits: Whether the inferred Big Five and profile enter prompts and classifiers.
         context: Whether retrieved intentions and tasks enter prompts and classifiers.
+        order: Whether the classifiers see the robot's own order of its guesses. DEVIATES: the paper's do not, but they
+            see nothing of what the robot saw either, and its order sums that up.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything.
         learns: Whether the evening trains the classifiers.
     """
@@ -21,6 +23,7 @@ class Method:
     name: str
     traits: bool = True
     context: bool = True
+    order: bool = True
     verdicts: Literal["classifiers", "accept"] = "classifiers"
     learns: bool = True
 

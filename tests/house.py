@@ -6,9 +6,10 @@ import ast
 import sys
 from pathlib import Path
 
+from evaluation import METHODS
+
 ROOMS = ("core", "prompts", "memory", "models", "simulation", "graphs", "evaluation", "coopera", "tests")
 LINES = 400
-METHODS = {"ours", "random", "no_traits", "no_context"}
 
 
 def main() -> int:
@@ -22,7 +23,7 @@ def main() -> int:
         for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Compare) and path.parts[len(root.parts)] != "tests":
                 names = {getattr(side, "value", None) for side in (node.left, *node.comparators)}
-                if names & METHODS:
+                if names & set(METHODS):
                     problems.append(f"{path.relative_to(root)}:{node.lineno}: compares with a method's name")
     sys.stdout.write("".join(f"{problem}\n" for problem in problems))
     return bool(problems)
