@@ -102,7 +102,8 @@ class LoraClassifier:
             lessons = [(hidden, bool(label)) for hidden, label in zip(seen, taught.labels, strict=True)]
             first = [pair for pair, out in zip(lessons, held_out, strict=True) if not out]
             self._fit(net, first, generator, epochs=self._recipe.epochs[0], speed=1.0)
-            shift = _threshold(_logits(net, seen), labels, held_out)
+            asked = np.array([example.rank is not None for example in taught.examples])
+            shift = _threshold(_logits(net, seen), labels, [held_out & asked, held_out])
             loss = self._fit(net, lessons, generator, epochs=self._recipe.epochs[1], speed=0.1)
         self._net, self._learned, self._shift = net, net.state(), shift
         passes = len(first) * self._recipe.epochs[0] + len(lessons) * self._recipe.epochs[1]
@@ -277,10 +278,11 @@ def _every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
 
 
 def _threshold(
-    logits: npt.NDArray[np.float64], labels: npt.NDArray[np.bool_], held_out: npt.NDArray[np.bool_]
+    logits: npt.NDArray[np.float64], labels: npt.NDArray[np.bool_], choices: Sequence[npt.NDArray[np.bool_]]
 ) -> float:
-    """Choose the logit at which to say yes, from examples that were not learned from, where there are such."""
-    rows = held_out if held_out.any() and labels[held_out].any() else np.ones_like(held_out)
+    """Choose the logit at which to say yes, from the first choice of rows that has both labels, else from all."""
+    usable = [rows for rows in choices if len(set(labels[rows])) == 2]
+    rows = usable[0] if usable else np.ones_like(labels)
     share = best_share(logits[rows], labels[rows], days=2)
     return score_at(logits[rows], share * float(labels[rows].mean()))
 

@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import subprocess
+import sys
+
 from core.hour import Example
 from core.people import BigFive, PersonId
 from models.classifiers.text import Inputs, lesson, sentence_pair, sentences
@@ -65,3 +68,15 @@ def test_hidden_hours_still_keep_days_apart_in_a_lesson() -> None:
 def test_a_profile_is_split_into_its_sentences() -> None:
     assert sentences(" Likes tea! Reads 2.5 books a week.  ") == ["Likes tea!", "Reads 2.5 books a week."]
     assert sentences("") == []
+
+
+def test_the_package_can_be_imported_without_anything_heavy() -> None:
+    code = "import models.classifiers, sys; print({'torch', 'sklearn', 'scipy', 'peft'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
+def test_the_robots_order_is_said_where_it_is_known_and_may_be_seen() -> None:
+    example = at(0, 9, rank=0)
+    assert sentence_pair(example)[0] == "9 am. Guess 1."
+    assert sentence_pair(Inputs(rank=False).show(example))[0] == "9 am."
