@@ -18,7 +18,7 @@ check: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python tests/house.py
+	$(BIN)/python -m tests.house
 	$(BIN)/pytest $(ARGS)
 
 bench: $(READY)
