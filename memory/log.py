@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 48  # 38 MB of MiniLM's
+_BLOCKS_IN_RAM = 24  # 19 MB of MiniLM's
 _TEXTS_IN_RAM = 2048
 _FAN = 32  # positions looked at together when searching by hour
 

@@ -6,6 +6,7 @@ index of neighbours is never asked, so it is built as cheaply as can be.
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import os
 import threading
@@ -102,7 +103,7 @@ class Store:
         """Release the store; the last user's call closes Chroma and then the lock."""
         with Store._guard:
             self._users -= 1
-            if self._users > 0:
+            if self._users > 0 or Store._open.get(self._key) is not self:
                 return
             del Store._open[self._key]
             if not isinstance(self._key, int):  # a client of the caller's stays open
@@ -113,6 +114,14 @@ class Store:
             if self._holding is not None:
                 seal(Path(self.where))
                 self._holding.close()
+
+    @classmethod
+    def close_all(cls) -> None:
+        """Close what a program that ends has left open, so that its next start need not look for damage."""
+        with cls._guard:
+            for store in [store for store in cls._open.values() if store.pid == os.getpid()]:
+                store._users = 1
+                store.close()
 
     def streams(self) -> list[str]:
         """Return the names of the streams, sorted."""
@@ -189,6 +198,9 @@ def streams(where: Path | str | ClientAPI) -> list[str]:
         return store.streams()
     finally:
         store.close()
+
+
+atexit.register(Store.close_all)
 
 
 def collection_name(stream: str) -> str:
