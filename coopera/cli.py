@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import humans, prompts, reports, run, scenes
+from coopera.commands import humans, memory, prompts, reports, run, scenes
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -25,6 +25,7 @@ app.command()(reports.report)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")
+app.add_typer(memory.app, name="memory")
 
 
 def main(args: Sequence[str] | None = None) -> int:

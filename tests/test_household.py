@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from coopera import Config, resume_study, run_study
+from coopera.cli import main
 from coopera.rundir import RunDir
 
 TRUTH = ("trace", "frames", "adapters", "config.yaml", "metrics.csv", "summary.json")
@@ -101,6 +105,22 @@ def test_type_1_is_lived_with_things_of_the_home(lived: Path) -> None:
         assert len(hour.human.tasks) == 3
         assert hour.robot.observation.first_task == hour.human.tasks[0].act.describe()
         assert hour.robot.observation.frames == []
+
+
+def test_a_runs_memory_can_be_checked_and_rebuilt_from_its_texts(
+    lived: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copied = lived.parent / "damaged"
+    shutil.copytree(lived, copied)
+    assert main(["memory", "repair", str(copied)]) == 0
+    assert "nothing is damaged" in capsys.readouterr().out
+    with closing(sqlite3.connect(copied / "memory/chroma.sqlite3")) as database:
+        database.execute("UPDATE embeddings_queue SET vector = zeroblob(length(vector))")
+        database.commit()
+    assert main(["memory", "repair", str(copied)]) == 0
+    assert "human/0/amara/intentions: 4 records rebuilt" in capsys.readouterr().out
+    assert main(["memory", "repair", str(copied)]) == 0
+    assert "nothing is damaged" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("after", [1, 3])

@@ -1,74 +1,23 @@
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from langchain_core.embeddings import Embeddings
 
-from core.errors import ConfigError, CooperaError
+from core.errors import ConfigError
 from core.hour import Example
 from core.people import BigFive, PersonId
-from core.protocols import Classifier
 from core.randomness import rng_at
 from models.classifiers import CLASSIFIERS, Inputs, make_classifier
 from models.classifiers.features import Similarity, centre_of, read
 from models.classifiers.kernel import _ridge
-
-
-class WordEmbeddings(Embeddings):
-    """Unit vectors of the words of a text: texts that share words are near each other, others are not."""
-
-    def __init__(self, language: str = "") -> None:
-        self.language = language
-
-    def embed_query(self, text: str) -> list[float]:
-        words = text.lower().replace(".", "").split() or ["nothing"]
-        total = np.sum([rng_at(0, self.language, word).normal(size=32) for word in words], axis=0)
-        return [float(value) for value in (total / np.linalg.norm(total)).astype(np.float32)]
-
-    def embed_documents(self, texts: list[str]) -> list[list[float]]:
-        return [self.embed_query(text) for text in texts]
-
-
-WORDS = WordEmbeddings()
-THINGS = ("drink tea", "read books", "lift weights", "paint pictures", "wash clothes")
-
-
-def kernel(**options: object) -> Classifier:
-    return make_classifier("kernel", **{"kind": "intention", "embeddings": WORDS, **options})  # type: ignore[arg-type]
-
-
-def ask(candidate: str, hour: int, person: str = "ann", **fields: object) -> Example:
-    return Example(person=PersonId(person), day=9, hour=hour, candidate=candidate, **fields)  # type: ignore[arg-type]
-
-
-def days(likes: Callable[[str, int], bool], *, person: str = "ann", n: int = 3, **fields: object) -> list[Example]:
-    """Feedback of n days on all five things at every hour."""
-    return [
-        Example(
-            person=PersonId(person),
-            day=day,
-            hour=hour,
-            candidate=thing,
-            label=likes(thing, hour),
-            **fields,  # type: ignore[arg-type]
-        )
-        for day in range(n)
-        for hour in range(9, 22)
-        for thing in THINGS
-    ]
-
-
-def tea_in_the_morning(thing: str, hour: int) -> bool:
-    return (thing == "drink tea" and hour < 13) or (thing == "read books" and hour > 17)
+from tests.models.feedback import THINGS, WORDS, ask, days, kernel, tea_in_the_morning
 
 
 def test_an_unknown_classifier_is_refused_with_the_known_names() -> None:
@@ -266,88 +215,6 @@ def test_thirty_examples_are_enough_to_start() -> None:
     judge = kernel()
     judge.train(days(tea_in_the_morning)[:30], seed=0)
     assert judge.probabilities([ask("drink tea", 10)])[0] > judge.probabilities([ask("wash clothes", 10)])[0]
-
-
-def test_a_saved_classifier_answers_as_before(tmp_path: Path) -> None:
-    judge, again = kernel(), kernel()
-    taught = days(tea_in_the_morning, profile="A quiet writer.", intentions=["wash clothes"], tasks=["bring the mug"])
-    judge.train(taught, seed=0)
-    judge.save(tmp_path / "a")
-    again.load(tmp_path / "a")
-    assert again.probabilities(taught) == judge.probabilities(taught)
-    again.save(tmp_path / "b")
-    assert {f.name: f.read_bytes() for f in (tmp_path / "a").iterdir()} == {
-        f.name: f.read_bytes() for f in (tmp_path / "b").iterdir()
-    }
-
-
-def test_an_untrained_classifier_can_be_saved_and_makes_a_trained_one_forget(tmp_path: Path) -> None:
-    kernel().save(tmp_path)
-    judge = kernel()
-    judge.train(days(tea_in_the_morning), seed=0)
-    judge.load(tmp_path)
-    assert judge.probabilities([ask("drink tea", 9)]) == [0.5]
-
-
-def test_a_folder_of_another_kind_is_refused(tmp_path: Path) -> None:
-    kernel(kind="task").save(tmp_path)
-    with pytest.raises(CooperaError, match=r"classifier.json: field 'kind' is 'task', expected 'intention'"):
-        kernel().load(tmp_path)
-
-
-def test_a_folder_of_a_classifier_that_sees_other_fields_is_refused(tmp_path: Path) -> None:
-    kernel(inputs=Inputs(traits=False)).save(tmp_path)
-    with pytest.raises(CooperaError, match="field 'inputs'"):
-        kernel().load(tmp_path)
-
-
-def test_a_folder_learned_on_other_embeddings_is_refused(tmp_path: Path) -> None:
-    kernel(embeddings=WordEmbeddings("elvish")).save(tmp_path)
-    with pytest.raises(CooperaError, match="other embeddings"):
-        kernel().load(tmp_path)
-
-
-def test_a_folder_of_another_version_is_refused(tmp_path: Path) -> None:
-    kernel().save(tmp_path)
-    path = tmp_path / "classifier.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"version": 99}))
-    with pytest.raises(CooperaError, match="field 'version' is 99"):
-        kernel().load(tmp_path)
-
-
-def test_an_empty_folder_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(CooperaError, match="no saved classifier"):
-        kernel().load(tmp_path)
-
-
-@pytest.mark.parametrize("name", ["classifier.json", "kernel.npz"])
-def test_a_damaged_file_is_refused_and_what_was_known_stays(tmp_path: Path, name: str) -> None:
-    judge = kernel()
-    judge.train(days(tea_in_the_morning), seed=0)
-    judge.save(tmp_path)
-    before = judge.probabilities([ask("drink tea", 9)])
-    whole = (tmp_path / name).read_bytes()
-    (tmp_path / name).write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(CooperaError, match="damaged"):
-        judge.load(tmp_path)
-    assert judge.probabilities([ask("drink tea", 9)]) == before
-
-
-def test_arrays_that_do_not_fit_together_are_refused(tmp_path: Path) -> None:
-    judge = kernel()
-    judge.train(days(tea_in_the_morning), seed=0)
-    judge.save(tmp_path)
-    with np.load(tmp_path / "kernel.npz") as stored:
-        arrays = dict(stored)
-    np.savez(tmp_path / "kernel.npz", **(arrays | {"weights": arrays["weights"][:-1]}))
-    with pytest.raises(CooperaError, match="damaged"):
-        judge.load(tmp_path)
-
-
-def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("in the way")
-    with pytest.raises(CooperaError, match="cannot be saved"):
-        kernel().save(tmp_path / "file")
 
 
 CHILD = """

@@ -1,0 +1,35 @@
+"""`coopera memory`: care of a run's memory."""
+
+from __future__ import annotations
+
+import json
+
+import typer
+
+from coopera.commands.options import AsJson, RunPath
+
+app = typer.Typer(help="Care of a run's memory.", no_args_is_help=True)
+
+
+@app.callback()
+def _group() -> None:
+    """Keep `repair` a sub-command though it is the only one."""
+
+
+@app.command()
+def repair(run: RunPath, as_json: AsJson = False) -> None:
+    """Check a run's memory and rebuild it from its texts where its index is damaged."""
+    from coopera.assemble import open_embeddings
+    from coopera.rundir import RunDir
+    from memory import repair as rebuild
+
+    folder = run / "memory"
+    done = rebuild(folder, open_embeddings(RunDir.open(run).config))
+    if as_json:
+        typer.echo(json.dumps({"run": str(run), "repaired": [one._asdict() for one in done]}))
+        return
+    for one in done:
+        lost = f", {one.missing} lost" if one.missing else ""
+        changed = f", {one.altered} altered since they were written" if one.altered else ""
+        typer.echo(f"{one.stream}: {one.records} records rebuilt{lost}{changed}")
+    typer.echo(f"{folder}: rebuilt; the damaged store is kept beside it." if done else f"{folder}: nothing is damaged.")
