@@ -6,6 +6,7 @@ import io
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from langchain_core.embeddings import Embeddings
 from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
-from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
+from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
 from core.errors import CooperaError
 from core.hour import Example
@@ -63,7 +64,7 @@ class KernelClassifier:
         """Return P(yes) per example, in [0, 1]; exactly 0.5 for all while untrained. See `calibration.scale`."""
         if self._fitted is None or not examples:
             return [0.5] * len(examples)
-        with threadpool_limits(1, user_api="blas"):
+        with _threads().limit(limits=1, user_api="blas"):
             batch = read([self._inputs.show(example) for example in examples], self._embeddings)
             fitted = self._fitted
             scores = fitted.similarity.gram(fitted.similarity.points(batch), fitted.points) @ fitted.weights
@@ -87,7 +88,7 @@ class KernelClassifier:
         counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
         if not taught.teaches:
             return counts
-        with threadpool_limits(1, user_api="blas"):
+        with _threads().limit(limits=1, user_api="blas"):
             self._fitted, measured = self._fit(taught, np.random.default_rng(seed))
         return counts | measured
 
@@ -177,6 +178,12 @@ class KernelClassifier:
         """Return the vector of a fixed sentence, by which embeddings are told apart; shape (d,)."""
         probe: Floats = as_array(self._embeddings, [_PROBE])[0].astype(np.float64).round(6)
         return probe
+
+
+@cache
+def _threads() -> Any:
+    """Return the handle on numpy's and scipy's threads (slow to look up); on one thread sums have one order."""
+    return ThreadpoolController()
 
 
 def _landmarks(labels: npt.NDArray[np.bool_], rng: np.random.Generator) -> npt.NDArray[np.int64]:
