@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -80,6 +80,15 @@ class HumanHour(Frozen):
     reflections: list[Reflection]
     repairs: list[str] = []
     """Tasks that code had to mend after both reflections, as sentences."""
+
+
+class LoggedHour(Frozen):
+    """What a real person wrote down of an hour: the intention and, where known, the tasks in their own words."""
+
+    day: int = Field(ge=0)
+    hour: int = Field(ge=0, le=23)
+    intention: str = Field(min_length=1, max_length=300)
+    tasks: list[Annotated[str, Field(min_length=1, max_length=300)]] = []
 
 
 class Observation(Frozen):
