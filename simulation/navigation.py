@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,7 @@ STOP = 0.55
 _COMFORT = 0.45
 _FAR = 2.0
 _DISLIKE = 1.5
+_REMEMBERED = 32
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
 
 
@@ -123,8 +125,11 @@ class Navigator:
         self._number[self._free] = np.arange(int(self._free.sum()))
         self._cells = np.argwhere(self._free)
         self._centres = np.stack([self._xs[self._cells[:, 0]], self._ys[self._cells[:, 1]]], axis=1)
-        self._edges = self._build_edges()
-        self._graph = self._as_graph(np.ones(len(self._edges[2]), dtype=bool))
+        of_cell = self._room[self._cells[:, 0], self._cells[:, 1]]
+        self._in_room = [np.flatnonzero(of_cell == index) for index in range(len(scene.rooms))]
+        self._graph = self._build_graph()
+        self._field = lru_cache(maxsize=_REMEMBERED)(self._work_out_field)
+        self._way = lru_cache(maxsize=_REMEMBERED)(self._work_out_way)
 
     def path(self, start: Point, goal: Point, *, avoid: Disc | None = None) -> list[Point] | None:
         """Corner points from start to goal, or None; `route` also says why."""
@@ -135,13 +140,15 @@ class Navigator:
 
         Start and goal are moved to the nearest place where one can stand, at most 0.6 m away.
         """
+        return self._way(start, goal, avoid)
+
+    def _work_out_way(self, start: Point, goal: Point, avoid: Disc | None) -> Route:
         first, last = self._nearest(start, avoid), self._nearest(goal, avoid)
         if first is None or last is None:
             what = "start" if first is None else "goal"
             place = start if first is None else goal
             return Route(None, reason=f"there is no room to stand at the {what} ({place[0]:.2f}, {place[1]:.2f})")
-        graph = self._graph if avoid is None else self._as_graph(self._open_edges(avoid))
-        cost, before = dijkstra(graph, indices=first, return_predecessors=True)
+        cost, before = self._field(first, avoid)
         if not math.isfinite(cost[last]):
             reason = "the way is blocked" if avoid is None else "the other one stands in the way"
             return Route(None, reason=reason)
@@ -173,12 +180,11 @@ class Navigator:
         on it) also within `reach` of that point. A target that is a point is stood at within `reach`. Places lie
         in the target's room, at least 0.15 m apart. Empty where there is none, or none that `start` leads to.
         """
-        near, face, room = self._near(target, point, reach)
-        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
-        near &= self._room[self._cells[:, 0], self._cells[:, 1]] == index
+        nodes, face = self._near(target, point, reach)
+        places = self._centres[nodes]
         if avoid is not None:
-            near &= self._outside(avoid)
-        nodes = np.flatnonzero(near)
+            nodes = nodes[_outside(avoid, places)]
+            places = self._centres[nodes]
         if not len(nodes):
             return []
         walk = np.zeros(len(nodes))
@@ -186,9 +192,7 @@ class Navigator:
             first = self._nearest(start, avoid)
             if first is None:
                 return []
-            graph = self._graph if avoid is None else self._as_graph(self._open_edges(avoid))
-            walk = dijkstra(graph, indices=first)[nodes]
-        places = self._centres[nodes]
+            walk = self._field(first, avoid)[0][nodes]
         gap = self._gaps(target, places) if point is None else np.hypot(*(places - np.array(point)).T)
         cost = walk + 2 * gap + self._off_front(target, places)
         order = [int(i) for i in np.lexsort((nodes, cost)) if math.isfinite(cost[i])]
@@ -216,17 +220,23 @@ class Navigator:
     def can_stand(self, x: float, y: float) -> bool:
         """Whether a body fits at a point and the rest of the home can be reached from there."""
         node = self._nearest((x, y), None, within=CELL)
-        return node is not None and float(self._clear_at(np.array([[x, y]]))[0]) >= RADIUS - 0.01
+        return node is not None and float(self._clear_at(np.array([x]), np.array([y]))[0]) >= RADIUS - 0.01
 
     def free_in(self, room: str) -> list[Point]:
         """Centres of all cells of a room where one can stand, in fixed order."""
-        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
-        inside = self._room[self._cells[:, 0], self._cells[:, 1]] == index
-        return [(float(x), float(y)) for x, y in self._centres[inside]]
+        return [(x, y) for x, y in self.cells_in(room).tolist()]
+
+    def cells_in(self, room: str) -> Array:
+        """The same centres as an array of shape (n, 2)."""
+        centres: Array = self._centres[self._in_room[self._index(room)]]
+        return centres
+
+    def _index(self, room: str) -> int:
+        return next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
 
     def middle_of(self, room: str) -> Point | None:
         """The place of a room with most space around it; None where one cannot stand in it."""
-        index = next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
+        index = self._index(room)
         space = np.where(self._free & (self._room == index), self._clear, -1.0)
         best = int(space.argmax())
         if space.flat[best] < 0:
@@ -245,15 +255,18 @@ class Navigator:
             np.minimum(clear[i:j, k:m], clearance(x, y, box[None]), out=clear[i:j, k:m])
         return clear
 
-    def _near(self, target: SceneObject | Point, point: Point | None, reach: float) -> tuple[Mask, Point, str]:
+    def _near(self, target: SceneObject | Point, point: Point | None, reach: float) -> tuple[NDArray[np.int64], Point]:
+        """Nodes of the target's room that are near enough to act from, and the point to face."""
+        room = self.scene.room_at(*target).name if isinstance(target, tuple) else target.room
+        nodes = self._in_room[self._index(room)]
+        aim = target if isinstance(target, tuple) else point
+        if aim is not None:
+            nodes = nodes[np.hypot(*(self._centres[nodes] - np.array(aim)).T) <= reach]
         if isinstance(target, tuple):
-            near: Mask = np.hypot(*(self._centres - np.array(target)).T) <= reach
-            return near, target, self.scene.room_at(*target).name
+            return nodes, target
         standing_on_something = target.position[2] > 0.2  # a microwave on a counter: its support keeps one away
-        near = self._gaps(target, self._centres) <= (REACH - 0.05 if standing_on_something else STOP)
-        if point is not None:
-            near &= np.hypot(*(self._centres - np.array(point)).T) <= reach
-        return near, point or target.xy, target.room
+        gaps = self._gaps(target, self._centres[nodes])
+        return nodes[gaps <= (REACH - 0.05 if standing_on_something else STOP)], point or target.xy
 
     def _gaps(self, target: SceneObject | Point, places: Array) -> Array:
         if isinstance(target, tuple):
@@ -267,7 +280,7 @@ class Navigator:
         ahead = (places - np.array(target.xy)) @ np.array([math.cos(target.facing), math.sin(target.facing)])
         return np.where(ahead > target.size[1] / 2, 0.0, 0.6)
 
-    def _build_edges(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
+    def _build_graph(self) -> csr_matrix:
         heads, tails, weights = [], [], []
         for dx, dy in ((1, 0), (0, 1), (1, 1), (1, -1)):
             here = self._cells
@@ -283,57 +296,60 @@ class Navigator:
             heads.append(self._number[here[:, 0], here[:, 1]])
             tails.append(self._number[there[:, 0], there[:, 1]])
             weights.append(CELL * math.hypot(dx, dy) * (1.0 + dislike))
-        return np.concatenate(heads), np.concatenate(tails), np.concatenate(weights)
+        head, tail, weight = np.concatenate(heads), np.concatenate(tails), np.concatenate(weights)
+        both = (np.concatenate([head, tail]), np.concatenate([tail, head]))
+        return csr_matrix((np.concatenate([weight, weight]), both), shape=(len(self._cells),) * 2)
 
-    def _as_graph(self, keep: Mask) -> csr_matrix:
-        heads, tails, weights = (column[keep] for column in self._edges)
-        size = len(self._cells)
-        return csr_matrix(
-            (np.concatenate([weights, weights]), (np.concatenate([heads, tails]), np.concatenate([tails, heads]))),
-            shape=(size, size),
-        )
-
-    def _outside(self, avoid: Disc) -> Mask:
-        outside: Mask = np.hypot(*(self._centres - np.array([avoid.x, avoid.y])).T) >= avoid.radius + RADIUS
-        return outside
-
-    def _open_edges(self, avoid: Disc) -> Mask:
-        outside = self._outside(avoid)
-        heads, tails, _ = self._edges
-        keep: Mask = outside[heads] & outside[tails]
-        return keep
+    def _work_out_field(self, first: int, avoid: Disc | None) -> tuple[Array, NDArray[np.int32]]:
+        """Cost of the way from one node to each, and the node before each on that way."""
+        graph = self._graph
+        if avoid is not None:  # what leads out of a closed cell leads nowhere
+            closed = np.flatnonzero(~_outside(avoid, self._centres))
+            graph = csr_matrix((graph.data.copy(), graph.indices, graph.indptr), shape=graph.shape)
+            for node in closed:
+                graph.data[graph.indptr[node] : graph.indptr[node + 1]] = np.inf
+        cost, before = dijkstra(graph, indices=first, return_predecessors=True)
+        return cost, before
 
     def _nearest(self, place: Point, avoid: Disc | None, within: float = 0.6) -> int | None:
-        away = np.hypot(*(self._centres - np.array(place)).T)
         room = next((i for i, known in enumerate(self.scene.rooms) if known.contains(*place)), None)
+        i, j = round((place[0] - self._x0) / CELL), round((place[1] - self._y0) / CELL)
+        if avoid is None and 0 <= i < len(self._xs) and 0 <= j < len(self._ys):
+            node = int(self._number[i, j])
+            if node >= 0 and room in (None, self._room[i, j]):
+                return node
+        away = np.hypot(*(self._centres - np.array(place)).T)
         if room is not None:  # not through a wall, unless this side has no room at all
-            other = self._room[self._cells[:, 0], self._cells[:, 1]] != room
-            away = np.where(other, away + 0.3, away)
+            away += 0.3
+            away[self._in_room[room]] -= 0.3
         if avoid is not None:
-            away = np.where(self._outside(avoid), away, np.inf)
+            away = np.where(_outside(avoid, self._centres), away, np.inf)
         best = int(away.argmin())
         return best if away[best] <= within else None
 
     def _point(self, node: int) -> Point:
         return float(self._centres[node, 0]), float(self._centres[node, 1])
 
-    def _clear_at(self, places: Array) -> Array:
+    def _clear_at(self, x: Array, y: Array) -> Array:
         """Clearance between cell centres, bilinear."""
-        u = np.clip((places[:, 0] - self._xs[0]) / CELL, 0, len(self._xs) - 1.001)
-        v = np.clip((places[:, 1] - self._ys[0]) / CELL, 0, len(self._ys) - 1.001)
-        i, j = u.astype(int), v.astype(int)
+        rows, columns = self._clear.shape
+        u = np.minimum(np.maximum((x - self._x0) / CELL, 0.0), rows - 1.001)
+        v = np.minimum(np.maximum((y - self._y0) / CELL, 0.0), columns - 1.001)
+        i, j = u.astype(np.intp), v.astype(np.intp)
         s, t = u - i, v - j
-        c = self._clear
-        low = c[i, j] * (1 - s) + c[i + 1, j] * s
-        high = c[i, j + 1] * (1 - s) + c[i + 1, j + 1] * s
+        flat, corner = self._clear.ravel(), i * columns + j
+        low = flat[corner] * (1 - s) + flat[corner + columns] * s
+        high = flat[corner + 1] * (1 - s) + flat[corner + columns + 1] * s
         return np.asarray(low * (1 - t) + high * t)
 
     def _straight(self, a: Point, b: Point, avoid: Disc | None) -> bool:
-        steps = max(2, math.ceil(math.dist(a, b) / (CELL / 2)) + 1)
-        line = np.linspace(a, b, steps)
-        if avoid is not None and (np.hypot(line[:, 0] - avoid.x, line[:, 1] - avoid.y) < avoid.radius + RADIUS).any():
+        dx, dy = b[0] - a[0], b[1] - a[1]
+        steps = max(1, math.ceil(math.hypot(dx, dy) / (CELL / 2)))
+        share = np.arange(steps + 1) / steps
+        x, y = a[0] + dx * share, a[1] + dy * share
+        if avoid is not None and (np.hypot(x - avoid.x, y - avoid.y) < avoid.radius + RADIUS).any():
             return False
-        return bool((self._clear_at(line) >= RADIUS).all())
+        return float(self._clear_at(x, y).min()) >= RADIUS
 
     def _pull(self, points: list[Point], avoid: Disc | None) -> list[Point]:
         """Drop every corner that a straight walk can skip (greedy from the start, galloping ahead)."""
@@ -361,6 +377,11 @@ def _facing_point(target: SceneObject, x: float, y: float) -> Point:
     cx, cy = target.xy
     nearest_x, nearest_y = min(max(x, bounds.x0), bounds.x1), min(max(y, bounds.y0), bounds.y1)
     return (cx + nearest_x) / 2, (cy + nearest_y) / 2
+
+
+def _outside(avoid: Disc, places: Array) -> Mask:
+    outside: Mask = np.hypot(*(places - np.array([avoid.x, avoid.y])).T) >= avoid.radius + RADIUS
+    return outside
 
 
 def _to_segment(places: Array, a: Point, b: Point) -> Array:

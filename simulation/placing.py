@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from core.household import plain
 from simulation.catalogue import surfaces
 from simulation.scene import Scene, SceneObject
@@ -18,14 +22,16 @@ def free_places(scene: Scene, state: HomeState, thing: SceneObject, receptacle: 
         space = taken_at(Spot(*where.position, where.yaw), other.size)
         if other.name != thing.name and space.bounds.overlaps(around):
             taken.append(space)
-    levels = [round(receptacle.position[2] + surface.z, 3) for surface in surfaces(receptacle)]
-
-    def order(spot: Spot) -> tuple[int, float, float, float]:
-        x, y = receptacle.to_local(spot.x, spot.y)
-        level = min(range(len(levels)), key=lambda i: abs(levels[i] - spot.z))
-        return level, round(-y, 3), round(abs(x), 3), round(x, 3)
-
-    return sorted(spots(receptacle, thing.size, taken), key=order)
+    free = spots(receptacle, thing.size, taken)
+    if not free:
+        return []
+    x, y, z, _ = np.array(free).T
+    levels = np.round([receptacle.position[2] + surface.z for surface in surfaces(receptacle)], 3)
+    level = np.abs(z[:, None] - levels).argmin(axis=1)
+    cos, sin = math.cos(receptacle.yaw), math.sin(receptacle.yaw)
+    dx, dy = x - receptacle.position[0], y - receptacle.position[1]
+    aside, ahead = np.round(dx * cos + dy * sin, 3), np.round(dy * cos - dx * sin, 3)
+    return [free[i] for i in np.lexsort((aside, np.abs(aside), -ahead, level))]
 
 
 def full(receptacle: SceneObject, thing: SceneObject) -> str:

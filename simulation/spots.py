@@ -6,9 +6,14 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from simulation.catalogue import Surface, surfaces
+import numpy as np
+from numpy.typing import NDArray
+
+from simulation.catalogue import surfaces
 from simulation.scene import Bounds, Scene, SceneObject
 from simulation.shapes import Size
+
+Array = NDArray[np.float64]
 
 APART = 0.015
 """Things put down keep this distance, in metres."""
@@ -58,18 +63,20 @@ def spots(carrier: SceneObject, size: Size, taken: Iterable[Taken]) -> list[Spot
     A thing that is larger than a surface may hang over its edge, centred. Two yaws are tried: the carrier's
     own and a quarter turn.
     """
-    taken = list(taken)
+    filled = np.array([(*space.bounds, space.low, space.high) for space in taken]).reshape(-1, 6)
     found: list[Spot] = []
     for surface in surfaces(carrier):
         if surface.clear < size[2]:
             continue
+        z = round(carrier.position[2] + surface.z, 3)
+        level = filled[(z < filled[:, 5] - 1e-3) & (filled[:, 4] < z + size[2] - 1e-3), :4]
         for turn in (0.0, math.pi / 2):
             half = _half_extents(size, turn)
-            for x in _raster(surface.x0, surface.x1, half[0]):
-                for y in _raster(surface.y0, surface.y1, half[1]):
-                    spot = _spot(carrier, surface, x, y, turn)
-                    if is_free(taken_at(spot, size), taken):
-                        found.append(spot)
+            xs, ys = _raster(surface.x0, surface.x1, half[0]), _raster(surface.y0, surface.y1, half[1])
+            yaw = round(math.remainder(carrier.yaw + turn, math.tau), 4)
+            places = _places(carrier, np.repeat(xs, len(ys)), np.tile(ys, len(xs)))
+            free = places[_clear(places, _half_extents(size, yaw), level)]
+            found += [Spot(x, y, z, yaw) for x, y in free.tolist()]
     return found
 
 
@@ -81,9 +88,20 @@ def is_free(space: Taken, taken: Iterable[Taken]) -> bool:
     )
 
 
-def _spot(carrier: SceneObject, surface: Surface, x: float, y: float, turn: float) -> Spot:
-    wx, wy, wz = carrier.to_world(x, y, surface.z)
-    return Spot(round(wx, 3), round(wy, 3), round(wz, 3), round(math.remainder(carrier.yaw + turn, math.tau), 4))
+def _places(carrier: SceneObject, x: Array, y: Array) -> Array:
+    """Points of the carrier's frame on the floor plan, to the millimetre; shape (n, 2)."""
+    cos, sin = math.cos(carrier.yaw), math.sin(carrier.yaw)
+    at_x, at_y = carrier.xy
+    there = np.stack((at_x + x * cos - y * sin, at_y + x * sin + y * cos), axis=1)
+    return np.array([[round(a, 3), round(b, 3)] for a, b in there.tolist()])  # numpy's own rounding is not exact
+
+
+def _clear(places: Array, half: tuple[float, float], filled: Array) -> NDArray[np.bool_]:
+    """Which places, of shape (n, 2), keep a thing clear of all filled rectangles, of shape (m, 4)."""
+    x, y = places[:, :1], places[:, 1:]
+    hits = (x - half[0] < filled[:, 2] + APART) & (filled[:, 0] < x + half[0] + APART)
+    hits &= (y - half[1] < filled[:, 3] + APART) & (filled[:, 1] < y + half[1] + APART)
+    return ~hits.any(axis=1)
 
 
 def _half_extents(size: Size, yaw: float) -> tuple[float, float]:
