@@ -19,6 +19,7 @@ from core.protocols import Ask, Classifier, Home, Reply, Role
 from evaluation import METHODS, Measure
 from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
+from graphs.person import PERSON_MODELS
 from memory import MemoryStream, Search, bundled
 from models.classifiers import Inputs, make_classifier
 from models.door import open_door
@@ -95,6 +96,7 @@ def open_services(
             score=Measure(ask, embeddings),
             seed=config.seed,
             frames=config.frames if config.pictures == "sampled" else 0,
+            person=PERSON_MODELS[config.person],
         )
 
 

@@ -11,6 +11,8 @@ from coopera import humans
 from coopera.claim import refuse_used
 from coopera.config import Config
 from core.errors import ConfigError
+from core.people import Persona
+from graphs.person import PERSON_MODELS
 
 
 class Catalogues(NamedTuple):
@@ -49,6 +51,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
+    _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
     _check("humans", "person", config.humans or [], known.people)
     _check("scenes", "home", config.scenes or [], known.scenes)
     people = config.humans or _first("humans", known.people, n_people, config.setting)
@@ -58,7 +61,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
-        humans.find(person, config.data_dir)
+        _livable(humans.find(person, config.data_dir), config.person)
     return config.model_copy(
         update={
             "humans": list(people),
@@ -85,6 +88,12 @@ def _check(field: str, what: str, wanted: Sequence[str], known: Sequence[str]) -
             raise ConfigError(f"{field}: there is no {what} {name!r} ({hint}known are {shown or 'none'}).")
         if wanted.count(name) > 1:
             raise ConfigError(f"{field}: {name} stands twice, and each may stand once.")
+
+
+def _livable(persona: Persona, model: str) -> None:
+    """Refuse a person who lacks the text that a person model lives by."""
+    if not PERSON_MODELS[model].profile(persona):
+        raise ConfigError(f"humans: {persona.id} has no notes in the persona file, and --person {model} lives by them.")
 
 
 def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:

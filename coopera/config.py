@@ -41,6 +41,7 @@ _EXPECTED = {
     "prompts": "the path of a folder",
     "classifier": "kernel or lora",
     "human": "simulated, me or log:FILE",
+    "person": "full, no_extension or single_shot",
     "pictures": "sampled, none or video",
     "frames": "a whole number from 1 to 64",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
@@ -83,6 +84,7 @@ class Config(Frozen):
         prompts: A folder whose files replace shipped prompts of the same name.
         classifier: Kind of the robot's yes/no classifiers.
         human: Who plays the person.
+        person: How a simulated person is made: the paper's way or one of its ablations (`graphs.person`).
         pictures: Whether the first task of each hour is recorded as pictures.
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels.
@@ -103,6 +105,7 @@ class Config(Frozen):
     prompts: Path | None = None
     classifier: Literal["kernel", "lora"] = "kernel"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
+    person: Text = "full"
     pictures: Literal["sampled", "none", "video"] = "sampled"
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
     frame_size: tuple[Pixels, Pixels] = (320, 240)

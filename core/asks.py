@@ -36,6 +36,7 @@ ASKS: dict[str, AskSpec] = {
     "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
     "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "today"),
+    "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours"),
     "human/tasks_type1": _spec(
         "human", "PickPlaceReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "n_tasks"
     ),

@@ -35,7 +35,8 @@ class BigFive(Frozen):
 class Persona(Frozen):
     """A person as written in a persona file: the truth that the robot must infer.
 
-    `source` says where the text came from ("coopera", or the file and row of an import).
+    `source` says where the text came from ("coopera", or the file and row of an import). `notes` are the short
+    paragraph of traits that the profile extends; the ablation without profile extension lives by them.
     """
 
     id: PersonId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")
@@ -43,6 +44,7 @@ class Persona(Frozen):
     profile: str = Field(min_length=1, max_length=20_000)
     big_five: BigFive
     source: str = "coopera"
+    notes: str = Field("", max_length=20_000)
 
 
 class Picture(Frozen):

@@ -26,6 +26,12 @@ class IntentionReply(Frozen):
     reason_tasks: Reason = ""
 
 
+class DayReply(Frozen):
+    """human/day: the intentions of a whole day, one per hour, in order (the single-shot ablation)."""
+
+    intentions: Annotated[list[IntentionReply], Field(min_length=1, max_length=24)]
+
+
 class _TaskDraft(Frozen):
     thought: Sentence
     reason_human: Reason = ""
@@ -135,6 +141,7 @@ REPLIES: dict[str, type[Frozen]] = {
     reply.__name__: reply
     for reply in (
         IntentionReply,
+        DayReply,
         PickPlaceReply,
         FreeMotionReply,
         HandOverReply,

@@ -147,6 +147,8 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Keep the day's truth as history and train both classifiers. Writes `learned` and `measured`."""
     services, plan = runtime.context, state["plan"]
+    if not services.method.robot:
+        return {"measured": {}}
     hours = services.recorder.read_day(plan.day)
     history = services.memories("history", plan.episode, plan.person)
     history.forget_from(plan.episode_day * 24)

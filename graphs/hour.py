@@ -1,7 +1,7 @@
 """One hour in the home: the person lives it, the robot watches the first task and helps, and it is scored.
 
-human -> demonstrate -> robot -> finish -> score -> record. The hour is the unit of work: interrupted, it is done
-again as a whole and gives the same result, so its graphs keep no checkpoints of their own.
+human -> demonstrate -> robot -> finish -> score -> record; without a robot, human -> finish -> record. The hour is the
+unit of work: interrupted, it is done again as a whole and gives the same result, so its graphs keep no checkpoints.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from core.household import Outcome
 from core.people import Picture
 from core.protocols import Home
 from core.randomness import Address
-from graphs.human import HumanState, build_human_graph, human_hour
+from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
 from graphs.robot import RobotInput, RobotState, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
 
@@ -47,6 +47,10 @@ class HourState(HourInput, total=False):
     world: dict[str, Any]  # by record: the snapshot
 
 
+_ALONE = {"human": "finish", "finish": "record"}
+"""What comes next where there is no robot."""
+
+
 class Node(Protocol):
     """A node of the hour."""
 
@@ -62,7 +66,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
     def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         ctx = human_context(runtime.context, state["plan"])
         ctx.memories.forget_from(_clock(state).now)
-        return {"human": human_hour(cast(HumanState, human.invoke({"clock": _clock(state)}, context=ctx)))}
+        given = HumanInput(clock=_clock(state), hours=state["plan"].hours)
+        return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
 
     def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         ctx = robot_context(runtime.context, state["plan"])
@@ -81,7 +86,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
     graph.add_edge(START, "human")
     for (name, node), after in zip(nodes.items(), [*list(nodes)[1:], "record"], strict=True):
         graph.add_node(name, _failing(node))
-        graph.add_conditional_edges(name, _goes_on_to(after), sorted({after, "record"}))
+        alone = _ALONE.get(name, after)
+        graph.add_conditional_edges(name, _goes_on_to(after, alone), sorted({after, alone, "record"}))
     graph.add_node("record", record)
     graph.add_edge("record", END)
     return graph.compile(checkpointer=False, name="hour")
@@ -107,10 +113,12 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Have the person do the remaining tasks, except those that the robot has done. Adds to `outcomes`."""
+    """Have the person do what is left, except what the robot has done. Adds to `outcomes`."""
     home = runtime.context.home(state["plan"].scene)
-    done = {_effect(home, outcome) for outcome in state["robot"].outcomes if outcome.ok}
-    remaining = [task.act for task in state["human"].tasks[1:]]
+    helped = state["robot"].outcomes if "robot" in state else []
+    done = {_effect(home, outcome) for outcome in helped if outcome.ok}
+    shown = 1 if "observation" in state else 0
+    remaining = [task.act for task in state["human"].tasks[shown:]]
     mine = [act for act in remaining if _effect(home, Outcome(agent="human", act=act, ok=True)) not in done]
     return {"outcomes": [home.perform("human", act) for act in mine]}
 
@@ -166,6 +174,7 @@ def human_context(services: Services, plan: DayPlan) -> HumanContext:
         home=services.home(plan.scene),
         memories=services.memories("human", plan.episode, plan.person),
         embeddings=services.embeddings,
+        model=services.person,
     )
 
 
@@ -213,8 +222,10 @@ def _failing(node: Node) -> Node:
     return run
 
 
-def _goes_on_to(after: str) -> Callable[[HourState], str]:
-    def route(state: HourState) -> str:
-        return "record" if "failure" in state else after
+def _goes_on_to(after: str, alone: str) -> Callable[[HourState, Runtime[Services]], str]:
+    def route(state: HourState, runtime: Runtime[Services]) -> str:
+        if "failure" in state:
+            return "record"
+        return after if runtime.context.method.robot else alone
 
     return route

@@ -1,9 +1,10 @@
-"""The person's hour as a state machine: recall, propose, search, decompose, reflect twice (PAPER §3.2)."""
+"""The person's hour as a state machine: recall, propose, search, decompose, reflect twice, mend (PAPER §3.2)."""
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Annotated, Any, Literal, TypeAlias
 
 from langgraph.graph import END, START, StateGraph
@@ -11,11 +12,13 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
-from core.clock import Clock
+from core.clock import Clock, hour_label
+from core.errors import ModelOutputError
 from core.hour import Found, HumanHour, Intention, Reasons, Recalled, Reflection, Task, TaskVerdict
 from core.household import ObjectMap, plain
 from core.randomness import Address
 from core.replies import (
+    DayReply,
     FreeMotionDraft,
     FreeMotionReflectionReply,
     FreeMotionReply,
@@ -40,9 +43,10 @@ REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflection
 
 
 class HumanInput(TypedDict):
-    """What starts a person's hour."""
+    """What starts a person's hour; `hours` are all hours of the day, in order."""
 
     clock: Clock
+    hours: list[int]
 
 
 class HumanState(HumanInput, total=False):
@@ -54,17 +58,24 @@ class HumanState(HumanInput, total=False):
     found: Found  # by search
     tasks: list[Task]  # by decompose, then revised by the reflections
     reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
-    repairs: list[str]  # by reflect_scene
+    wrong: list[str]  # by reflect_scene: what code still finds wrong after it
+    repairs: list[str]  # by mend
 
 
 def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInput, HumanState]:
-    """Compile the person's graph; invoke it with `{"clock": Clock(...)}` and a `HumanContext`."""
+    """Compile the person's graph; invoke it with a `HumanInput` and a `HumanContext`.
+
+    Reflection 2 comes again while code finds something wrong, at most `Numbers.SCENE_ROUNDS` times in all.
+    """
     graph = StateGraph(HumanState, context_schema=HumanContext, input_schema=HumanInput)
-    nodes = (recall, propose, search, decompose, reflect_profile, reflect_scene)
-    for node in nodes:
+    for node in (recall, propose, search, decompose, reflect_profile, reflect_scene, mend):
         graph.add_node(node)
-    for before, after in zip([START, *[n.__name__ for n in nodes]], [*[n.__name__ for n in nodes], END], strict=True):
+    for before, after in pairwise([START, "recall", "propose", "search", "decompose"]):
         graph.add_edge(before, after)
+    graph.add_conditional_edges("decompose", reflects, ["reflect_profile", "mend"])
+    graph.add_edge("reflect_profile", "reflect_scene")
+    graph.add_conditional_edges("reflect_scene", once_more, ["reflect_scene", "mend"])
+    graph.add_edge("mend", END)
     return graph.compile(checkpointer=False, name="human")
 
 
@@ -75,7 +86,7 @@ def human_hour(state: HumanState) -> HumanHour:
         intention=state["intention"],
         found=state["found"],
         tasks=state["tasks"],
-        reflections=state["reflections"],
+        reflections=state.get("reflections", []),
         repairs=state["repairs"],
     )
 
@@ -87,6 +98,8 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     DEVIATES: today's intentions are given in full besides the retrieved three, since "non-repetitive" asks for them.
     """
     memories, clock = runtime.context.memories, state["clock"]
+    if not runtime.context.model.history:
+        return {"recalled": [], "today": []}
     dawn = clock.day * 24
     query = f"What do I do at {clock.label} on a {clock.weekday}?"
     recalled = recall_both(memories, query, clock, since=dawn)
@@ -97,16 +110,15 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Decide what to do this hour. Reads `recalled`, `today`; writes `intention`."""
     ctx = runtime.context
-    reply = ctx.ask(
-        "human/intention",
-        IntentionReply,
-        at=_at(state, ctx, "propose"),
-        variables={
-            **_known(state, ctx),
-            "rooms": ctx.home.rooms,
-            "today": state["today"],
-        },
-    )
+    if ctx.model.hourly:
+        reply = ctx.ask(
+            "human/intention",
+            IntentionReply,
+            at=_at(state, ctx, "propose"),
+            variables={**_known(state, ctx), "rooms": ctx.home.rooms, "today": state["today"]},
+        )
+    else:
+        reply = _of_the_day(state, ctx)
     reasons = Reasons(human=reply.reason_human, intentions=reply.reason_intentions, tasks=reply.reason_tasks)
     return {"intention": Intention(text=reply.intention, reasons=reasons)}
 
@@ -165,11 +177,15 @@ def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[s
     return _revised(state, reply, "reflect_profile")
 
 
-def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Second reflection: do the objects exist and the rules hold? Reads and revises `tasks`; writes `repairs`.
+def reflects(_state: HumanState, runtime: Runtime[HumanContext]) -> Literal["reflect_profile", "mend"]:
+    """Reflect, unless the person model does without."""
+    return "reflect_profile" if runtime.context.model.reflection else "mend"
 
-    The model is told what code found wrong; what is still wrong afterwards is mended to the nearest
-    valid object and said in `repairs`, so that the tasks that leave can be tried in the home.
+
+def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
+    """Second reflection: do the objects exist and the rules hold? Reads and revises `tasks`; writes `wrong`.
+
+    The model is told what code found wrong.
     """
     ctx, found = runtime.context, state["found"]
     things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
@@ -177,7 +193,7 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
     reply = ctx.ask(
         f"human/reflect_scene_type{ctx.collab}",
         REFLECTION_REPLY[ctx.collab],
-        at=_at(state, ctx, "reflect_scene"),
+        at=_at(state, ctx, "reflect_scene", _rounds(state)),
         variables={
             **when(state["clock"]),
             **things,
@@ -189,8 +205,25 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
         },
     )
     revised = _revised(state, reply, "reflect_scene")
-    tasks, repairs = repair(revised["tasks"], ctx.home, count, ctx.search)
-    return {**revised, "tasks": tasks, "repairs": repairs}
+    return {**revised, "wrong": findings(revised["tasks"], ctx.home, count)}
+
+
+def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
+    """Reflect on the scene again while something is wrong, a bounded number of times."""
+    return "reflect_scene" if state["wrong"] and _rounds(state) < Numbers.SCENE_ROUNDS else "mend"
+
+
+def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
+    """Mend what is still wrong to the nearest valid object, so that each task can be tried in the home.
+
+    Reads and revises `tasks`; writes `repairs`, a sentence for each thing mended.
+
+    Raises:
+        ModelOutputError: If no task is left.
+    """
+    ctx = runtime.context
+    tasks, repairs = repair(state["tasks"], ctx.home, Numbers.HUMAN_TASKS[ctx.collab], ctx.search)
+    return {"tasks": tasks, "repairs": repairs}
 
 
 def when(clock: Clock) -> dict[str, Any]:
@@ -205,7 +238,7 @@ def who(ctx: HumanContext) -> dict[str, Any]:
         "person": persona.id,
         "name": persona.name,
         "big_five": persona.big_five.model_dump(),
-        "profile": persona.profile,
+        "profile": ctx.model.profile(persona),
     }
 
 
@@ -234,8 +267,34 @@ def _known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
 
 
-def _at(state: HumanInput, ctx: HumanContext, node: str) -> Address:
-    return Address(ctx.persona.id, state["clock"].day, state["clock"].hour, node)
+def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:
+    """This hour's place in the intentions of the whole day: the same question each hour, so the same answer."""
+    clock, hours = state["clock"], state["hours"]
+    dawn = clock.model_copy(update={"hour": hours[0]})
+    reply = ctx.ask(
+        "human/day",
+        DayReply,
+        at=Address(ctx.persona.id, dawn.day, dawn.hour, "propose"),
+        variables={
+            "weekday": dawn.weekday,
+            "day": dawn.day,
+            **who(ctx),
+            "rooms": ctx.home.rooms,
+            "hours": [hour_label(hour) for hour in hours],
+        },
+    )
+    if len(reply.intentions) != len(hours):
+        wrong = f"it has {len(reply.intentions)} intentions for a day of {len(hours)} hours"
+        raise ModelOutputError("human/day", reply.model_dump_json(), wrong)
+    return reply.intentions[hours.index(clock.hour)]
+
+
+def _rounds(state: HumanState) -> int:
+    return sum(reflection.node == "reflect_scene" for reflection in state.get("reflections", []))
+
+
+def _at(state: HumanInput, ctx: HumanContext, node: str, draw: int = 0) -> Address:
+    return Address(ctx.persona.id, state["clock"].day, state["clock"].hour, node, draw)
 
 
 def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
@@ -247,10 +306,10 @@ def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
 
 
 def _with_reasons(task: Task, said: Mapping[str, Reasons]) -> Task:
-    """A task that a reflection left as it was keeps its reasons where the reflection gave none."""
-    if task.reasons == Reasons() and task.act.describe() in said:
-        return task.model_copy(update={"reasons": said[task.act.describe()]})
-    return task
+    """A task that a reflection left as it was keeps those of its reasons that the reflection does not give anew."""
+    before = said.get(task.act.describe(), Reasons())
+    given = {field: text for field, text in task.reasons.model_dump().items() if text}
+    return task.model_copy(update={"reasons": before.model_copy(update=given)})
 
 
 def _revised(

@@ -18,6 +18,7 @@ class Method:
             see nothing of what the robot saw either, and its order sums that up.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything.
         learns: Whether the evening trains the classifiers.
+        robot: Whether there is a robot at all; without one a person's life is simulated alone.
     """
 
     name: str
@@ -26,6 +27,7 @@ class Method:
     order: bool = True
     verdicts: Literal["classifiers", "accept"] = "classifiers"
     learns: bool = True
+    robot: bool = True
 
 
 class Numbers:
@@ -38,3 +40,4 @@ class Numbers:
     RECALL_TASKS = 5  # PAPER §4.1
     SEARCH_OBJECTS = 30  # the authors' code
     SEARCH_MOTIONS = 5  # the authors' code
+    SCENE_ROUNDS = 3  # ours: second reflections at most, while code still finds something wrong

@@ -21,6 +21,7 @@ from core.protocols import Ask, Home, Recorder
 from core.randomness import Address, rng_at
 from graphs.learning import Learner
 from graphs.method import Method
+from graphs.person import FULL, PersonModel
 from memory import MemoryStream, Search
 
 
@@ -52,6 +53,7 @@ class HumanContext:
     home: Home
     memories: Memories
     embeddings: Embeddings
+    model: PersonModel = FULL
 
     def search(self, texts: Sequence[str]) -> Search:
         """Search over a fixed list of texts (object names, motion captions)."""
@@ -113,6 +115,8 @@ class Services:
     seed: int
     frames: int
     """Sampled moments per hour and viewpoint; 0 renders nothing."""
+    person: PersonModel = FULL
+    """How people are simulated."""
 
     def rng(self, address: Address) -> np.random.Generator:
         """The generator of an address in this run."""

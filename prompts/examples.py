@@ -110,6 +110,7 @@ _FULL: dict[str, Any] = {
     "motions": ["sit and read", "stretch both arms", "lean forward", "reach up", "walk in a circle"],
     "n_tasks": 5,
     "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 5 tasks, not 4."],
+    "hours": ["9 am", "10 am", "11 am", "12 pm", "1 pm", "2 pm"],
     "tasks": _TASKS[2],
     "guesses": ["Unwind with a book", "Clean the living room", "Prepare for tomorrow's work"],
     "offers": [

@@ -17,7 +17,11 @@ from core.protocols import Role
 from core.randomness import Address
 
 MARA = Persona(
-    id=PersonId("mara"), name="Mara", profile="I love to bake. I read crime novels.", big_five=BigFive(openness=4.5)
+    id=PersonId("mara"),
+    name="Mara",
+    profile="I love to bake. I read crime novels.",
+    big_five=BigFive(openness=4.5),
+    notes="I love to bake.",
 )
 
 

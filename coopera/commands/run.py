@@ -37,6 +37,9 @@ def run(
     prompts: PromptFolder = None,
     classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
     human: Annotated[str | None, typer.Option(help="Who plays the person. [default: simulated]")] = None,
+    person: Annotated[
+        str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
+    ] = None,
     pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -60,6 +63,7 @@ def run(
         "prompts": prompts,
         "classifier": classifier,
         "human": human,
+        "person": person,
         "pictures": pictures,
     }
     config = resolve(load_config(study, flags))

@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.people import Frozen
-from core.replies import IntentionReply
+from core.replies import DayReply, IntentionReply
 from models.offline import human_tasks, persona, verdicts
 from models.offline.knowledge import Activity, Floats
 from models.offline.person import PrivateLife
-from models.offline.reading import Memory, big_five_of, clip, memories, room_kind
+from models.offline.reading import Memory, big_five_of, clip, hour_of, memories, room_kind
 from models.offline.sense import CommonSense
 
 USUAL_TEMPERATURE = 0.7  # PAPER App. A: proposing at 0.7; the logits are meant for it
@@ -39,6 +40,8 @@ class Human:
         """
         if prompt == "human/intention":
             return self._intention(variables, rng, temperature)
+        if prompt == "human/day":
+            return self._day(variables, rng, temperature)
         if prompt in human_tasks.ANSWERS:
             life = self._life(variables) if "person" in variables else None
             return human_tasks.ANSWERS[prompt](self._sense, life, variables, rng)
@@ -54,18 +57,38 @@ class Human:
     def _intention(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> IntentionReply:
         life, hour = self._life(variables), int(variables["hour"])
         today = memories(variables["today"], hour)
-        logits = life.pull + life.own_hours[:, hour] + self._flow(today)
-        allowed = self._allowed(today, variables["rooms"])
-        logits = np.where(allowed, logits * USUAL_TEMPERATURE / max(temperature, 0.01), NEVER)
-        weights = np.exp(logits - logits.max())
-        choice = int(rng.choice(len(weights), p=weights / weights.sum()))
-        activity = self._sense.household.activities[choice]
+        wish = life.pull + life.own_hours[:, hour] + self._flow(today)
+        activity = self._draw(wish, self._allowed(today, variables["rooms"]), rng, temperature)
         return IntentionReply(
             intention=clip(life.wording(activity, rng), 300),
             reason_human=clip(self._why(life, activity, hour), 400),
             reason_intentions=clip(self._since(activity, today), 400),
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
         )
+
+    def _day(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> DayReply:
+        """A day planned at once: each hour for itself, since nothing has been done yet that could lead on to it.
+
+        What stands in the plan is not planned again, unless it is repeatable and three hours old.
+        """
+        life = self._life(variables)
+        planned: list[tuple[int, str]] = []
+        replies: list[IntentionReply] = []
+        for hour in map(hour_of, variables["hours"]):
+            so_far = [Memory(text, then, hour - then, today=True) for then, text in planned]
+            allowed = self._allowed(so_far, variables["rooms"])
+            activity = self._draw(life.pull + life.own_hours[:, hour], allowed, rng, temperature)
+            text = clip(life.wording(activity, rng), 300)
+            planned.append((hour, text))
+            replies.append(IntentionReply(intention=text, reason_human=clip(self._why(life, activity, hour), 400)))
+        return DayReply(intentions=replies)
+
+    def _draw(self, wish: Floats, allowed: NDArray[np.bool_], rng: np.random.Generator, temperature: float) -> Activity:
+        """Draw an activity from logits that are meant for the usual temperature."""
+        logits = np.where(allowed, wish * USUAL_TEMPERATURE / max(temperature, 0.01), NEVER)
+        weights = np.exp(logits - logits.max())
+        choice = int(rng.choice(len(weights), p=weights / weights.sum()))
+        return self._sense.household.activities[choice]
 
     def _flow(self, today: Sequence[Memory]) -> Floats:
         """Logits for what tends to follow the day so far, the last activity most."""
@@ -75,7 +98,7 @@ class Human:
             total = total + weight * household.follow_matrix[self._sense.index(memory.text)]
         return total
 
-    def _allowed(self, today: Sequence[Memory], rooms: Sequence[str]) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    def _allowed(self, today: Sequence[Memory], rooms: Sequence[str]) -> NDArray[np.bool_]:
         """Nothing of today again, unless it is repeatable and three hours old; only what the home has rooms for."""
         activities = self._sense.household.activities
         kinds = {room_kind(room) for room in rooms}

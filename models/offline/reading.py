@@ -71,6 +71,18 @@ def memories(items: Sequence[Any], hour: int) -> list[Memory]:
     return read
 
 
+def hour_of(label: str) -> int:
+    """Return the hour of day of a label such as "9 am".
+
+    Raises:
+        ValueError: If it is none.
+    """
+    found = _HOUR.search(label)
+    if found is None:
+        raise ValueError(f"{label!r} is no hour of day")
+    return _of_day(found)
+
+
 def said(item: Any) -> str:
     """Return the words of a memory, task, offer or guess, whether it is plain text or data."""
     if not isinstance(item, Mapping):

@@ -8,6 +8,7 @@ import pytest
 from evaluation import METHODS, Measure
 from graphs import Services
 from graphs.learning import KINDS, Learner
+from graphs.person import PERSON_MODELS
 from memory import MemoryStream
 from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
 
@@ -26,6 +27,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
         method: str = "ours",
         folder: Path = tmp_path,
         frames: int = 0,
+        person: str = "full",
     ) -> Services:
         home = home or FakeHome()
         recorder = FolderRecorder(folder)
@@ -49,6 +51,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
             score=Measure(ask, embeddings),
             seed=0,
             frames=frames,
+            person=PERSON_MODELS[person],
         )
 
     yield make

@@ -63,7 +63,7 @@ def test_streaming_with_subgraphs_shows_the_nodes_of_person_and_robot(make_servi
     given = first_day(days(1, hours=1)[0])
     stream = day.stream(given, context=make_services(), stream_mode="updates", subgraphs=True)
     seen = [name for _, update in stream for name in update]
-    assert seen[:9] == [
+    assert seen[:10] == [
         "start_day",
         "recall",
         "propose",
@@ -71,10 +71,36 @@ def test_streaming_with_subgraphs_shows_the_nodes_of_person_and_robot(make_servi
         "decompose",
         "reflect_profile",
         "reflect_scene",
+        "mend",
         "human",
         "demonstrate",
     ]
     assert {"observe", "imagine_intentions", "imagine_tasks", "act", "robot", "finish", "score", "record"} <= set(seen)
+
+
+def test_without_a_robot_a_life_is_lived_alone_and_all_tasks_are_done(make_services: MakeServices) -> None:
+    home, ask = FakeHome(), ScriptedAsk(type2_answers())
+    services = make_services(home=home, ask=ask, method="none", frames=2)
+    run_study(services, n=1)
+    hours = services.recorder.read_day(0)
+    assert [(hour.status, hour.robot, hour.success) for hour in hours] == [("ok", None, None)] * 3
+    assert [act for _, act, _ in home.performed] == [
+        task.act for hour in hours if hour.human for task in hour.human.tasks
+    ]
+    assert {prompt.split("/")[0] for prompt, _, _ in ask.asked} == {"human"}
+    evening = services.recorder.evenings[0]  # type: ignore[attr-defined]
+    assert (evening.feedback, evening.learned) == ([], {})
+
+
+def test_a_robot_that_changes_nothing_in_the_home_meets_the_days_of_the_life_alone(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    alone = make_services(method="none", folder=tmp_path / "alone")
+    helped = make_services(folder=tmp_path / "helped")
+    for services in (alone, helped):
+        run_study(services, n=2)
+    lives = [[h.human for day in (0, 1) for h in services.recorder.read_day(day)] for services in (alone, helped)]
+    assert lives[0] == lives[1]
 
 
 def test_the_robot_watches_only_the_first_task_and_the_person_does_the_rest(make_services: MakeServices) -> None:

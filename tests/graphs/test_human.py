@@ -15,20 +15,21 @@ from tests.fakes import MARA, STIR, FakeHome, ScriptedAsk, moving, placing, type
 from tests.graphs.conftest import MakeServices
 
 NINE = Clock(day=0, hour=9)
+HOURS = [9, 10, 11]
 
 
 def person(make_services: MakeServices, collab: int = 2, **options: Any) -> HumanContext:
-    plan = DayPlan(day=0, episode_day=0, person=MARA.id, scene=SceneId("toy"), hours=[9], collab=collab)  # type: ignore[arg-type]
+    plan = DayPlan(day=0, episode_day=0, person=MARA.id, scene=SceneId("toy"), hours=HOURS, collab=collab)  # type: ignore[arg-type]
     return human_context(make_services(**options), plan)
 
 
 def live(ctx: HumanContext, clock: Clock = NINE) -> Any:
-    return human_hour(build_human_graph().invoke({"clock": clock}, context=ctx))  # type: ignore[arg-type]
+    return human_hour(build_human_graph().invoke({"clock": clock, "hours": HOURS}, context=ctx))  # type: ignore[arg-type]
 
 
 def test_the_nodes_are_those_of_the_design() -> None:
     nodes = [name for name in build_human_graph().get_graph().nodes if not name.startswith("__")]
-    assert nodes == ["recall", "propose", "search", "decompose", "reflect_profile", "reflect_scene"]
+    assert nodes == ["recall", "propose", "search", "decompose", "reflect_profile", "reflect_scene", "mend"]
 
 
 def test_an_hour_ends_with_numbered_tasks_and_two_reflections(make_services: MakeServices) -> None:
@@ -59,12 +60,66 @@ def test_what_a_reflection_changes_stands_in_the_trace(make_services: MakeServic
         "tasks": better,
     }
     answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": better[:4]}
-    first, second = live(person(make_services, ask=ScriptedAsk(answers))).reflections
+    first, second, *_ = live(person(make_services, ask=ScriptedAsk(answers))).reflections
     assert first.changes == [
         "9.1: stir a pot spoon at the stove with the spoon in hand -> sit and read at the sofa with the novel in hand"
     ]
     assert first.verdicts[0].comment == "tired"
     assert second.changes == ["9.5: stir a pot spatula at the stove with the spatula in hand -> dropped"]
+
+
+def test_the_second_reflection_comes_again_while_code_finds_something_wrong_but_not_for_ever(
+    make_services: MakeServices,
+) -> None:
+    answers = type2_answers()
+    wrong = [moving("oven_1", "spoon", "stir a pot"), *STIR[1:]]
+    heard: list[list[str]] = []
+
+    def stubborn(variables: dict[str, Any]) -> dict[str, Any]:
+        heard.append(variables["findings"])
+        return {"verdicts": [{"yes": True}], "tasks": wrong if len(heard) < 2 else STIR}
+
+    answers["human/reflect_profile_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
+    answers["human/reflect_scene_type2"] = stubborn
+    hour = live(person(make_services, ask=ScriptedAsk(answers)))
+    assert heard == [['Task 9.1: there is no fixed object "oven_1".']] * 2
+    assert hour.repairs == []
+    answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
+    ask = ScriptedAsk(answers)
+    hour = live(person(make_services, ask=ask))
+    rounds = [at.draw for prompt, at, _ in ask.asked if prompt == "human/reflect_scene_type2"]
+    assert rounds == [0, 1, 2]
+    assert len(hour.repairs) == 1
+
+
+def test_a_day_at_once_is_asked_for_once_and_neither_remembers_nor_reflects(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    plan = ["Sleep", "Cook", "Read"]
+    answers["human/day"] = lambda v: {"intentions": [{"intention": text} for text in plan]}
+    ask = ScriptedAsk(answers)
+    ctx = person(make_services, ask=ask, person="single_shot")
+    ctx.memories.add("Sleep", ["lie down"], now=9)
+    hours = [live(ctx, Clock(day=0, hour=hour)) for hour in HOURS]
+    assert [hour.intention.text for hour in hours] == plan
+    asked = [(at, variables) for prompt, at, variables in ask.asked if prompt == "human/day"]
+    assert all(one == asked[0] for one in asked)
+    assert asked[0][1]["hours"] == ["9 am", "10 am", "11 am"]
+    assert {prompt for prompt, _, _ in ask.asked} == {"human/day", "human/tasks_type2"}
+    assert all(hour.recalled == [] and hour.reflections == [] for hour in hours)
+
+
+def test_a_plan_of_too_few_hours_is_refused_with_the_reply(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    answers["human/day"] = lambda v: {"intentions": [{"intention": "Sleep"}]}
+    with pytest.raises(ModelOutputError, match="1 intentions for a day of 3 hours"):
+        live(person(make_services, ask=ScriptedAsk(answers), person="single_shot"))
+
+
+def test_without_profile_extension_the_person_lives_by_the_notes(make_services: MakeServices) -> None:
+    ask = ScriptedAsk(type2_answers())
+    live(person(make_services, ask=ask, person="no_extension"))
+    said = {v["profile"] for _, _, v in ask.asked if "profile" in v}
+    assert said == {MARA.notes}
 
 
 def test_a_task_that_no_reflection_touched_keeps_its_reasons(make_services: MakeServices) -> None:

@@ -170,6 +170,7 @@ _ALL: dict[str, Any] = {
     "recalled_tasks": [],
     "rooms": ROOMS,
     "today": [],
+    "hours": ["9 am", "12 pm", "9 pm"],
     "intention": "Make a homemade treat",
     "intentions": [{"when": "9 am", "hours_ago": 12, "text": "Make a homemade treat"}],
     "fixed": FIXED,

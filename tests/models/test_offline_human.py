@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from core.clock import Clock
 from models.offline.knowledge import shipped
 from models.offline.statements import statements
-from tests.models.offline_questions import ROOMS, activity, intend, live, memory, person
+from tests.models.offline_questions import ROOMS, activity, ask, intend, live, memory, person
 
 PEOPLE = [
     person("mara", "I love to bake cookies. I love talking with my family and friends.", extroversion=4.5),
@@ -31,6 +31,14 @@ def _lives() -> list[list[list[str]]]:
 
 def _days() -> list[list[str]]:
     return [[activity(text) for text in day] for life in _lives() for day in life]
+
+
+def test_a_day_planned_at_once_has_an_intention_for_each_hour_and_none_twice_within_three() -> None:
+    labels = [Clock(day=0, hour=hour).label for hour in range(9, 22)]
+    reply = ask("human/day", weekday="Monday", day=0, **PEOPLE[0], rooms=ROOMS, hours=labels, seed=3)
+    plan = [activity(one.intention) for one in reply.intentions]
+    assert len(plan) == 13
+    assert all(len(set(plan[i : i + 3])) == 3 for i in range(11))
 
 
 def test_the_same_seed_gives_the_same_day_and_another_a_different_one() -> None:
