@@ -19,7 +19,7 @@ from coopera.stopping import Stop
 from coopera.summary import metrics_csv, metrics_rows, summarise
 from coopera.trace_files import read_json, read_record, write_record
 from core.errors import ConfigError, CooperaError, RunError
-from core.hour import Evening, HourRecord, ModelCall
+from core.hour import Evening, HourRecord
 from core.people import Persona
 
 SCHEMA = 1
@@ -232,8 +232,7 @@ class RunDir:
 
     def summary(self) -> dict[str, Any]:
         """The figures so far, computed from the trace, which is the content of summary.json."""
-        evening_calls: list[ModelCall] = [call for evening in self.evenings() for call in evening.calls]
-        return summarise(self.config, self.hours(), evening_calls)
+        return summarise(self.config, self.hours(), self.evenings())
 
     # The end
 

@@ -8,17 +8,22 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from coopera.config import Config
-from core.hour import Counts, HourRecord, ModelCall
+from core.hour import Counts, Evening, HourRecord
 
 MEASURES = ("predicate", "judge")
 _RATES = ("f1", "precision", "recall")
 _COUNTS = ("tp", "fp", "fn", "tn", "unscored")
-COLUMNS = ("day", "episode", "episode_day", "hour", "person", "scene", "measure", *_RATES, *_COUNTS, "status")
+_HELP = ("remaining", "helped", "done", "useless", "metres", "saved_metres")
+COLUMNS = ("day", "episode", "episode_day", "hour", "person", "scene", "measure", *_RATES, *_COUNTS, "status", *_HELP)
 
 
 def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
-    """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures."""
+    """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures.
+
+    What the help was worth (`core.hour.Help`) stands in the row of the predicate, which it is measured by.
+    """
     rows = []
+    given = record.success.help if record.success else None
     for measure in MEASURES:
         counts = getattr(record.success, measure) if record.success else None
         row: dict[str, Any] = {
@@ -26,6 +31,8 @@ def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
         }
         row |= {"measure": measure, "status": record.status}
         row |= {name: getattr(counts, name) if counts else None for name in (*_RATES, *_COUNTS)}
+        shown = given if measure == "predicate" else None
+        row |= {name: getattr(shown, name) if shown else None for name in _HELP}
         rows.append(row)
     return rows
 
@@ -39,15 +46,16 @@ def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
     return text.getvalue()
 
 
-def summarise(config: Config, hours: Sequence[HourRecord], evening_calls: Sequence[ModelCall] = ()) -> dict[str, Any]:
-    """The content of summary.json, from the hours in order and the calls made in the evenings.
+def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = ()) -> dict[str, Any]:
+    """The content of summary.json, from the hours in order and the evenings.
 
     `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
     verdict of the judge; a failed hour counts in `failed_hours` and in nothing else.
     """
     days = sorted({record.day for record in hours})
-    calls = [call for record in hours for call in record.calls] + list(evening_calls)
-    entries = [day_entry([record for record in hours if record.day == day]) for day in days]
+    told = {evening.day: evening for evening in evenings}
+    calls = [call for hour in hours for call in hour.calls] + [call for evening in evenings for call in evening.calls]
+    entries = [day_entry([record for record in hours if record.day == day], told.get(day)) for day in days]
     return {
         "method": config.method,
         "setting": config.setting,
@@ -74,9 +82,18 @@ def summarise(config: Config, hours: Sequence[HourRecord], evening_calls: Sequen
     }
 
 
-def day_entry(hours: Sequence[HourRecord]) -> dict[str, Any]:
-    """One day of the summary: the counts of its hours added up, and the rates of the sums (PAPER §4.3)."""
+def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> dict[str, Any]:
+    """One day of the summary: the counts of its hours added up, and the rates of the sums (PAPER §4.3).
+
+    `people` is success as the person said it in the evening; `help` what the help was worth (`docs/measures.md`).
+    """
+    # evaluation is slow to import; the command line answers --help without it
+    from evaluation.measures import by_person, false_help, help_score, pool_help  # noqa: PLC0415
+
     first = hours[0]
+    given = pool_help(record.success.help for record in hours if record.success and record.success.help)
+    scored = sum(bool(record.success and record.success.help) for record in hours)
+    rates = {"score": help_score(given), "false_per_hour": false_help(given, scored)}
     return {
         "day": first.day,
         "episode": first.episode,
@@ -86,12 +103,14 @@ def day_entry(hours: Sequence[HourRecord]) -> dict[str, Any]:
         "hours": len(hours),
         "failed_hours": sum(record.status == "failed" for record in hours),
         **{measure: pooled(hours, measure).model_dump() for measure in MEASURES},
+        "people": by_person(evening.feedback if evening else []).model_dump(),
+        "help": {**given.model_dump(), **rates},
     }
 
 
 def pooled(hours: Iterable[HourRecord], measure: str) -> Counts:
     """Add up one measure over hours, failed ones left out."""
     # evaluation is slow to import; the command line answers --help without it
-    from evaluation.success import pool  # noqa: PLC0415
+    from evaluation.counts import pool  # noqa: PLC0415
 
     return pool(getattr(record.success, measure) for record in hours if record.success)

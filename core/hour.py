@@ -154,11 +154,32 @@ class Counts(Frozen):
     recall: float | None = None
 
 
+class Help(Frozen):
+    """What really came of the robot's help, by the predicate, whatever it did or did not propose.
+
+    Attributes:
+        remaining: The person's tasks after the first.
+        helped: Those of them that an act of the robot's helped with.
+        done: Acts of the robot that succeeded in the home.
+        useless: Those of them that helped with nothing.
+        metres: What the robot drove, failed acts included.
+        saved_metres: What it drove for the acts that helped with a task that no earlier act had helped with.
+    """
+
+    remaining: int = Field(0, ge=0)
+    helped: int = Field(0, ge=0)
+    done: int = Field(0, ge=0)
+    useless: int = Field(0, ge=0)
+    metres: float = Field(0.0, ge=0)
+    saved_metres: float = Field(0.0, ge=0)
+
+
 class Success(Frozen):
-    """The hour's success by each measure."""
+    """The hour's success by each measure; `help` is None in traces of before it was measured."""
 
     predicate: Counts
     judge: Counts
+    help: Help | None = None
 
 
 class ModelCall(Frozen):

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from core.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from evaluation.counts import count, pool
     from evaluation.methods import METHODS
     from evaluation.settings import SETTINGS, schedule
-    from evaluation.success import Measure, count, pool
+    from evaluation.success import Measure
 
 __all__ = ["METHODS", "SETTINGS", "Measure", "count", "pool", "schedule"]
 
@@ -17,8 +18,8 @@ _HOMES = {
     "METHODS": "evaluation.methods",
     "SETTINGS": "evaluation.settings",
     "Measure": "evaluation.success",
-    "count": "evaluation.success",
-    "pool": "evaluation.success",
+    "count": "evaluation.counts",
+    "pool": "evaluation.counts",
     "schedule": "evaluation.settings",
 }
 

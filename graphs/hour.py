@@ -127,7 +127,8 @@ def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Judge the robot's tasks against the person's remaining ones. Completes `robot`; writes `success`."""
     services, plan, human, robot = runtime.context, state["plan"], state["human"], state["robot"]
     at = Address(plan.person, _clock(state).day, _clock(state).hour, "score")
-    tasks, success = services.score(services.home(plan.scene), at, human.intention, human.tasks[1:], robot.tasks)
+    home, remaining = services.home(plan.scene), human.tasks[1:]
+    tasks, success = services.score(home, at, human.intention, remaining, robot.tasks, robot.outcomes)
     return {"robot": robot.model_copy(update={"tasks": tasks}), "success": success}
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from core.hour import Intention, Success, Task, TaskCandidate
-from core.household import Collab, SceneId
+from core.household import Collab, Outcome, SceneId
 from core.people import Persona, PersonId
 from core.protocols import Ask, Home, Recorder
 from core.randomness import Address, rng_at
@@ -90,8 +90,9 @@ class Score(Protocol):
         intention: Intention,
         remaining: Sequence[Task],
         candidates: Sequence[TaskCandidate],
+        outcomes: Sequence[Outcome] = (),
     ) -> tuple[list[TaskCandidate], Success]:
-        """Judge candidates against the true intention and remaining tasks: set `correct`, and count."""
+        """Judge candidates, and what came of those that were done, against the true intention and remaining tasks."""
         ...
 
 

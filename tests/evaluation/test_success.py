@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import ModelOutputError
-from core.hour import Counts, Intention, Task, TaskCandidate
-from core.household import FreeMotion, HandOver, PickPlace
+from core.hour import Counts, Help, Intention, Task, TaskCandidate
+from core.household import FreeMotion, HandOver, Outcome, PickPlace
 from core.randomness import Address
 from evaluation import Measure, count, pool
 from tests.fakes import FakeHome, LetterEmbeddings, ScriptedAsk
@@ -78,6 +78,20 @@ def test_a_judge_that_answers_another_number_of_questions_is_unreadable() -> Non
     measure = Measure(ScriptedAsk({"judge/tasks": lambda v: {"verdicts": [{"yes": True}] * 3}}), LetterEmbeddings())
     _, success = measure(FakeHome(), AT, Intention(text="Read"), [], [candidate(HandOver(object="novel"))])
     assert success.judge.unscored == 1
+
+
+def test_what_was_done_is_measured_against_the_persons_tasks_and_not_against_the_superset() -> None:
+    """Two tasks remain; the one thing brought helps one of them: help 1 of 2, where F1 over the superset is 1."""
+    measure = Measure(ScriptedAsk({"judge/tasks": lambda v: {"verdicts": [{"yes": True}]}}), LetterEmbeddings())
+    tasks = [
+        Task(id=f"9.{n}", thought="", act=FreeMotion(target_id=1, target="desk_1", in_hand=thing, motion="use"))
+        for n, thing in ((2, "novel"), (3, "hat"))
+    ]
+    brought = candidate(HandOver(object="novel"))
+    outcome = Outcome(agent="robot", act=brought.act, ok=True, metres=4)
+    _, success = measure(FakeHome(), AT, Intention(text="Read"), tasks, [brought], [outcome])
+    assert success.predicate.f1 == 1
+    assert success.help == Help(remaining=2, helped=1, done=1, metres=4, saved_metres=4)
 
 
 def place(thing: str, receptacle: str) -> PickPlace:
