@@ -11,14 +11,16 @@ from core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.config import Config
+    from coopera.conformance import check_method
     from coopera.rundir import RunDir
     from coopera.study import resume_study, run_study
 
-__all__ = ["Config", "RunDir", "resume_study", "run_study"]
+__all__ = ["Config", "RunDir", "check_method", "resume_study", "run_study"]
 __version__ = "0.1.0"
 
 _HOME = {
     "Config": "coopera.config",
+    "check_method": "coopera.conformance",
     "RunDir": "coopera.rundir",
     "resume_study": "coopera.study",
     "run_study": "coopera.study",

@@ -16,9 +16,10 @@ from core.hour import ModelCall
 from core.household import SceneId
 from core.people import Persona
 from core.protocols import Ask, Classifier, Home, Reply, Role
-from evaluation import METHODS, Measure
+from evaluation import Measure, find_method
 from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
+from graphs.own_robot import OwnRobot
 from graphs.person import PERSON_MODELS
 from memory import MemoryStream, Search, bundled
 from models.classifiers import Inputs, make_classifier
@@ -83,7 +84,7 @@ def open_services(
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
         ask = _Interruptible(open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root), run.check)
-        method = METHODS[config.method]
+        method = find_method(config.method)
         yield Services(
             ask=ask,
             method=method,
@@ -91,7 +92,8 @@ def open_services(
             home=_Homes(stack, config, embeddings),
             stream=_Streams(stack, run.root / "memory", embeddings),
             embeddings=embeddings,
-            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, run),
+            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, run, config.seed),
+            own=OwnRobot(method.own, run, config.seed) if method.own else None,
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
@@ -146,6 +148,8 @@ class _Streams:
 
 
 def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddings) -> Callable[[], Classifier]:
+    if method.judge is not None:
+        return partial(method.judge, kind)
     inputs = Inputs(traits=method.traits, context=method.context, rank=method.order)
     return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
 

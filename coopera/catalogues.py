@@ -30,13 +30,13 @@ class Catalogues(NamedTuple):
 def load_catalogues(config: Config) -> Catalogues:
     """Gather what ships with coopera and what stands in the configuration's data folder."""
     # These rooms are slow to import, and `coopera --help` needs none of them.
-    from evaluation import METHODS, SETTINGS  # noqa: PLC0415
+    from evaluation import SETTINGS, known_methods  # noqa: PLC0415
     from simulation.scene import list_scenes  # noqa: PLC0415
 
     return Catalogues(
         people=list(humans.known_ids(config.data_dir)),
         scenes=list_scenes([config.data_dir / "scenes"]),
-        methods=list(METHODS),
+        methods=known_methods(),
         needs={number: (setting.people, setting.scenes, setting.days) for number, setting in SETTINGS.items()},
     )
 

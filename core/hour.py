@@ -137,6 +137,18 @@ class RobotHour(Frozen):
     """Which defined fallbacks were used, e.g. "no intention accepted"."""
 
 
+class Proposal(Frozen):
+    """What a robot makes of an hour: what it imagines, with its verdicts. Each `accepted` must be set; see `RobotHour`.
+
+    The tasks are the superset that success is measured over; the accepted ones are then done, most probable first.
+    """
+
+    intentions: list[IntentionCandidate] = []
+    tasks: list[TaskCandidate] = []
+    recalled: list[Recalled] = []
+    fallbacks: list[str] = []
+
+
 class Counts(Frozen):
     """A confusion count over one task superset; `unscored` candidates are in none of the others.
 
@@ -227,6 +239,31 @@ class FeedbackItem(Frozen):
     helpful: bool | None
     """None where the person's answer could not be read: no label is made of it."""
     reason: str = ""
+
+
+class ToldHour(Frozen):
+    """What the person tells the robot in the evening of one hour: what they did, and yes or no to what was imagined.
+
+    In `robot`, the robot's own hour, `correct` is None throughout: what a measure says of it is not told.
+    """
+
+    hour: int
+    intention: str
+    tasks: list[Act]
+    robot: RobotHour
+    feedback: list[FeedbackItem] = []
+
+
+class Told(Frozen):
+    """All that a robot learns from in the evening of a day. `day` is the person's own calendar, from 0 (`episode_day`).
+
+    `picture` is what the robot believes of the person since this evening. Hours that failed are left out.
+    """
+
+    person: PersonId
+    day: int
+    hours: list[ToldHour]
+    picture: Picture = Picture()
 
 
 class Evening(Frozen):

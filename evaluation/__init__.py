@@ -8,18 +8,31 @@ from core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from evaluation.counts import count, pool
-    from evaluation.methods import METHODS
+    from evaluation.methods import METHODS, find_method, known_methods, register
     from evaluation.settings import SETTINGS, schedule
     from evaluation.success import Measure
 
-__all__ = ["METHODS", "SETTINGS", "Measure", "count", "pool", "schedule"]
+__all__ = [
+    "METHODS",
+    "SETTINGS",
+    "Measure",
+    "count",
+    "find_method",
+    "known_methods",
+    "pool",
+    "register",
+    "schedule",
+]
 
 _HOMES = {
     "METHODS": "evaluation.methods",
     "SETTINGS": "evaluation.settings",
     "Measure": "evaluation.success",
     "count": "evaluation.counts",
+    "find_method": "evaluation.methods",
+    "known_methods": "evaluation.methods",
     "pool": "evaluation.counts",
+    "register": "evaluation.methods",
     "schedule": "evaluation.settings",
 }
 

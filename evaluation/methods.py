@@ -1,10 +1,18 @@
-"""The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here."""
+"""The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here.
+
+Methods of other packages join by an entry point in the group `coopera.methods`; see `graphs.own_robot`.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from importlib.metadata import EntryPoint, entry_points
 
+from core.errors import ConfigError
 from graphs.method import Method
+
+GROUP = "coopera.methods"
 
 OURS = Method(name="ours")
 
@@ -20,4 +28,46 @@ METHODS: dict[str, Method] = {
         replace(OURS, name="no_order", order=False),  # classifiers see the paper's fields and nothing else
     )
 }
-"""All methods by name."""
+"""The methods of this package, and those that `register` added in this process, by name."""
+
+
+def known_methods() -> list[str]:
+    """Names of all methods that can be chosen, those of other packages last; nothing of theirs is loaded."""
+    return [*METHODS, *(name for name in sorted(_installed()) if name not in METHODS)]
+
+
+def find_method(name: str) -> Method:
+    """Return a method by name.
+
+    Raises:
+        ConfigError: If there is none, or another package registers it and it cannot be loaded or is no `Method`.
+    """
+    if name in METHODS:
+        return METHODS[name]
+    installed = _installed()
+    if name not in installed:
+        raise ConfigError(f"method: there is no method {name!r} (known are {', '.join(known_methods())}).")
+    entry = installed[name]
+    where = f"method: {name} of {entry.dist.name if entry.dist else 'another package'} ({entry.value})"
+    try:
+        found = entry.load()
+    except (ImportError, AttributeError) as err:
+        raise ConfigError(f"{where} cannot be loaded: {err}.") from err
+    if not isinstance(found, Method):
+        raise ConfigError(f"{where} must be a graphs.Method, not {type(found).__name__}.")
+    return replace(found, name=name)
+
+
+def register(method: Method) -> Method:
+    """Make a method a choice in this process, as scripts and notebooks need it; packages use an entry point.
+
+    Raises:
+        ConfigError: If another method has its name already.
+    """
+    if METHODS.setdefault(method.name, method) != method:
+        raise ConfigError(f"method: the name {method.name!r} is taken by another method.")
+    return method
+
+
+def _installed() -> Mapping[str, EntryPoint]:
+    return {entry.name: entry for entry in entry_points(group=GROUP)}

@@ -23,7 +23,7 @@ from core.randomness import Address
 from core.replies import TraitsReply, VerdictsReply
 from graphs.hour import build_hour_graph, human_context
 from graphs.human import as_tasks, when, who
-from graphs.learning import labelled
+from graphs.learning import told_of
 from graphs.recall import as_memory
 from graphs.services import Services
 
@@ -66,7 +66,7 @@ def build_day_graph(
     def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
         """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`."""
         services, plan = runtime.context, state["plan"]
-        services.learner.be_at(state["learned"][-1] if state["learned"] else None)
+        services.pupil.be_at(state["learned"])
         home = services.home(plan.scene)
         if plan.scene in state["worlds"]:
             home.restore(state["worlds"][plan.scene])
@@ -145,7 +145,7 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Keep the day's truth as history and train both classifiers. Writes `learned` and `measured`."""
+    """Keep the day's truth as history and train who learns. Writes `learned` and `measured`."""
     services, plan = runtime.context, state["plan"]
     if not services.method.robot:
         return {"measured": {}}
@@ -159,8 +159,8 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     if not services.method.learns:
         return {"measured": {}}
     picture = state["pictures"].get(plan.person, Picture())
-    examples = labelled(hours, state["feedback"], picture)
-    measured = services.learner.learn(plan.day, state["learned"], examples, picture, services.seed)
+    told = told_of(plan, hours, state["feedback"], picture)
+    measured = services.pupil.learn(plan.day, state["learned"], told)
     return {"measured": measured, "learned": [*state["learned"], plan.day]}
 
 

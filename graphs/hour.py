@@ -23,7 +23,7 @@ from core.people import Picture
 from core.protocols import Home
 from core.randomness import Address
 from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
-from graphs.robot import RobotInput, RobotState, build_robot_graph, robot_hour
+from graphs.robot import RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
 
 
@@ -61,7 +61,7 @@ class Node(Protocol):
 
 def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, HourState]:
     """Compile the hour; a reply that cannot be read ends it early, as failed, and it is recorded all the same."""
-    human, robot = build_human_graph(), build_robot_graph()
+    human, robot, own = build_human_graph(), build_robot_graph(), build_own_robot_graph()
 
     def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         ctx = human_context(runtime.context, state["plan"])
@@ -73,7 +73,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         ctx = robot_context(runtime.context, state["plan"])
         ctx.guesses.forget_from(_clock(state).now)
         given = RobotInput(clock=_clock(state), observation=state["observation"], picture=state["picture"])
-        return {"robot": robot_hour(cast(RobotState, robot.invoke(given, context=ctx)))}
+        helper = robot if ctx.own is None else own
+        return {"robot": robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
     nodes: dict[str, Node] = {
@@ -190,12 +191,15 @@ def robot_context(services: Services, plan: DayPlan) -> RobotContext:
         history=services.memories("history", plan.episode, plan.person),
         guesses=services.memories("guesses", plan.episode, plan.person),
         learner=services.learner,
+        own=services.own.robot if services.own else None,
         images=services.recorder.root,
     )
 
 
 def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: RobotHour) -> None:
     accepted = [c for c in robot.intentions if c.accepted]
+    if not accepted:
+        return
     guess = max(accepted, key=lambda c: c.probability or 0.0)
     tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
     seen = [robot.observation.first_task] if robot.observation.first_task else []

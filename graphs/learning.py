@@ -6,18 +6,20 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 from pydantic import ValidationError
 
 from core.clock import Clock
 from core.errors import RunError
-from core.hour import Example, FeedbackItem, HourRecord
+from core.hour import DayPlan, Example, FeedbackItem, HourRecord, Told, ToldHour
 from core.people import PersonId, Picture
 from core.protocols import Classifier, Recorder
 from core.randomness import seed_at
+from graphs.method import Kind
 
-Kind: TypeAlias = Literal["intention", "task"]
+__all__ = ["EXAMPLES", "KINDS", "Kind", "Learner", "example", "labelled", "told_of"]
+
 KINDS: tuple[Kind, Kind] = ("intention", "task")
 EXAMPLES = "examples.jsonl"
 
@@ -48,31 +50,51 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
     )
 
 
-def labelled(
-    hours: Iterable[HourRecord], feedback: Sequence[FeedbackItem], picture: Picture
-) -> dict[Kind, list[Example]]:
+def told_of(plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[FeedbackItem], picture: Picture) -> Told:
+    """What the person tells of a day: the true intentions and tasks, and the answers; failed hours are left out."""
+    answers: dict[int, list[FeedbackItem]] = {}
+    for item in feedback:
+        answers.setdefault(item.hour, []).append(item)
+    lived = [
+        ToldHour(
+            hour=hour.hour,
+            intention=hour.human.intention.text,
+            tasks=[task.act for task in hour.human.tasks],
+            robot=hour.robot.model_copy(
+                update={"tasks": [task.model_copy(update={"correct": None}) for task in hour.robot.tasks]}
+            ),
+            feedback=answers.get(hour.hour, []),
+        )
+        for hour in hours
+        if hour.human is not None and hour.robot is not None
+    ]
+    return Told(person=plan.person, day=plan.episode_day, hours=lived, picture=picture)
+
+
+def labelled(told: Told) -> dict[Kind, list[Example]]:
     """Turn a day's candidates and the person's yes and no into examples.
 
     The true intention, told in the evening, is one more positive (as in the authors' code). An answer that
     could not be read makes no example.
     """
-    said: dict[tuple[int, Kind, str], bool | None] = {(f.hour, f.kind, f.text): f.helpful for f in feedback}
     examples: dict[Kind, list[Example]] = {"intention": [], "task": []}
-    for hour in hours:
-        if hour.robot is None or hour.human is None:
-            continue
+    for hour in told.hours:
         known = {
-            "clock": Clock(day=hour.episode_day, hour=hour.hour),
+            "clock": Clock(day=told.day, hour=hour.hour),
             "recalled": hour.robot.recalled,
-            "picture": picture,
+            "picture": told.picture,
             "intentions": hour.robot.intentions,
         }
-        truth = hour.human.intention.text
-        for text, yes in {truth: True, **_verdicts(hour, said, "intention")}.items():
-            examples["intention"].append(_label(example(known, hour.person, intention=text), yes))
-        of = {task.act.describe(): task.intention for task in hour.robot.tasks}
-        for text, yes in _verdicts(hour, said, "task").items():
-            examples["task"].append(_label(example(known, hour.person, intention=of[text], task=text), yes))
+        said: dict[Kind, dict[str, bool]] = {kind: _answers(hour, kind) for kind in KINDS}
+        imagined = [c.text for c in hour.robot.intentions if c.text in said["intention"]]
+        verdicts = {hour.intention: True, **{text: said["intention"][text] for text in imagined}}
+        for text, yes in verdicts.items():
+            examples["intention"].append(_label(example(known, told.person, intention=text), yes))
+        for task in hour.robot.tasks:
+            text = task.act.describe()
+            if text in said["task"]:
+                shown = example(known, told.person, intention=task.intention, task=text)
+                examples["task"].append(_label(shown, said["task"][text]))
     return examples
 
 
@@ -87,6 +109,7 @@ class Learner:
 
     fresh: Mapping[Kind, Callable[[], Classifier]]
     recorder: Recorder
+    seed: int = 0
     classifiers: dict[Kind, Classifier] = field(init=False)
     _day: int | None = field(init=False, default=None)
 
@@ -99,8 +122,9 @@ class Learner:
         self.classifiers = {kind: self.fresh[kind]() for kind in KINDS}
         self._day = None
 
-    def be_at(self, learned_day: int | None) -> None:
-        """Have the classifiers as they were after the evening of a day (None: untrained), reading them if need be."""
+    def be_at(self, learned: Sequence[int]) -> None:
+        """Have the classifiers as they were after the evenings of these days of the run, reading them if need be."""
+        learned_day = learned[-1] if learned else None
         if learned_day == self._day:
             return
         self.forget()
@@ -109,9 +133,7 @@ class Learner:
                 self.classifiers[kind].load(self.recorder.adapters_folder(learned_day) / kind)
             self._day = learned_day
 
-    def learn(
-        self, day: int, earlier: Iterable[int], examples: Mapping[Kind, Sequence[Example]], picture: Picture, seed: int
-    ) -> dict[str, Any]:
+    def learn(self, day: int, earlier: Sequence[int], told: Told) -> dict[str, Any]:
         """Train on the examples of this day and of the episode's earlier days, and save everything.
 
         In earlier examples of the same person the profile is replaced by the newest, as in the authors' code;
@@ -121,14 +143,14 @@ class Learner:
             What was measured, by kind.
         """
         learned: dict[str, Any] = {}
+        examples = labelled(told)
+        newest = {"profile": told.picture.profile or "", "big_five": told.picture.big_five}
         self.forget()
         for kind in KINDS:
-            today = list(examples[kind])
+            today = examples[kind]
             before = [e for d in earlier for e in _read(self.recorder.adapters_folder(d) / kind / EXAMPLES)]
-            people = {e.person for e in today}
-            newest = {"profile": picture.profile or "", "big_five": picture.big_five}
-            known = [e.model_copy(update=newest) if e.person in people else e for e in before]
-            measured = self.classifiers[kind].train([*known, *today], seed=seed_at(seed, "learn", day, kind))
+            known = [e.model_copy(update=newest) if e.person == told.person else e for e in before]
+            measured = self.classifiers[kind].train([*known, *today], seed=seed_at(self.seed, "learn", day, kind))
             folder = self.recorder.adapters_folder(day) / kind
             folder.mkdir(parents=True, exist_ok=True)
             _write(folder / EXAMPLES, today)
@@ -139,13 +161,8 @@ class Learner:
         return learned
 
 
-def _verdicts(hour: HourRecord, said: Mapping[tuple[int, Kind, str], bool | None], kind: Kind) -> dict[str, bool]:
-    robot = hour.robot
-    if robot is None:
-        return {}
-    texts = [c.text for c in robot.intentions] if kind == "intention" else [t.act.describe() for t in robot.tasks]
-    answers = {text: said.get((hour.hour, kind, text)) for text in texts}
-    return {text: answer for text, answer in answers.items() if answer is not None}
+def _answers(hour: ToldHour, kind: Kind) -> dict[str, bool]:
+    return {item.text: item.helpful for item in hour.feedback if item.kind == kind and item.helpful is not None}
 
 
 def _label(unlabelled: Example, yes: bool) -> Example:

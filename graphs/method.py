@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from core.protocols import Classifier
+    from graphs.own_robot import MakeRobot
+
+Kind: TypeAlias = Literal["intention", "task"]
+"""What a classifier judges."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,8 +25,11 @@ class Method:
         order: Whether the classifiers see the robot's own order of its guesses. DEVIATES: the paper's do not, but they
             see nothing of what the robot saw either, and its order sums that up.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything.
-        learns: Whether the evening trains the classifiers.
+        learns: Whether the evening trains the classifiers, or one's own robot.
+        judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
+        own: The class of a robot of one's own, which then takes the place of our graph (`graphs.own_robot`). Of the
+            other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
     """
 
     name: str
@@ -28,6 +39,8 @@ class Method:
     verdicts: Literal["classifiers", "accept"] = "classifiers"
     learns: bool = True
     robot: bool = True
+    judge: Callable[[Kind], Classifier] | None = None
+    own: MakeRobot | None = None
 
 
 class Numbers:

@@ -17,7 +17,7 @@ from langgraph.types import Send
 from typing_extensions import TypedDict
 
 from core.clock import Clock
-from core.errors import ModelOutputError
+from core.errors import ModelOutputError, RunError
 from core.hour import Example, IntentionCandidate, Observation, Reasons, Recalled, RobotHour, TaskCandidate
 from core.household import Outcome
 from core.people import Picture
@@ -26,6 +26,7 @@ from core.replies import HandOverReply, IntentionsReply, PickPlaceReply
 from graphs.human import when
 from graphs.learning import Kind, example
 from graphs.method import Numbers
+from graphs.own_robot import checked
 from graphs.recall import as_variables, best, recall_both
 from graphs.services import RobotContext
 
@@ -84,6 +85,17 @@ def build_robot_graph() -> CompiledStateGraph[RobotState, RobotContext, RobotInp
     return graph.compile(checkpointer=False, name="robot")
 
 
+def build_own_robot_graph() -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
+    """Compile the graph of a robot of one's own: it says what would help, and what it accepted is done as ours is."""
+    graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=RobotInput)
+    for node in (propose, act):
+        graph.add_node(node)
+    graph.add_edge(START, "propose")
+    graph.add_edge("propose", "act")
+    graph.add_edge("act", END)
+    return graph.compile(checkpointer=False, name="own_robot")
+
+
 def robot_hour(state: RobotState) -> RobotHour:
     """The finished state as it stands in the trace."""
     return RobotHour(
@@ -94,6 +106,20 @@ def robot_hour(state: RobotState) -> RobotHour:
         outcomes=state["outcomes"],
         fallbacks=sorted(state.get("fallbacks", [])),
     )
+
+
+def propose(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+    """Ask a robot of one's own. Reads the input; writes `recalled`, `intentions`, `tasks` and `fallbacks`.
+
+    Raises:
+        RunError: If what it proposes breaks the rules of `graphs.own_robot`.
+    """
+    ctx = runtime.context
+    if ctx.own is None:
+        raise RunError(f"method {ctx.method.name}: there is no robot of one's own to ask.")
+    given = RobotInput(clock=state["clock"], observation=state["observation"], picture=state["picture"])
+    said = checked(ctx.own.help(given, ctx), ctx.collab, ctx.method.name)
+    return {"recalled": said.recalled, "intentions": said.intentions, "tasks": said.tasks, "fallbacks": said.fallbacks}
 
 
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:

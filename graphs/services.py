@@ -21,6 +21,7 @@ from core.protocols import Ask, Home, Recorder
 from core.randomness import Address, rng_at
 from graphs.learning import Learner
 from graphs.method import Method
+from graphs.own_robot import OwnRobot, Robot
 from graphs.person import FULL, PersonModel
 from memory import MemoryStream, Search
 
@@ -76,6 +77,8 @@ class RobotContext:
     history: Memories
     guesses: Memories
     learner: Learner
+    own: Robot | None
+    """A robot of one's own, as it is after its last evening; None where our graph helps."""
     images: Path
     """The folder to which the observation's frames are relative."""
 
@@ -118,6 +121,13 @@ class Services:
     """Sampled moments per hour and viewpoint; 0 renders nothing."""
     person: PersonModel = FULL
     """How people are simulated."""
+    own: OwnRobot | None = None
+    """A robot of one's own with its evenings, where the method names one."""
+
+    @property
+    def pupil(self) -> Learner | OwnRobot:
+        """Who learns in the evening."""
+        return self.own or self.learner
 
     def rng(self, address: Address) -> np.random.Generator:
         """The generator of an address in this run."""

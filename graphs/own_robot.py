@@ -1,0 +1,177 @@
+"""Bring your own robot: two functions, under which any way of helping runs beside ours on the same human days.
+
+A robot is a class with `help` (an hour is watched; what may the person be up to, and which tasks would help?) and
+`learn` (in the evening the person tells what was right). A `Method` that names the class in its field `own` runs it
+in place of our graph:
+
+    METHOD = Method(name="stubborn", own=Stubborn)
+
+`evaluation.conformance.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
+choice of `coopera run --method`:
+
+    [project.entry-points."coopera.methods"]
+    stubborn = "my_package:METHOD"
+
+The rules: within an hour a robot knows its `RobotInput` and its `RobotContext` and nothing else. Between hours it
+changes nothing in itself, since an interrupted hour is done again, perhaps in another process: what it guessed earlier
+today is in `ctx.guesses`, what it was told on earlier days in `ctx.history`. What `learn` makes of the same evenings
+in the same order with the same seeds is the same. Every draw comes from `core.randomness`.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, runtime_checkable
+
+from pydantic import ValidationError
+
+from core.errors import CooperaError, RunError
+from core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from core.household import Collab
+from core.protocols import Recorder
+from core.randomness import seed_at
+
+if TYPE_CHECKING:
+    from graphs.robot import RobotInput
+    from graphs.services import RobotContext
+
+_LOG = logging.getLogger(__name__)
+TOLD = "told.json"
+_ACT = {1: "pick_place", 2: "hand_over"}
+
+
+class Robot(Protocol):
+    """A robot of one's own. It is made anew, without arguments, for each episode and after each resumption."""
+
+    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+        """Say what the person may be up to and which tasks would help, each with a verdict.
+
+        Args:
+            given: The clock, what was observed of the first task, and the picture of the person so far.
+            ctx: The services: the one door to language models, the home's objects, the memories of what was told.
+
+        Raises:
+            ModelOutputError: If a model's reply cannot be used; the hour is then unscored, not wrong.
+        """
+        ...
+
+    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+        """Learn from an evening; returns what was measured in training, as plain numbers and words."""
+        ...
+
+
+MakeRobot: TypeAlias = Callable[[], Robot]
+
+
+@runtime_checkable
+class Saves(Protocol):
+    """A robot that keeps its learned state itself; any other is taught its evenings again when a run is resumed."""
+
+    def save(self, folder: Path) -> None:
+        """Write the learned state in open formats (no pickle), whole or not at all."""
+        ...
+
+    def load(self, folder: Path) -> None:
+        """Read what `save` wrote.
+
+        Raises:
+            CooperaError: If the folder holds no such state, or a damaged one; the evenings are then taught again.
+        """
+        ...
+
+
+@dataclass(slots=True)
+class OwnRobot:
+    """A robot of one's own with its evenings on file; stands in the day graph where our `Learner` stands."""
+
+    make: MakeRobot
+    recorder: Recorder
+    seed: int = 0
+    robot: Robot = field(init=False)
+    _days: tuple[int, ...] = field(init=False, default=())
+
+    def __post_init__(self) -> None:
+        """Start with a robot that has learned nothing."""
+        self.robot = self.make()
+
+    def be_at(self, learned: Sequence[int]) -> None:
+        """Have the robot as it was after the evenings of these days of the run, in order.
+
+        Raises:
+            RunError: If an evening's file is damaged.
+        """
+        days = tuple(learned)
+        if days == self._days:
+            return
+        self.robot, self._days = self.make(), days
+        if days and isinstance(self.robot, Saves):
+            try:
+                self.robot.load(self._folder(days[-1]))
+                return
+            except CooperaError as err:
+                _LOG.warning("%s: its evenings are taught again", err)
+                self.robot = self.make()
+        for day in days:
+            self._teach(day, _read(self._told(day)))
+
+    def learn(self, day: int, earlier: Sequence[int], told: Told) -> dict[str, Any]:
+        """Teach an evening, on top of those of the earlier days, and keep it on file."""
+        self.be_at(earlier)
+        path = self._told(day)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_suffix(".part")
+        part.write_text(told.model_dump_json(), encoding="utf-8")
+        os.replace(part, path)
+        measured = self._teach(day, told)
+        if isinstance(self.robot, Saves):
+            self._folder(day).mkdir(parents=True, exist_ok=True)
+            self.robot.save(self._folder(day))
+        self._days = (*earlier, day)
+        return measured
+
+    def _teach(self, day: int, told: Told) -> dict[str, Any]:
+        return self.robot.learn(told, seed=seed_at(self.seed, "learn", day))
+
+    def _told(self, day: int) -> Path:
+        return self.recorder.adapters_folder(day) / TOLD
+
+    def _folder(self, day: int) -> Path:
+        return self.recorder.adapters_folder(day) / "robot"
+
+
+def checked(proposal: Proposal, collab: Collab, method: str) -> Proposal:
+    """Return a proposal that keeps to the rules; a task said twice counts once, the first time.
+
+    Raises:
+        RunError: Naming the method, the candidate and what was expected.
+    """
+    if not isinstance(proposal, Proposal):
+        raise RunError(f"method {method}: help must return a core.hour.Proposal, not {type(proposal).__name__}.")
+    once: dict[str, TaskCandidate] = {}
+    for task in proposal.tasks:
+        if task.act.kind != _ACT[collab]:
+            raise RunError(
+                f'method {method}: the task "{task.act.describe()}" must be a {_ACT[collab]} in collaboration '
+                f"type {collab}, not a {task.act.kind}."
+            )
+        once.setdefault(task.act.describe(), task.model_copy(update={"correct": None}))
+    candidates: list[tuple[str, IntentionCandidate | TaskCandidate]] = [(c.text, c) for c in proposal.intentions]
+    for text, candidate in [*candidates, *once.items()]:
+        if candidate.accepted is None:
+            raise RunError(f'method {method}: "{text}" must be accepted or not, but accepted is None.')
+        if candidate.probability is not None and not 0 <= candidate.probability <= 1:
+            raise RunError(
+                f'method {method}: the probability of "{text}" must lie in [0, 1], not {candidate.probability}.'
+            )
+    return proposal.model_copy(update={"tasks": list(once.values())})
+
+
+def _read(path: Path) -> Told:
+    try:
+        return Told.model_validate_json(path.read_text(encoding="utf-8"))
+    except (OSError, ValidationError) as err:
+        raise RunError(f"{path}: what the robot was told this evening cannot be read: {err}") from err
