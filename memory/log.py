@@ -13,11 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from core.errors import MemoryStoreError
+from memory.client import translated
 from memory.folder import DamagedMemoryError
 from memory.minilm import Vector
 from memory.numbering import Numbering, position_of
 from memory.scan import BLOCK, Block
-from memory.store import translated
 
 if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection

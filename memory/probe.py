@@ -7,49 +7,19 @@ store can be read, else with the reason on standard error (or by a signal). The 
 
 from __future__ import annotations
 
-import os
 import struct
-import subprocess
 import sys
 from functools import partial
 from pathlib import Path
 
 from core.errors import MemoryStoreError
+from memory.client import open_client
 from memory.folder import DamagedMemoryError
+from memory.log import Log
+from memory.scan import BLOCK
+from memory.store import Store
 
 _HEADER = struct.Struct("<iQQQQQQiIQQQdQ")  # of the index library in Chroma 1.5
-_PATIENCE = 600.0  # seconds, for a store of a million records
-
-
-def damage(folder: Path, *, everything: bool = False) -> str | None:
-    """Return what is wrong with a store, or None.
-
-    Args:
-        folder: The store; the caller holds its lock, and has not opened it.
-        everything: Read and check every record, instead of each stream's first and last.
-
-    Raises:
-        MemoryStoreError: If there is no answer within ten minutes.
-    """
-    root = str(Path(__file__).resolve().parents[1])
-    paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
-    command = [sys.executable, "-m", "memory.probe", str(folder), *(["--all"] if everything else [])]
-    try:
-        done = subprocess.run(
-            command,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
-            capture_output=True,
-            text=True,
-            timeout=_PATIENCE,
-            check=False,
-        )
-    except subprocess.TimeoutExpired as err:
-        raise MemoryStoreError(f"{folder}: the memory store could not be read within {_PATIENCE:.0f} s") from err
-    if done.returncode == 0:
-        return None
-    if done.returncode < 0:
-        return f"reading its index ends the process with signal {-done.returncode}"
-    return done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"status {done.returncode}"
 
 
 def _check_index(folder: Path) -> None:
@@ -82,10 +52,6 @@ def _check_index(folder: Path) -> None:
 
 def _main(folder: str, *, everything: bool) -> None:
     """Read the store, or exit with the reason."""
-    from memory.log import Log  # noqa: PLC0415 - only the child needs Chroma
-    from memory.scan import BLOCK  # noqa: PLC0415
-    from memory.store import Store, open_client  # noqa: PLC0415
-
     _check_index(Path(folder))
     store = Store(open_client(Path(folder)), folder, folder, None)
     for name in store.streams():

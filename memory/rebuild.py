@@ -19,11 +19,11 @@ from typing import Any, NamedTuple
 from langchain_core.embeddings import Embeddings
 
 from core.errors import ConfigError, MemoryStoreError
+from memory.damage import damage
 from memory.embeddings import as_array, by_identity, identity
 from memory.folder import CHROMA, locked
 from memory.log import Log, Record, restored
 from memory.numbering import Numbering, position_of
-from memory.probe import damage
 from memory.store import Store
 from memory.stream import unit
 

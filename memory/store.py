@@ -10,27 +10,22 @@ import atexit
 import hashlib
 import os
 import threading
-from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeVar
-from urllib.parse import urlsplit
 
 from core.errors import ConfigError, MemoryStoreError
+from memory.client import connect, disconnect, open_client, translated
+from memory.damage import damage
 from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal
-from memory.probe import damage
 
 if TYPE_CHECKING:
-    import httpx
     from chromadb.api import ClientAPI
     from chromadb.api.models.Collection import Collection
 
-CHROMA = "chroma.sqlite3"
 _SPACE = "ip"
 _INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
 _FORMAT = 1
-_PATIENCE = 10.0  # seconds to wait for a server's answer when connecting
-_REQUEST_PATIENCE = 60.0
 MAX_NAME = 200
 
 _Shared = TypeVar("_Shared")
@@ -78,7 +73,7 @@ class Store:
                 if isinstance(key, Path):
                     store = cls._open_folder(key, create)
                 elif remote:
-                    store = cls(_connect(str(where)), str(where), key, None)
+                    store = cls(connect(str(where)), str(where), key, None)
                 else:
                     store = cls(where, "the given Chroma client", key, None)  # type: ignore[arg-type]
                 cls._open[key] = store
@@ -107,10 +102,7 @@ class Store:
                 return
             del Store._open[self._key]
             if not isinstance(self._key, int):  # a client of the caller's stays open
-                sessions = _sessions(self._client)
-                self._client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
-                for session in sessions:
-                    session.close()
+                disconnect(self._client)
             if self._holding is not None:
                 seal(Path(self.where))
                 self._holding.close()
@@ -206,69 +198,3 @@ atexit.register(Store.close_all)
 def collection_name(stream: str) -> str:
     """Return the Chroma collection's name for a stream; Chroma takes no free text as a name."""
     return "stream-" + hashlib.sha256(stream.encode("utf-8", "surrogatepass")).hexdigest()[:40]
-
-
-@contextmanager
-def translated(where: str) -> Iterator[None]:
-    """Turn what Chroma and its transport raise into our error.
-
-    Raises:
-        MemoryStoreError: Naming the store and the reason.
-    """
-    import httpx  # noqa: PLC0415 - heavy
-    from chromadb.errors import ChromaError  # noqa: PLC0415
-
-    try:
-        yield
-    except httpx.HTTPError as err:
-        raise MemoryStoreError(f"{where}: the memory server does not answer ({type(err).__name__}: {err})") from err
-    except (ChromaError, ValueError, OSError) as err:
-        raise MemoryStoreError(f"{where}: the memory store failed: {err}") from err
-
-
-def open_client(folder: Path) -> ClientAPI:
-    """Open a folder with Chroma; the caller holds the lock."""
-    import chromadb  # noqa: PLC0415 - heavy
-    from chromadb.config import Settings  # noqa: PLC0415
-
-    with translated(str(folder)):
-        return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
-
-
-def _connect(url: str) -> ClientAPI:
-    """Connect to a Chroma server, waiting a bounded time for it."""
-    import chromadb  # noqa: PLC0415 - heavy
-    import httpx  # noqa: PLC0415
-    from chromadb.config import Settings  # noqa: PLC0415
-
-    parts = urlsplit(url)
-    secure = parts.scheme == "https"
-    try:
-        port = parts.port or (443 if secure else 8000)
-    except ValueError as err:
-        raise ConfigError(f"{url}: is no address of a memory server: {err}") from err
-    if not parts.hostname:
-        raise ConfigError(f"{url}: is no address of a memory server; expected http://host:port")
-    host = f"[{parts.hostname}]" if ":" in parts.hostname else parts.hostname
-    with translated(url):
-        answer = httpx.get(f"{parts.scheme}://{host}:{port}/api/v2/heartbeat", timeout=_PATIENCE)
-        if answer.status_code != httpx.codes.OK or "nanosecond heartbeat" not in answer.text:
-            raise MemoryStoreError(f"{url}: something answers there, but it is no Chroma server")
-        client = chromadb.HttpClient(
-            host=parts.hostname, port=port, ssl=secure, settings=Settings(anonymized_telemetry=False)
-        )
-    for session in _sessions(client):
-        session.timeout = httpx.Timeout(_REQUEST_PATIENCE)
-    return client
-
-
-def _sessions(client: ClientAPI) -> list[httpx.Client]:
-    """Return the connection pools of a server's client: Chroma neither limits their waiting nor closes them."""
-    import httpx  # noqa: PLC0415 - heavy
-
-    found = []
-    for part in (client, getattr(client, "_admin_client", None)):
-        session = getattr(getattr(part, "_server", None), "_session", None)
-        if isinstance(session, httpx.Client):
-            found.append(session)
-    return found

@@ -102,7 +102,7 @@ def test_a_server_that_is_down_is_told_at_once() -> None:
 
 
 def test_a_server_that_hangs_is_told_after_a_bounded_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("memory.store._PATIENCE", 0.3)
+    monkeypatch.setattr("memory.client._PATIENCE", 0.3)
     with (
         socket.create_server(("127.0.0.1", 0)) as silent,
         pytest.raises(MemoryStoreError, match="does not answer .ReadTimeout"),

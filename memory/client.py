@@ -1,0 +1,92 @@
+"""How Chroma is reached: a folder's client, a server's client, and its errors as ours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from core.errors import ConfigError, MemoryStoreError
+
+if TYPE_CHECKING:
+    import httpx
+    from chromadb.api import ClientAPI
+
+_PATIENCE = 10.0  # seconds to wait for a server's answer when connecting
+_REQUEST_PATIENCE = 60.0
+
+
+@contextmanager
+def translated(where: str) -> Iterator[None]:
+    """Turn what Chroma and its transport raise into our error.
+
+    Raises:
+        MemoryStoreError: Naming the store and the reason.
+    """
+    import httpx  # noqa: PLC0415 - heavy
+    from chromadb.errors import ChromaError  # noqa: PLC0415
+
+    try:
+        yield
+    except httpx.HTTPError as err:
+        raise MemoryStoreError(f"{where}: the memory server does not answer ({type(err).__name__}: {err})") from err
+    except (ChromaError, ValueError, OSError) as err:
+        raise MemoryStoreError(f"{where}: the memory store failed: {err}") from err
+
+
+def open_client(folder: Path) -> ClientAPI:
+    """Open a folder with Chroma; the caller holds the lock."""
+    import chromadb  # noqa: PLC0415 - heavy
+    from chromadb.config import Settings  # noqa: PLC0415
+
+    with translated(str(folder)):
+        return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+
+
+def connect(url: str) -> ClientAPI:
+    """Connect to a Chroma server, waiting a bounded time for it."""
+    import chromadb  # noqa: PLC0415 - heavy
+    import httpx  # noqa: PLC0415
+    from chromadb.config import Settings  # noqa: PLC0415
+
+    parts = urlsplit(url)
+    secure = parts.scheme == "https"
+    try:
+        port = parts.port or (443 if secure else 8000)
+    except ValueError as err:
+        raise ConfigError(f"{url}: is no address of a memory server: {err}") from err
+    if not parts.hostname:
+        raise ConfigError(f"{url}: is no address of a memory server; expected http://host:port")
+    host = f"[{parts.hostname}]" if ":" in parts.hostname else parts.hostname
+    with translated(url):
+        answer = httpx.get(f"{parts.scheme}://{host}:{port}/api/v2/heartbeat", timeout=_PATIENCE)
+        if answer.status_code != httpx.codes.OK or "nanosecond heartbeat" not in answer.text:
+            raise MemoryStoreError(f"{url}: something answers there, but it is no Chroma server")
+        client = chromadb.HttpClient(
+            host=parts.hostname, port=port, ssl=secure, settings=Settings(anonymized_telemetry=False)
+        )
+    for session in _sessions(client):
+        session.timeout = httpx.Timeout(_REQUEST_PATIENCE)
+    return client
+
+
+def disconnect(client: ClientAPI) -> None:
+    """Close a client with its connections."""
+    pools = _sessions(client)
+    client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
+    for pool in pools:
+        pool.close()
+
+
+def _sessions(client: ClientAPI) -> list[httpx.Client]:
+    """Return the connection pools of a server's client: Chroma neither limits their waiting nor closes them."""
+    import httpx  # noqa: PLC0415 - heavy
+
+    found = []
+    for part in (client, getattr(client, "_admin_client", None)):
+        session = getattr(getattr(part, "_server", None), "_session", None)
+        if isinstance(session, httpx.Client):
+            found.append(session)
+    return found
