@@ -217,7 +217,7 @@ class Race:
         pages = [embeddings.vectors(page, page + PAGE) for page in range(0, most, PAGE)]
         self.vectors = np.concatenate(pages)[:most]
         self.hours = np.array([hour_of(number) for number in range(most)], np.int64)
-        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in sizes if size <= 100_000}
+        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in sizes}
         if not any(self.rivals.values()):
             print("LangChain's retriever is not installed (langchain-classic, langchain-chroma): skipped")
         self.times: dict[tuple[str, int], list[float]] = {}
