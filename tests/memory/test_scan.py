@@ -124,7 +124,7 @@ def check_stream(case: Case, folder: Path) -> None:
                     assert item.score == item.relevance * item.recency
 
 
-DEFAULT = settings(max_examples=100, deadline=None, derandomize=True, phases=[Phase.generate, Phase.shrink])
+DEFAULT = settings(max_examples=100, phases=[Phase.generate, Phase.shrink])
 THROUGH_CHROMA = settings(
     DEFAULT, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
 )

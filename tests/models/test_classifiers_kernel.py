@@ -255,7 +255,7 @@ def _some_examples(seed: int, n: int) -> Sequence[Example]:
     ]
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 10**6), task=st.booleans())
 def test_likeness_is_a_kernel(seed: int, task: bool) -> None:
     batch = read(_some_examples(seed, 20), WORDS)
@@ -266,7 +266,7 @@ def test_likeness_is_a_kernel(seed: int, task: bool) -> None:
     assert np.linalg.eigvalsh(gram).min() > -1e-8
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 10**6))
 def test_scores_of_what_was_left_out_equal_those_of_fits_without_it(seed: int) -> None:
     rng = rng_at(seed, "ridge")

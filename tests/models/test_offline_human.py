@@ -120,7 +120,7 @@ def test_a_person_is_the_same_whatever_the_name_on_the_door() -> None:
     assert live(person("anna")) == live({**person("anna"), "name": "Somebody Else"})
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.sets(st.sampled_from(ROOMS), min_size=1), st.integers(9, 21), st.integers(0, 2**40))
 def test_only_what_the_home_has_rooms_for_is_intended(rooms: set[str], hour: int, seed: int) -> None:
     doing = activity(intend(person(), hour, seed=seed, rooms=sorted(rooms)).intention)

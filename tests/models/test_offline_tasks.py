@@ -86,7 +86,7 @@ _SOME_MOVABLE = st.sets(st.sampled_from(sorted(MOVABLE)), min_size=1, max_size=8
 _WORDINGS = st.sampled_from([a.wordings[0] for a in shipped().activities])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(_SOME_FIXED, _SOME_MOVABLE, _WORDINGS, st.integers(0, 2**60))
 def test_in_any_home_person_and_robot_give_as_many_distinct_executable_tasks_as_there_can_be(
     some_fixed: set[str], some_movable: set[str], intention: str, seed: int

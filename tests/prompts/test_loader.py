@@ -285,7 +285,7 @@ def test_an_error_while_rendering_names_file_and_line(shipped: PromptLibrary) ->
     assert "offer.thought" in (SHIPPED / "judge/tasks.md").read_text().splitlines()[line - 1]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.text(max_size=40), max_size=4))
 def test_what_people_write_never_acts_as_a_template(shipped: PromptLibrary, guesses: list[str]) -> None:
     marked = [f"{{{{ 7*7 }}}}{guess}{{% endfor %}}" for guess in guesses]

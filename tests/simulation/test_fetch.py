@@ -50,7 +50,7 @@ def test_the_jacobian_is_the_slope_of_the_forward_kinematics() -> None:
 
 
 @given(target=TABLE)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_the_gripper_gets_to_every_point_before_the_robot_within_the_joints_limits(target) -> None:
     posture = fetch.reach(np.array(target))
     if target[2] < 0.25 and math.hypot(*target[:2]) > 0.75:  # the arm does not reach far over the floor
@@ -74,7 +74,7 @@ def test_a_point_out_of_reach_gives_no_posture(point) -> None:
 
 
 @given(target=st.tuples(st.floats(1.0, 4.0), st.floats(-1.0, 1.0), st.floats(0.1, 1.8)))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_head_turns_so_that_the_camera_faces_a_point(target) -> None:
     place, direction = fetch.camera(fetch.look_at(fetch.TUCKED, np.array(target)))
     line = np.array(target) - place

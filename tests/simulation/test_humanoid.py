@@ -45,7 +45,7 @@ def test_our_forward_kinematics_places_every_joint_where_the_engine_does(body, b
 
 
 @given(right=NEAR, left=NEAR)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_hands_get_to_points_within_an_arms_length(right, left) -> None:
     aim = Aim(hands={"right": np.array(right), "left": np.array(left) * (1, -1, 1)})
     shoulders = aim.frames().place
