@@ -101,7 +101,7 @@ def _clear(places: Array, half: tuple[float, float], filled: Array) -> NDArray[n
     x, y = places[:, :1], places[:, 1:]
     hits = (x - half[0] < filled[:, 2] + APART) & (filled[:, 0] < x + half[0] + APART)
     hits &= (y - half[1] < filled[:, 3] + APART) & (filled[:, 1] < y + half[1] + APART)
-    clear: NDArray[np.bool_] = ~hits.any(axis=1)
+    clear: NDArray[np.bool_] = np.logical_not(hits.any(axis=1))
     return clear
 
 
