@@ -92,7 +92,12 @@ def open_services(
             home=_Homes(stack, config, embeddings),
             stream=_Streams(stack, run.root / "memory", embeddings),
             embeddings=embeddings,
-            learner=Learner({kind: _classifier(config, method, kind, embeddings) for kind in KINDS}, run, config.seed),
+            learner=Learner(
+                {kind: _classifier(config, method, kind, embeddings) for kind in KINDS},
+                run,
+                config.seed,
+                config.learning,
+            ),
             own=OwnRobot(method.own, run, config.seed) if method.own else None,
             recorder=run,
             score=Measure(ask, embeddings),

@@ -40,6 +40,7 @@ _EXPECTED = {
     "base_url": "an address such as http://localhost:8000/v1",
     "prompts": "the path of a folder",
     "classifier": "kernel or lora",
+    "learning": "warm or fresh",
     "human": "simulated, me or log:FILE",
     "person": "full, no_extension or single_shot",
     "pictures": "sampled, none or video",
@@ -83,6 +84,8 @@ class Config(Frozen):
         base_url: Address of an OpenAI-compatible server, where a model needs one.
         prompts: A folder whose files replace shipped prompts of the same name.
         classifier: Kind of the robot's yes/no classifiers.
+        learning: Whether an evening goes on from the one before, with the day's examples and a fixed number of earlier
+            ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         human: Who plays the person.
         person: How a simulated person is made: the paper's way or one of its ablations (`graphs.person`).
         pictures: Whether the first task of each hour is recorded as pictures.
@@ -104,6 +107,7 @@ class Config(Frozen):
     base_url: Annotated[str, Field(pattern=r"^https?://\S+$")] | None = None
     prompts: Path | None = None
     classifier: Literal["kernel", "lora"] = "kernel"
+    learning: Literal["warm", "fresh"] = "warm"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     person: Text = "full"
     pictures: Literal["sampled", "none", "video"] = "sampled"

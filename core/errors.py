@@ -48,5 +48,9 @@ class SimulationError(CooperaError):
     """The world cannot do what was asked of it; a failed grasp or walk is an `Outcome`, not this."""
 
 
+class LearningError(CooperaError):
+    """A classifier could not learn from an evening; what it knew before is kept, and the run goes on."""
+
+
 class RunError(CooperaError):
     """A run directory cannot be written, continued or read."""

@@ -129,9 +129,13 @@ class Classifier(Protocol):
         ...
 
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
-        """Learn from all labelled examples so far; returns what was measured in training.
+        """Learn from labelled examples, on top of what it knows; returns what was measured in training.
 
-        With fewer than one example of each label nothing can be learned and the classifier stays as it was.
+        What comes out depends on what it knew, the examples and the seed alone. With fewer than one example of each
+        label nothing can be learned and the classifier stays as it was.
+
+        Raises:
+            LearningError: If training fails; the classifier is then as it was.
         """
         ...
 

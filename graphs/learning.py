@@ -1,27 +1,31 @@
-"""What the robot learns from an evening: examples from feedback, and classifiers trained on all of them."""
+"""What the robot learns from an evening: examples from feedback, and classifiers trained on them."""
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from pydantic import ValidationError
 
 from core.clock import Clock
-from core.errors import RunError
+from core.errors import CooperaError, LearningError, RunError
 from core.hour import DayPlan, Example, FeedbackItem, HourRecord, Told, ToldHour
 from core.people import PersonId, Picture
 from core.protocols import Classifier, Recorder
 from core.randomness import seed_at
 from graphs.method import Kind
+from graphs.replay import keep
 
-__all__ = ["EXAMPLES", "KINDS", "Kind", "Learner", "example", "labelled", "told_of"]
+__all__ = ["EXAMPLES", "KEPT", "KINDS", "Kind", "Learner", "Mode", "example", "labelled", "told_of"]
 
 KINDS: tuple[Kind, Kind] = ("intention", "task")
-EXAMPLES = "examples.jsonl"
+EXAMPLES, KEPT = "examples.jsonl", "kept.jsonl"
+Mode: TypeAlias = Literal["warm", "fresh"]
+_LOG = logging.getLogger(__name__)
 
 
 def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task: str | None = None) -> Example:
@@ -104,61 +108,120 @@ class Learner:
 
     Attributes:
         fresh: Makes an untrained classifier of a kind.
+        mode: "warm" goes on from the evening before, with the day's examples and a fixed number of earlier ones, so
+            that no evening takes longer than another. "fresh" starts anew on all examples, as the authors' code does.
         classifiers: The classifiers in use, by kind.
     """
 
     fresh: Mapping[Kind, Callable[[], Classifier]]
     recorder: Recorder
     seed: int = 0
+    mode: Mode = "warm"
     classifiers: dict[Kind, Classifier] = field(init=False)
-    _day: int | None = field(init=False, default=None)
+    _days: tuple[int, ...] | None = field(init=False, default=None)  # None: in no state that is on file
 
     def __post_init__(self) -> None:
         """Start untrained."""
-        self.forget()
-
-    def forget(self) -> None:
-        """Start a new episode: nothing learned."""
-        self.classifiers = {kind: self.fresh[kind]() for kind in KINDS}
-        self._day = None
+        self._forget()
 
     def be_at(self, learned: Sequence[int]) -> None:
-        """Have the classifiers as they were after the evenings of these days of the run, reading them if need be."""
-        learned_day = learned[-1] if learned else None
-        if learned_day == self._day:
+        """Have the classifiers as they were after the evenings of these days of the run, reading them if need be.
+
+        Where one cannot be read (damaged, cut short, of another base) its training is done again from the records,
+        from the last day whose classifier is whole, with the same result.
+
+        Raises:
+            RunError: If the records of the examples cannot be read either.
+        """
+        days = tuple(learned)
+        if days == self._days:
             return
-        self.forget()
-        if learned_day is not None:
-            for kind in KINDS:
-                self.classifiers[kind].load(self.recorder.adapters_folder(learned_day) / kind)
-            self._day = learned_day
+        self._forget()
+        for kind in KINDS:
+            self._recover(kind, days)
+        self._days = days
 
     def learn(self, day: int, earlier: Sequence[int], told: Told) -> dict[str, Any]:
-        """Train on the examples of this day and of the episode's earlier days, and save everything.
+        """Train on an evening, on top of those of the episode's earlier days, and save everything.
 
-        In earlier examples of the same person the profile is replaced by the newest, as in the authors' code;
-        DEVIATES: other people's examples keep theirs.
+        A classifier that cannot learn from it stays as it was, and `failed` says why.
 
         Returns:
             What was measured, by kind.
+
+        Raises:
+            CooperaError: If something cannot be saved; nothing is then learned, and the evening can be done again.
         """
-        learned: dict[str, Any] = {}
+        self.be_at(earlier)
+        self._days = None
         examples = labelled(told)
-        newest = {"profile": told.picture.profile or "", "big_five": told.picture.big_five}
-        self.forget()
+        learned: dict[str, Any] = {}
         for kind in KINDS:
-            today = examples[kind]
-            before = [e for d in earlier for e in _read(self.recorder.adapters_folder(d) / kind / EXAMPLES)]
-            known = [e.model_copy(update=newest) if e.person == told.person else e for e in before]
-            measured = self.classifiers[kind].train([*known, *today], seed=seed_at(self.seed, "learn", day, kind))
-            folder = self.recorder.adapters_folder(day) / kind
-            folder.mkdir(parents=True, exist_ok=True)
-            _write(folder / EXAMPLES, today)
-            self.classifiers[kind].save(folder)
-            positives = sum(e.label is True for e in [*known, *today])
-            learned[kind] = {"examples": len(known) + len(today), "positives": positives, **measured}
-        self._day = day
+            _write(self._folder(day, kind) / EXAMPLES, examples[kind])
+            learned[kind] = self._train(kind, day, earlier)
+        self._days = (*earlier, day)
         return learned
+
+    def _forget(self) -> None:
+        self.classifiers = {kind: self.fresh[kind]() for kind in KINDS}
+        self._days = ()
+
+    def _recover(self, kind: Kind, days: Sequence[int]) -> None:
+        """Load the last classifier that is whole and train those after it again."""
+        for done in range(len(days), 0, -1):
+            try:
+                self.classifiers[kind].load(self._folder(days[done - 1], kind))
+                break
+            except CooperaError as err:
+                _LOG.warning("%s; it is trained again", err)
+                self.classifiers[kind] = self.fresh[kind]()
+        else:
+            done = 0
+        for position in range(done, len(days)):
+            self._train(kind, days[position], days[:position])
+
+    def _train(self, kind: Kind, day: int, earlier: Sequence[int]) -> dict[str, Any]:
+        """Train one classifier on an evening whose examples are on file, and save it."""
+        folder = self._folder(day, kind)
+        today = _read(folder / EXAMPLES)
+        before = self._before(kind, earlier)
+        known = [*_renewed(before, today), *today]
+        if self.mode == "fresh":
+            self.classifiers[kind] = self.fresh[kind]()
+        else:
+            _write(folder / KEPT, keep(known))
+        measured: dict[str, Any] = {"examples": len(known), "positives": sum(e.label is True for e in known)}
+        try:
+            measured |= self.classifiers[kind].train(known, seed=seed_at(self.seed, "learn", day, kind))
+        except LearningError as err:
+            measured["failed"] = str(err)
+        self.classifiers[kind].save(folder)
+        return measured
+
+    def _before(self, kind: Kind, earlier: Sequence[int]) -> list[Example]:
+        """The earlier examples to learn from again: all of them, or those that were kept."""
+        if self.mode == "warm" and earlier:
+            try:
+                return _read(self._folder(earlier[-1], kind) / KEPT)
+            except RunError as err:
+                _LOG.warning("%s; they are chosen again", err)
+        every: list[Example] = []
+        for day in earlier:
+            today = _read(self._folder(day, kind) / EXAMPLES)
+            every = [*_renewed(every, today), *today]
+        return every if self.mode == "fresh" else keep(every)
+
+    def _folder(self, day: int, kind: Kind) -> Path:
+        return self.recorder.adapters_folder(day) / kind
+
+
+def _renewed(before: Sequence[Example], today: Sequence[Example]) -> list[Example]:
+    """Give earlier examples of today's person the newest profile, as the authors' code does.
+
+    DEVIATES: other people's examples keep theirs.
+    """
+    newest = {e.person: {"profile": e.profile, "big_five": e.big_five} for e in today}
+    return [e.model_copy(update=newest[e.person]) if e.person in newest else e for e in before]
 
 
 def _answers(hour: ToldHour, kind: Kind) -> dict[str, bool]:
@@ -171,8 +234,12 @@ def _label(unlabelled: Example, yes: bool) -> Example:
 
 def _write(path: Path, examples: Sequence[Example]) -> None:
     part = path.with_suffix(".part")
-    part.write_text("".join(f"{e.model_dump_json()}\n" for e in examples), encoding="utf-8")
-    os.replace(part, path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part.write_text("".join(f"{e.model_dump_json()}\n" for e in examples), encoding="utf-8")
+        os.replace(part, path)
+    except OSError as err:
+        raise RunError(f"{path}: the training examples of this day cannot be saved: {err}") from err
 
 
 def _read(path: Path) -> list[Example]:

@@ -36,6 +36,10 @@ def run(
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    learning: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="warm or fresh (anew on everything). [default: warm]"),
+    ] = None,
     human: Annotated[str | None, typer.Option(help="Who plays the person. [default: simulated]")] = None,
     person: Annotated[
         str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
@@ -62,6 +66,7 @@ def run(
         "base_url": base_url,
         "prompts": prompts,
         "classifier": classifier,
+        "learning": learning,
         "human": human,
         "person": person,
         "pictures": pictures,

@@ -19,7 +19,7 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 from transformers import AutoTokenizer
 
-from core.errors import CooperaError
+from core.errors import CooperaError, LearningError
 from core.hour import Example
 from models.classifiers.adapters import AdaptedEncoder, Recipe
 from models.classifiers.calibration import best_share, score_at
@@ -83,7 +83,7 @@ class LoraClassifier:
             `examples`, `positives`, `passes` (examples looked at) and `loss` (mean of the last epoch).
 
         Raises:
-            CooperaError: If the loss is no longer a finite number; what was learned before is kept.
+            LearningError: If the loss is no longer a finite number; what was learned before is kept.
         """
         taught = lesson(examples, self._inputs)
         counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
@@ -154,7 +154,7 @@ class LoraClassifier:
 
     def _must_be_finite(self, name: str, value: Tensor) -> None:
         if not bool(torch.isfinite(value).all()):
-            raise CooperaError(
+            raise LearningError(
                 f"the {self._kind} classifier (lora) could not learn: its {name} became {value.detach().sum().item()} "
                 f"at learning rate {self._recipe.learning_rate}; what it learned before is kept"
             )
