@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from functools import partial
@@ -24,9 +25,12 @@ from graphs.person import PERSON_MODELS
 from memory import MemoryStream, Search, bundled
 from models.classifiers import Inputs, make_classifier
 from models.door import open_door
+from models.transport import wait
 from prompts import PromptLibrary
 from simulation import World, load_scene
 from simulation.motions import load_library
+
+_GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
 
 def model_specs(config: Config) -> dict[Role, str]:
@@ -45,6 +49,7 @@ def open_ask(
     prompts: PromptLibrary | None = None,
     embeddings: Embeddings | None = None,
     root: Path | None = None,
+    check: Callable[[], None] = lambda: None,
 ) -> Ask:
     """Open the one door to the configured language models.
 
@@ -53,6 +58,7 @@ def open_ask(
         prompts: The prompt folder, where it has been read already.
         embeddings: The sentence encoder, where it has been opened already.
         root: The run directory: pictures are named relative to it, and replies are cached in it.
+        check: Raises if the run was asked to stop; called while a request waits to be sent again.
 
     Raises:
         PromptError: If a prompt file is broken, naming file and line.
@@ -65,8 +71,18 @@ def open_ask(
         embeddings=embeddings or open_embeddings(config),
         base_url=config.base_url,
         cache=root / "llm_cache.sqlite" if root else None,
+        settings=config.calls,
+        sleep=partial(_wait, check),
         root=root,
     )
+
+
+def _wait(check: Callable[[], None], seconds: float) -> None:
+    """Wait, but not longer than until the run is asked to stop."""
+    end = time.monotonic() + seconds
+    while (left := end - time.monotonic()) > 0:
+        check()
+        wait(min(left, _GLANCE))
 
 
 @contextmanager
@@ -83,7 +99,9 @@ def open_services(
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
-        ask = _Interruptible(open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root), run.check)
+        ask = _Interruptible(
+            open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check), run.check
+        )
         method = find_method(config.method)
         yield Services(
             ask=ask,

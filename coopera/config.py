@@ -16,6 +16,7 @@ from core.clock import FIRST_HOUR, HOURS_PER_DAY
 from core.errors import ConfigError
 from core.household import Collab
 from core.people import Frozen
+from models.settings import CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
 
@@ -46,6 +47,19 @@ _EXPECTED = {
     "pictures": "sampled, none or video",
     "frames": "a whole number from 1 to 64",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
+    "calls": "a mapping of settings such as timeout, retries and max_tokens",
+    "calls.timeout": "a number of seconds above 0",
+    "calls.retries": "a whole number from 0 to 20",
+    "calls.backoff": "a number of seconds above 0",
+    "calls.max_pause": "a number of seconds above 0",
+    "calls.per_minute": "a whole number of requests from 1 up",
+    "calls.at_once": "a whole number from 1 to 1024",
+    "calls.attempts": "a whole number from 1 to 10",
+    "calls.max_tokens": "a whole number from 64 up",
+    "calls.structure": "auto, json_schema, tools, json_object or none",
+    "calls.device": "auto, cpu, mps, cuda or cuda:N",
+    "calls.dtype": "auto, float32, bfloat16 or float16",
+    "calls.batch": "a whole number from 1 to 256",
     "data_dir": "the path of a folder",
 }
 
@@ -91,6 +105,7 @@ class Config(Frozen):
         pictures: Whether the first task of each hour is recorded as pictures.
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels.
+        calls: How models are called (`models.settings.CallSettings`).
         data_dir: Folder of imported people and homes.
     """
 
@@ -113,6 +128,7 @@ class Config(Frozen):
     pictures: Literal["sampled", "none", "video"] = "sampled"
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
     frame_size: tuple[Pixels, Pixels] = (320, 240)
+    calls: CallSettings = CallSettings()
     data_dir: Path = Field(default_factory=default_data_dir)
 
     @field_validator("setting", "collab", mode="before")
@@ -134,6 +150,9 @@ class Config(Frozen):
         """
         data = self.model_dump(mode="json", exclude={"out"})
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120)
+
+
+_SECTIONS: dict[str, type[Frozen]] = {"models": Models, "calls": CallSettings}
 
 
 def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:
@@ -164,7 +183,7 @@ def _sentence(err: ValidationError, file: str, flags: Mapping[str, Any]) -> str:
     field = next((name for name in known if name in _EXPECTED), ".".join(names))
     if first["type"] == "extra_forbidden":
         name = str(first["loc"][-1])
-        fields = Models.model_fields if names[0] == "models" else Config.model_fields
+        fields = (_SECTIONS[names[0]] if len(names) > 1 else Config).model_fields
         near = difflib.get_close_matches(name, fields, n=1)
         hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(fields)}"
         return f"{file}: there is no field {name!r} ({hint})."

@@ -8,26 +8,52 @@ A spec that ends in `+images` says that the model looks at pictures, where that 
 from __future__ import annotations
 
 import importlib
+import json
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
 from langchain_core.exceptions import ModelError
 from langchain_core.language_models import BaseChatModel
+from langchain_core.messages import AIMessage, BaseMessage
 
-from core.errors import ConfigError
+from core.errors import ConfigError, ModelCallError
 from core.protocols import Role
+from models.cache import CachedReply
+from models.settings import CallSettings, Structure
+from models.transport import Line, RefusedError, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
-TIMEOUT = 120.0  # seconds for one request
-RETRIES = 3  # of a request that failed on its way, by the client, with growing pauses
 _PICTURES = "+images"
 _HELP = (
     "offline, openai:MODEL (with --base-url for a server of your own), huggingface:REPO-OR-FOLDER, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
+_GARBLED = (ValueError, LookupError, TypeError, AttributeError)
+"""What clients raise over an answer that is no chat completion: they index and parse without looking."""
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What the door asks of a model: messages, how to draw the reply, and the schema it should be held to."""
+
+    messages: Sequence[BaseMessage]
+    temperature: float
+    seed: int
+    max_tokens: int
+    schema: Mapping[str, Any] | None = None
+    name: str = "reply"
+
+
+Options = Callable[[Request, Structure], dict[str, Any]]
+"""A backend's way to say a request to its client, besides the messages."""
+Note = Callable[[str], None]
+
+
+def _no_options(request: Request, structure: Structure) -> dict[str, Any]:
+    return {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +64,9 @@ class Backend:
         name: As it stands in the trace and in the cache's keys.
         sees: Whether it looks at pictures.
         reads_variables: Whether it answers from the prompt's variables rather than from its text.
-        seeded: Whether its `invoke` takes `temperature` and `seed`, or the temperature only.
-        unreachable: What its client raises when the model cannot be asked.
-        garbled: What its client raises when the server's answer is no chat completion.
+        options: How a request is said to it.
+        structures: Ways to hold it to a schema, best first; one that it refuses is given up for the next.
+        line: The way to its server, if it has one.
         address: Where its server is, if it is not where the provider has it.
     """
 
@@ -48,18 +74,61 @@ class Backend:
     model: BaseChatModel
     sees: bool = False
     reads_variables: bool = False
-    seeded: bool = True
-    unreachable: tuple[type[Exception], ...] = (ModelError, OSError)
-    garbled: tuple[type[Exception], ...] = ()
+    options: Options = _no_options
+    structures: Sequence[Structure] = ("none",)
+    line: Line | None = None
     address: str | None = None
+    _refused: list[Structure] = field(default_factory=list)
 
     def __str__(self) -> str:
         """The model as error messages call it."""
         return f"{self.name} at {self.address}" if self.address else self.name
 
+    @property
+    def structure(self) -> Structure:
+        """How it is held to a schema now."""
+        return next((one for one in self.structures if one not in self._refused), self.structures[-1])
+
+    def ask(self, request: Request, note: Note) -> CachedReply:
+        """Get an answer, patiently.
+
+        Args:
+            request: What is asked.
+            note: Is told of each failure on the way.
+
+        Raises:
+            ModelCallError: If there is none.
+        """
+        refused: list[Structure] = []
+        problem = ""
+        for structure in self.structures[self.structures.index(self.structure) :]:
+            try:
+                answer = self._ask(request, structure, note)
+            except RefusedError as err:
+                problem = str(err)
+                refused.append(structure)
+                if structure != self.structures[-1]:
+                    note(f"{problem}; asked again without {structure}")
+            else:
+                self._refused.extend(refused)
+                return answer
+        raise ModelCallError(problem)
+
+    def _ask(self, request: Request, structure: Structure, note: Note) -> CachedReply:
+        given = self.options(request, structure)
+
+        def once() -> CachedReply:
+            return read_answer(self.model.invoke(list(request.messages), **given))
+
+        return once() if self.line is None else self.line.send(once, note, one_line)
+
 
 def open_backends(
-    specs: Mapping[Role, str], embeddings: Embeddings, base_url: str | None = None
+    specs: Mapping[Role, str],
+    embeddings: Embeddings,
+    base_url: str | None = None,
+    settings: CallSettings | None = None,
+    sleep: Sleep = wait,
 ) -> dict[Role, Backend]:
     """Open the model of each role; a role without a spec is played by the offline model.
 
@@ -68,22 +137,34 @@ def open_backends(
     """
     if unknown := sorted(set(specs) - set(ROLES)):
         raise ConfigError(f'there is no role "{unknown[0]}" for a model: the roles are {", ".join(ROLES)}')
-    return {role: open_backend(specs.get(role, "offline"), role, embeddings, base_url) for role in ROLES}
+    chosen = settings or CallSettings()
+    return {role: open_backend(specs.get(role, "offline"), role, embeddings, base_url, chosen, sleep) for role in ROLES}
 
 
-def open_backend(spec: str, role: Role, embeddings: Embeddings, base_url: str | None = None) -> Backend:
+def open_backend(
+    spec: str,
+    role: Role,
+    embeddings: Embeddings,
+    base_url: str | None = None,
+    settings: CallSettings | None = None,
+    sleep: Sleep = wait,
+) -> Backend:
     """Open one model.
 
     Raises:
         ConfigError: If the spec is unknown, or what it needs is not there.
     """
+    chosen = settings or CallSettings()
     if spec == "offline":
         return _offline(role, embeddings)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
-    known: dict[str, Callable[[str, str, str | None], Backend]] = {"openai": _openai, "huggingface": _huggingface}
-    return known[provider](spec, name, base_url) if provider in known else _any_provider(spec, provider, name)
+    if provider == "huggingface":
+        return _huggingface(spec, name, chosen)
+    if provider == "openai":
+        return _openai(spec, name, base_url, chosen, sleep)
+    return _any_provider(spec, provider, name, chosen, sleep)
 
 
 def _offline(role: Role, embeddings: Embeddings) -> Backend:
@@ -91,45 +172,125 @@ def _offline(role: Role, embeddings: Embeddings) -> Backend:
     return Backend("offline", offline.OfflineChatModel(role=role, embeddings=embeddings), reads_variables=True)
 
 
-def _openai(spec: str, name: str, base_url: str | None) -> Backend:
+def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
+    model = importlib.import_module("models.huggingface").open_model(name, settings)
+    constrained = model.constrains and settings.structure != "none"
+
+    def options(request: Request, structure: Structure) -> dict[str, Any]:
+        schema = request.schema if structure == "json_schema" else None
+        return {**_drawn(request), "max_tokens": request.max_tokens, "schema": schema}
+
+    return Backend(
+        spec,
+        model,
+        sees=model.sees,
+        options=options,
+        structures=("json_schema",) if constrained else ("none",),
+    )
+
+
+def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, sleep: Sleep) -> Backend:
     package = _package("langchain_openai", spec, "langchain-openai")
     key = os.environ.get("OPENAI_API_KEY")
     if not key and not base_url:
         raise ConfigError(f"the model {spec} needs a key in the environment variable OPENAI_API_KEY, or --base-url")
     model = package.ChatOpenAI(
-        model=name, base_url=base_url, api_key=key or "none", timeout=TIMEOUT, max_retries=RETRIES
+        model=name, base_url=base_url, api_key=key or "none", timeout=settings.timeout, max_retries=0
     )
+    length = "max_tokens" if base_url else "max_completion_tokens"
+
+    def options(request: Request, structure: Structure) -> dict[str, Any]:
+        # extra_body goes to the server as it is; given by its own name, the client would parse the reply itself and
+        # raise over one that is cut.
+        body: dict[str, Any] = {length: request.max_tokens}
+        if structure in {"json_schema", "json_object"} and request.schema is not None:
+            form: dict[str, Any] = {"type": structure}
+            if structure == "json_schema":
+                form["json_schema"] = {"name": request.name, "schema": request.schema, "strict": True}
+            body["response_format"] = form
+        return {**_drawn(request), **_as_tool(request, structure), "extra_body": body}
+
     errors = importlib.import_module("openai")
     return Backend(
         spec,
         model,
         sees=_sees(spec, model),
-        unreachable=(ModelError, errors.OpenAIError, OSError),
-        garbled=(ValueError, LookupError, TypeError, AttributeError),
+        options=options,
+        structures=_structures(settings),
+        line=_line(base_url or spec, settings, sleep, (ModelError, errors.OpenAIError, OSError)),
         address=base_url,
     )
 
 
-def _huggingface(spec: str, name: str, base_url: str | None) -> Backend:
-    model = importlib.import_module("models.huggingface").open_model(name)
-    return Backend(spec, model, sees=model.sees)
-
-
-def _any_provider(spec: str, provider: str, name: str) -> Backend:
+def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, sleep: Sleep) -> Backend:
     chat_models = _package("langchain.chat_models", spec, "langchain", unless_known=True)
+    given = {"timeout": settings.timeout, "max_retries": 0, "max_tokens": settings.max_tokens}
     try:
-        model: Any = chat_models.init_chat_model(name, model_provider=provider, timeout=TIMEOUT, max_retries=RETRIES)
+        model: Any = chat_models.init_chat_model(name, model_provider=provider, **given)
     except ImportError as err:
         raise ConfigError(f"the model {spec} needs a package that is not installed: {one_line(err)}") from err
     except (ValueError, TypeError) as err:
         raise ConfigError(f'the model "{spec}" cannot be opened: {one_line(err)}; a model may be {_HELP}') from err
+    structures = tuple(one for one in _structures(settings) if one in {"tools", "none"}) or ("none",)
+    takes_tools = type(model).bind_tools is not BaseChatModel.bind_tools
+
+    def options(request: Request, structure: Structure) -> dict[str, Any]:
+        if not takes_tools or structure != "tools" or request.schema is None:
+            return {"temperature": request.temperature}
+        bound = model.bind_tools([_tool(request)], tool_choice=request.name)
+        return {"temperature": request.temperature, **bound.kwargs}
+
     return Backend(
         spec,
         model,
         sees=_sees(spec, model),
-        seeded=False,
-        unreachable=(ModelError, OSError, RuntimeError),
-        garbled=(ValueError, LookupError, TypeError, AttributeError),
+        options=options,
+        structures=structures if takes_tools else ("none",),
+        line=_line(spec, settings, sleep, (ModelError, OSError, RuntimeError)),
+    )
+
+
+def _line(server: str, settings: CallSettings, sleep: Sleep, unreachable: tuple[type[Exception], ...]) -> Line:
+    gate = gate_to(server, settings.at_once, settings.per_minute)
+    return Line(settings, gate, unreachable, _GARBLED, sleep)
+
+
+def _structures(settings: CallSettings) -> tuple[Structure, ...]:
+    return ("json_schema", "tools", "none") if settings.structure == "auto" else (settings.structure,)
+
+
+def _drawn(request: Request) -> dict[str, Any]:
+    return {"temperature": request.temperature, "seed": request.seed}
+
+
+def _as_tool(request: Request, structure: Structure) -> dict[str, Any]:
+    if structure != "tools" or request.schema is None:
+        return {}
+    choice = {"type": "function", "function": {"name": request.name}}
+    return {"tools": [_tool(request)], "tool_choice": choice}
+
+
+def _tool(request: Request) -> dict[str, Any]:
+    told = "Give the answer."
+    return {
+        "type": "function",
+        "function": {"name": request.name, "description": told, "parameters": request.schema},
+    }
+
+
+def read_answer(message: AIMessage) -> CachedReply:
+    """A model's reply as text: what it says, or what it gives the tool that it was made to call."""
+    usage: Mapping[str, Any] = message.usage_metadata or {}
+    text = str(message.text)
+    if message.tool_calls:
+        text = json.dumps(message.tool_calls[0]["args"], ensure_ascii=False)
+    elif message.invalid_tool_calls:
+        text = message.invalid_tool_calls[0]["args"] or ""
+    return CachedReply(
+        text=text.encode("utf-8", "replace").decode(),
+        tokens_in=int(usage.get("input_tokens") or 0),
+        tokens_out=int(usage.get("output_tokens") or 0),
+        cut=message.response_metadata.get("finish_reason") in {"length", "max_tokens"},
     )
 
 

@@ -26,10 +26,18 @@ class CachedReply(NamedTuple):
     """Whether the reply ended at the length limit."""
 
 
-def key_of(model: str, messages: Sequence[object], images: Iterable[bytes], temperature: float, seed: int) -> str:
-    """SHA-256 over all that decides a reply; `messages` is plain JSON data without the pictures."""
+def key_of(model: str, messages: Sequence[object], images: Iterable[bytes], form: Sequence[object], seed: int) -> str:
+    """SHA-256 over all that decides a reply.
+
+    Args:
+        model: Its name.
+        messages: What it is told, as plain JSON data without the pictures.
+        images: The pictures, as files.
+        form: The parameters of the call: temperature, length, schema.
+        seed: Which draw it is.
+    """
     hashed = [hashlib.sha256(image).hexdigest() for image in images]
-    content = json.dumps([model, messages, hashed, temperature, seed], ensure_ascii=False, sort_keys=True)
+    content = json.dumps([model, messages, hashed, form, seed], ensure_ascii=False, sort_keys=True)
     return hashlib.sha256(content.encode("utf-8", "surrogatepass")).hexdigest()
 
 

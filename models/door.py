@@ -17,13 +17,16 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
-from core.errors import CooperaError, ModelCallError, ModelOutputError, RunError
+from core.errors import ModelCallError, ModelOutputError, RunError
 from core.hour import ModelCall
 from core.protocols import Prompts, Rendered, Reply, Role
 from core.randomness import Address, seed_at
-from models.backends import Backend, one_line, open_backends
+from models.backends import Backend, Request, open_backends
 from models.cache import CachedReply, ReplyCache, key_of
-from models.parsing import BadReplyError, read_reply, schema_of
+from models.parsing import BadReplyError, read_reply
+from models.schemas import enforced_schema, schema_of
+from models.settings import CallSettings
+from models.transport import Sleep, wait
 
 SHOWN = 4000  # characters of a bad reply that the model is shown again
 SEEDS = 2**31  # servers take seeds of 31 bits
@@ -42,7 +45,8 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     embeddings: Embeddings,
     base_url: str | None = None,
     cache: Path | None = None,
-    max_attempts: int = 3,
+    settings: CallSettings | None = None,
+    sleep: Sleep = wait,
     root: Path | None = None,
 ) -> Door:
     """Open the models of all roles, and the door before them.
@@ -54,16 +58,18 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         embeddings: What the offline model compares texts with.
         base_url: Where an OpenAI-compatible server listens.
         cache: SQLite file of replies by content; None keeps none. The offline model is faster than any cache.
-        max_attempts: Answers asked for before a bad one is an error.
+        settings: How models are called.
+        sleep: Waits for so many seconds before a request is sent again.
         root: The run directory, relative to which the record names pictures; without it, by their file names.
 
     Raises:
         ConfigError: If a model cannot be opened.
     """
-    backends = open_backends(specs, embeddings, base_url)
+    chosen = settings or CallSettings()
+    backends = open_backends(specs, embeddings, base_url, chosen, sleep)
     caches = cache is not None and not all(backend.reads_variables for backend in backends.values())
     replies = ReplyCache(cache) if cache is not None and caches else None
-    return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, max_attempts=max_attempts, root=root)
+    return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, settings=chosen, root=root)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +87,9 @@ class _Talk:
 
     rendered: Rendered
     backend: Backend
-    messages: list[BaseMessage]
-    written: list[dict[str, Any]]
+    schema: dict[str, Any]
+    messages: list[BaseMessage] = field(default_factory=list)
+    written: list[dict[str, Any]] = field(default_factory=list)
     reply: str = ""
     tokens_in: int = 0
     tokens_out: int = 0
@@ -112,7 +119,7 @@ class Door:
     backends: Mapping[Role, Backend]
     seed: int
     cache: ReplyCache | None = None
-    max_attempts: int = 3
+    settings: CallSettings = CallSettings()
     root: Path | None = None
     _calls: list[tuple[Address, ModelCall]] = field(init=False, default_factory=list)
     _lock: threading.Lock = field(init=False, default_factory=threading.Lock)
@@ -147,13 +154,12 @@ class Door:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
         text = rendered.text if backend.reads_variables else f"{rendered.text}\n\n{_ANSWER}\n{schema_of(reply)}"
-        talk = _Talk(rendered, backend, [], [])
+        talk = _Talk(rendered, backend, {} if backend.reads_variables else enforced_schema(reply, variables))
         started = time.perf_counter()
         try:
             return self._converse(talk, text, pictures, reply, at, dict(variables))
-        except CooperaError as err:
-            if len(talk.faults) < talk.attempts:
-                talk.fault(str(err))
+        except ModelCallError as err:
+            talk.fault(str(err))
             raise
         finally:
             self._record(at, talk, time.perf_counter() - started)
@@ -190,29 +196,27 @@ class Door:
         variables: dict[str, Any],
     ) -> Reply:
         """Ask until an answer is valid, showing the model what was wrong with the one before."""
-        name, reason = talk.rendered.name, None
-        for attempt in range(self.max_attempts):
+        name, reason = talk.rendered.name, ""
+        for attempt in range(self.settings.attempts):
             talk.attempts = attempt + 1
             seed = seed_at(self.seed, *at, name, *([attempt] if attempt else []))
             if attempt == 0:
                 self._say(talk, text, pictures, variables, seed)
-            elif reason is not None and talk.written[-1]["role"] == "assistant":
+            else:
                 self._say(talk, _AGAIN.format(reason=reason), [], variables, seed)
             answer = self._send(talk, seed, pictures)
-            if answer is None:
-                continue
             talk.reply = answer.text
             try:
                 valid = read_reply(answer.text, reply)
             except BadReplyError as err:
                 reason = f"it was cut off at the length limit; {err}" if answer.cut else str(err)
-                talk.bad(reason, more=attempt + 1 < self.max_attempts)
+                talk.bad(reason, more=attempt + 1 < self.settings.attempts)
                 continue
+            if answer.cut:
+                talk.fault("the reply reached the length limit and ends early, though it can be used")
             if self.cache is not None:
                 self.cache.put(talk.fresh)
             return valid
-        if reason is None:
-            raise ModelCallError(f"{name}: {talk.backend} gave no reply: {talk.faults[-1]}")
         raise ModelOutputError(name, talk.reply, reason)
 
     def _say(self, talk: _Talk, text: str, pictures: list[Picture], variables: dict[str, Any], seed: int) -> None:
@@ -227,31 +231,34 @@ class Door:
         names = {"images": [p.name for p in pictures]} if pictures else {}
         talk.written.append({"role": "user", "content": text, **names})
 
-    def _send(self, talk: _Talk, seed: int, pictures: list[Picture]) -> CachedReply | None:
-        """Get one answer, from the cache or from the model; None if what came back was no answer at all.
+    def _send(self, talk: _Talk, seed: int, pictures: list[Picture]) -> CachedReply:
+        """Get one answer, from the cache or from the model.
 
         Raises:
-            ModelCallError: If the model could not be reached.
+            ModelCallError: If the model could not be reached, or its server gave no reply at all.
         """
         backend, temperature = talk.backend, talk.rendered.temperature
         key = None
         if self.cache is not None and not backend.reads_variables:
             said = [[m["role"], m["content"]] for m in talk.written]
-            key = key_of(backend.name, said, [p.data for p in pictures], temperature, seed)
+            form = [temperature, self.settings.max_tokens, self.settings.structure, talk.schema]
+            key = key_of(backend.name, said, [p.data for p in pictures], form, seed)
         answer = self.cache.get(key) if self.cache is not None and key is not None else None
         if answer is not None:
             talk.cached += 1
         else:
-            options: dict[str, Any] = {} if backend.reads_variables else {"temperature": temperature}
-            if backend.seeded and options:
-                options["seed"] = seed % SEEDS
+            request = Request(
+                talk.messages,
+                temperature=temperature,
+                seed=seed % SEEDS,
+                max_tokens=self.settings.max_tokens,
+                schema=talk.schema,
+                name=talk.rendered.reply,
+            )
             try:
-                answer = _answer(backend.model.invoke(talk.messages, **options))
-            except backend.unreachable as err:
-                raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {one_line(err)}") from err
-            except backend.garbled as err:
-                talk.fault(f"what the server sent is no reply: {one_line(err)}")
-                return None
+                answer = backend.ask(request, talk.fault)
+            except ModelCallError as err:
+                raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
             if key is not None:
                 talk.fresh.append((key, answer))
         talk.tokens_in += answer.tokens_in
@@ -286,14 +293,3 @@ class Door:
             return Picture(name, mime, path.read_bytes())
         except OSError as err:
             raise RunError(f"{path}: the picture cannot be read: {err.strerror}") from err
-
-
-def _answer(message: AIMessage) -> CachedReply:
-    usage: Mapping[str, Any] = message.usage_metadata or {}
-    reason = message.response_metadata.get("finish_reason")
-    return CachedReply(
-        text=message.text.encode("utf-8", "replace").decode(),
-        tokens_in=int(usage.get("input_tokens") or 0),
-        tokens_out=int(usage.get("output_tokens") or 0),
-        cut=reason in {"length", "max_tokens"},
-    )

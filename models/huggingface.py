@@ -1,7 +1,8 @@
 """Hugging Face models in this process: text models, and models that look at pictures, as one LangChain chat model.
 
-Sampling draws its noise from a generator of the call's own seed (the Gumbel-max trick: the highest of logits divided by
-temperature plus Gumbel noise is a draw from the softmax), so no global random state is read or changed.
+Weights are loaded once, prompts that arrive together are answered together, and a reply is held to its JSON schema
+while it is decoded (`models.constrained`). Sampling draws from a generator of the call's own seed, so no global random
+state is read or changed.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import base64
 import functools
 import io
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,25 +30,31 @@ from transformers import (
     AutoModelForImageTextToText,
     AutoProcessor,
     AutoTokenizer,
-    LogitsProcessor,
     LogitsProcessorList,
 )
 from typing_extensions import override
 
 from core.errors import ConfigError, ModelCallError
+from models.batching import Batcher
+from models.constrained import Drawing, Grammars, Row
+from models.settings import CallSettings
 
-NEW_TOKENS = 2048  # most tokens of one reply
+_GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}
+_LOADING = threading.Lock()
+_FAILURES = (RuntimeError, ValueError, LookupError, TypeError, OSError, TemplateError)
 
 
 @dataclass(frozen=True, slots=True)
 class _Loaded:
     """Weights, and what turns messages into their input: a tokenizer, or a processor where the model sees."""
 
+    path: str
     model: Any
     front: Any
     sees: bool
-    lock: threading.Lock
+    ends: list[int]
+    grammars: Grammars | None
 
     @property
     def tokenizer(self) -> Any:
@@ -60,22 +67,44 @@ class _Loaded:
         return int(getattr(config, "max_position_embeddings", None) or 1_000_000)
 
 
+@dataclass(frozen=True, slots=True)
+class _Question:
+    """One prompt, as a chat template takes it, and how its reply is to be drawn."""
+
+    chat: list[dict[str, Any]]
+    pictures: int
+    temperature: float
+    seed: int
+    max_tokens: int
+    schema: Mapping[str, Any] | None
+
+
 class HuggingFaceChat(BaseChatModel):
-    """A chat model in this process; `invoke` takes `temperature` (0 takes the likeliest) and `seed`."""
+    """A chat model in this process.
+
+    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, and the `schema` that the reply must
+    fit. A reply that had to be closed or cut at the length limit has the finish reason "length".
+    """
 
     path: str
-    new_tokens: int = NEW_TOKENS
     _loaded: _Loaded = PrivateAttr()
+    _answer: Batcher[_Question, AIMessage] = PrivateAttr()
 
-    def __init__(self, loaded: _Loaded, **fields: Any) -> None:
+    def __init__(self, loaded: _Loaded, batch: int = 1) -> None:
         """Wrap loaded weights."""
-        super().__init__(**fields)
+        super().__init__(path=loaded.path)
         self._loaded = loaded
+        self._answer = Batcher(self._answer_all, size=batch, kind=lambda question: question.pictures)
 
     @property
     def sees(self) -> bool:
         """Whether the model looks at pictures."""
         return self._loaded.sees
+
+    @property
+    def constrains(self) -> bool:
+        """Whether replies can be held to a schema; only slow tokenizers stand in the way."""
+        return self._loaded.grammars is not None
 
     @property
     @override
@@ -90,86 +119,138 @@ class HuggingFaceChat(BaseChatModel):
         run_manager: CallbackManagerForLLMRun | None = None,
         **kwargs: Any,
     ) -> ChatResult:
-        """Answer the messages.
+        """Answer the messages, together with those of other threads that wait.
 
         Raises:
             ModelCallError: If the messages do not fit, or the model fails on them.
         """
-        temperature, seed = float(kwargs.get("temperature", 0.0)), int(kwargs.get("seed", 0))
-        try:
-            with self._loaded.lock, torch.inference_mode():
-                reply, tokens_in = self._reply(messages, temperature, seed)
-        except (RuntimeError, ValueError, LookupError, TypeError, OSError, TemplateError) as err:
-            raise ModelCallError(f"{self.path}: the model failed on the prompt: {' '.join(str(err).split())}") from err
-        ids = reply.tolist()
-        ended = bool(ids) and ids[-1] in _ends(self._loaded)
-        text = self._loaded.tokenizer.decode(ids, skip_special_tokens=True)
-        usage = UsageMetadata(input_tokens=tokens_in, output_tokens=len(ids), total_tokens=tokens_in + len(ids))
-        told = {"finish_reason": "stop" if ended else "length", "model_name": self.path}
-        message = AIMessage(content=text, usage_metadata=usage, response_metadata=told)
-        return ChatResult(generations=[ChatGeneration(message=message)])
+        chat = [_turn(message, self.sees) for message in messages]
+        question = _Question(
+            chat,
+            pictures=sum(part["type"] == "image" for turn in chat if self.sees for part in turn["content"]),
+            temperature=float(kwargs.get("temperature", 0.0)),
+            seed=int(kwargs.get("seed", 0)),
+            max_tokens=int(kwargs.get("max_tokens", CallSettings().max_tokens)),
+            schema=kwargs.get("schema"),
+        )
+        return ChatResult(generations=[ChatGeneration(message=self._answer(question))])
 
-    def _reply(self, messages: Sequence[BaseMessage], temperature: float, seed: int) -> tuple[torch.Tensor, int]:
-        """Return the ids of the new tokens, shape (T,), and how many tokens the prompt has."""
+    def _answer_all(self, questions: Sequence[_Question]) -> list[AIMessage | Exception]:
+        """Answer questions in one go; where that fails, one by one, so that none suffers from another."""
+        try:
+            with torch.inference_mode():
+                return list(self._generate_together(questions))
+        except _FAILURES as err:
+            if len(questions) == 1:
+                what = " ".join(str(err).split())
+                return [ModelCallError(f"{self.path}: the model failed on the prompt: {what}")]
+        except ModelCallError as err:
+            if len(questions) == 1:
+                return [err]
+        return [answer for question in questions for answer in self._answer_all([question])]
+
+    def _generate_together(self, questions: Sequence[_Question]) -> list[AIMessage]:
         loaded = self._loaded
-        chat = [_turn(message, loaded.sees) for message in messages]
         given = loaded.front.apply_chat_template(
-            chat, add_generation_prompt=True, tokenize=True, return_dict=True, return_tensors="pt"
+            [question.chat for question in questions],
+            add_generation_prompt=True,
+            tokenize=True,
+            return_dict=True,
+            return_tensors="pt",
+            padding=True,
         ).to(loaded.model.device)
-        length = int(given["input_ids"].shape[1])
-        if length >= loaded.room:
-            raise ModelCallError(f"{self.path}: a prompt of {length} tokens does not fit into its {loaded.room}")
-        draw = LogitsProcessorList([GumbelDraw(temperature, seed)] if temperature > 0 else [])
+        lengths = [int(length) for length in given["attention_mask"].sum(dim=1)]
+        rows = [self._row(question, length) for question, length in zip(questions, lengths, strict=True)]
         out = loaded.model.generate(
             **given,
-            max_new_tokens=min(self.new_tokens, loaded.room - length),
+            max_new_tokens=max(row.limit for row in rows),
             do_sample=False,
             num_beams=1,
-            logits_processor=draw,
+            logits_processor=LogitsProcessorList([Drawing(rows)]),
+            eos_token_id=loaded.ends,
             pad_token_id=_pad(loaded),
         )
-        return out[0, length:].cpu(), length
+        new = out[:, given["input_ids"].shape[1] :].tolist()
+        return [self._message(*entry) for entry in zip(new, rows, lengths, strict=True)]
+
+    def _row(self, question: _Question, length: int) -> Row:
+        loaded = self._loaded
+        if length >= loaded.room:
+            raise ModelCallError(f"{self.path}: a prompt of {length} tokens does not fit into its {loaded.room}")
+        room = loaded.room - length
+        limit = min(question.max_tokens, room)
+        row = Row(temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends)
+        if question.schema is not None and loaded.grammars is not None:
+            row.hold_to(loaded.grammars, question.schema, room)
+        return row
+
+    def _message(self, new: list[int], row: Row, tokens_in: int) -> AIMessage:
+        end = next((n for n, token in enumerate(new) if token in self._loaded.ends), None)
+        ids = new[: len(new) if end is None else end]
+        text = self._loaded.tokenizer.decode(ids, skip_special_tokens=True, clean_up_tokenization_spaces=False)
+        tokens_out = min(len(ids) + 1, row.limit)
+        cut = row.closed or len(ids) >= row.limit
+        return AIMessage(
+            content=text,
+            usage_metadata=UsageMetadata(
+                input_tokens=tokens_in, output_tokens=tokens_out, total_tokens=tokens_in + tokens_out
+            ),
+            response_metadata={"finish_reason": "length" if cut else "stop", "model_name": self.path},
+        )
 
 
-class GumbelDraw(LogitsProcessor):
-    """Turns taking the highest logit into a seeded draw at a temperature; good for one sequence at a time."""
-
-    def __init__(self, temperature: float, seed: int) -> None:
-        """Start the noise anew from a seed; the temperature must be above 0."""
-        self._temperature = temperature
-        self._noise = torch.Generator().manual_seed(seed)
-
-    def __call__(self, input_ids: torch.Tensor, scores: torch.Tensor) -> torch.Tensor:
-        """Return the noisy scores, shape (B, V); noise is drawn on the CPU, so that devices agree."""
-        uniform = torch.rand(scores.shape, generator=self._noise, dtype=torch.float64).clamp_min(1e-300)
-        gumbel = -torch.log(-torch.log(uniform))
-        return scores.to(torch.float64) / self._temperature + gumbel.to(scores.device)
-
-
-@functools.lru_cache(maxsize=4)
-def open_model(path: str) -> HuggingFaceChat:
-    """Load a repository or folder once, for all roles that ask for it.
+def open_model(path: str, settings: CallSettings | None = None) -> HuggingFaceChat:
+    """Load a repository or folder once, for all roles and studies that ask for it.
 
     Weights come from safetensors files only, and code that a repository brings along is never run.
 
     Raises:
         ConfigError: If it cannot be loaded, or is no chat model.
     """
+    chosen = settings or CallSettings()
+    with _LOADING:
+        return _open(path, chosen.device, chosen.dtype, chosen.batch)
+
+
+@functools.lru_cache(maxsize=4)
+def _open(path: str, device: str, dtype: str, batch: int | None) -> HuggingFaceChat:
     safe: dict[str, Any] = {"trust_remote_code": False}
+    place = _place(path, device)
+    number = ("auto" if place.type == "cuda" else torch.float32) if dtype == "auto" else getattr(torch, dtype)
     try:
         config = AutoConfig.from_pretrained(path, **safe)
         sees = hasattr(config, "vision_config")
         front = (AutoProcessor if sees else AutoTokenizer).from_pretrained(path, **safe)
         kind = AutoModelForImageTextToText if sees else AutoModelForCausalLM
-        dtype = "auto" if torch.cuda.is_available() else torch.float32
-        model: Any = kind.from_pretrained(path, dtype=dtype, use_safetensors=True, **safe)
+        model: Any = kind.from_pretrained(path, dtype=number, use_safetensors=True, **safe)
+        if not front.chat_template:
+            raise ConfigError(f"huggingface:{path} is no chat model: it has no chat template")
+        model.to(place).eval()
     except (OSError, ValueError, KeyError, ImportError, RuntimeError) as err:
         reason = " ".join(str(err).split())
         raise ConfigError(f"the model huggingface:{path} cannot be loaded: {reason}") from err
-    if not front.chat_template:
-        raise ConfigError(f"huggingface:{path} is no chat model: it has no chat template")
-    model.to("cuda" if torch.cuda.is_available() else "cpu").eval()
-    return HuggingFaceChat(_Loaded(model, front, sees, threading.Lock()), path=path)
+    tokenizer = getattr(front, "tokenizer", front)
+    tokenizer.padding_side = "left"
+    ends = _ends(path, model, tokenizer)
+    if tokenizer.pad_token_id is None:
+        tokenizer.pad_token = tokenizer.convert_ids_to_tokens(ends[0])
+    loaded = _Loaded(path, model, front, sees, ends, _grammars(model, tokenizer, ends))
+    return HuggingFaceChat(loaded, batch or (_GPU_BATCH if place.type == "cuda" else 1))
+
+
+def _place(path: str, device: str) -> torch.device:
+    if device == "auto":
+        return torch.device("cuda" if torch.cuda.is_available() else "cpu")
+    if device.startswith("cuda") and not torch.cuda.is_available():
+        raise ConfigError(f"the model huggingface:{path} cannot go to {device}: there is no GPU that torch can use")
+    return torch.device(device)
+
+
+def _grammars(model: Any, tokenizer: Any, ends: list[int]) -> Grammars | None:
+    try:
+        return Grammars(tokenizer, int(model.config.get_text_config().vocab_size), ends)
+    except ValueError:
+        return None
 
 
 def _turn(message: BaseMessage, sees: bool) -> dict[str, Any]:
@@ -187,15 +268,15 @@ def _turn(message: BaseMessage, sees: bool) -> dict[str, Any]:
     return {"role": role, "content": parts}
 
 
-def _ends(loaded: _Loaded) -> set[int]:
-    """Ids of the tokens that end a reply."""
-    ends = loaded.model.generation_config.eos_token_id
-    return set(ends) if isinstance(ends, list) else {ends}
+def _ends(path: str, model: Any, tokenizer: Any) -> list[int]:
+    """Ids of the tokens that end a reply, sorted."""
+    known = model.generation_config.eos_token_id
+    given = known if isinstance(known, list) else [known]
+    ends = {int(end) for end in (*given, tokenizer.eos_token_id) if end is not None}
+    if not ends:
+        raise ConfigError(f"huggingface:{path} is no chat model: it has no token that ends a reply")
+    return sorted(ends)
 
 
 def _pad(loaded: _Loaded) -> int:
-    """Any valid id: with one sequence nothing is padded, but `generate` asks for it."""
-    for known in (loaded.tokenizer.pad_token_id, *sorted(i for i in _ends(loaded) if i is not None)):
-        if known is not None:
-            return int(known)
-    return 0
+    return int(loaded.tokenizer.pad_token_id)

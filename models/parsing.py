@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from core.people import Frozen
 from core.protocols import Reply
 
 MAX_STARTS = 200
@@ -63,20 +62,6 @@ def say(err: ValidationError) -> str:
     said = [f"{'.'.join(str(part) for part in e['loc']) or 'the object'}: {e['msg']}" for e in errors[:_ERRORS_SHOWN]]
     more = [f"and {len(errors) - _ERRORS_SHOWN} more"] if len(errors) > _ERRORS_SHOWN else []
     return "; ".join([*said, *more])
-
-
-def schema_of(reply: type[Frozen]) -> str:
-    """A reply type's JSON schema on one line, without titles and notes that say nothing to a model."""
-    return json.dumps(_bare(reply.model_json_schema()), ensure_ascii=False)
-
-
-def _bare(schema: Any) -> Any:
-    if isinstance(schema, list):
-        return [_bare(part) for part in schema]
-    if not isinstance(schema, dict):
-        return schema
-    notes = {"title", "description"}
-    return {key: _bare(value) for key, value in schema.items() if not (key in notes and isinstance(value, str))}
 
 
 def _pieces(text: str) -> Iterator[_Piece]:

@@ -22,9 +22,11 @@ from core.errors import ModelCallError, ModelOutputError, RunError
 from core.protocols import Rendered, Role
 from core.randomness import Address, seed_at
 from core.replies import FreeMotionReply, VerdictsReply
-from models.backends import Backend
+from models.backends import Backend, Request
 from models.cache import ReplyCache
 from models.door import SEEDS, Door
+from models.settings import CallSettings, Structure
+from models.transport import Gate, Line
 
 AT = Address("nora", 1, 9, "score")
 YES = '{"verdicts": [{"yes": true, "reason": "it helps"}]}'
@@ -81,11 +83,16 @@ class OnePrompt:
 
 def door_to(*script: str | Exception | AIMessage, **options: Any) -> tuple[Door, ScriptedModel]:
     model = ScriptedModel(*script)
-    door_options = {key: options.pop(key) for key in ("cache", "max_attempts", "root", "seed") if key in options}
-    fields = {"unreachable": (OSError, ModelTimeoutError), "garbled": (ValueError, LookupError), **options}
-    backend = Backend("scripted:one", model, **fields)
+    door_options = {key: options.pop(key) for key in ("cache", "root", "seed") if key in options}
+    settings = CallSettings(attempts=options.pop("attempts", 3), retries=options.pop("retries", 2))
+    line = Line(settings, Gate(4, None), (OSError, ModelTimeoutError), (ValueError, LookupError), sleep=lambda _: None)
+    backend = Backend("scripted:one", model, **{"options": drawing, "line": line, **options})
     backends: dict[Role, Backend] = {"robot": backend, "judge": backend}
-    return Door(prompts=OnePrompt(), backends=backends, **{"seed": 7, **door_options}), model
+    return Door(prompts=OnePrompt(), backends=backends, settings=settings, **{"seed": 7, **door_options}), model
+
+
+def drawing(request: Request, structure: Structure) -> dict[str, Any]:
+    return {"temperature": request.temperature, "seed": request.seed}
 
 
 def ask(door: Door, at: Address = AT, say: str = "Judge!", images: Sequence[Path] = ()) -> VerdictsReply:
@@ -131,7 +138,7 @@ def test_a_valid_object_is_found_in_whatever_stands_around_it(text: str) -> None
     ],
 )
 def test_a_bad_reply_is_never_guessed_at(text: str, said: str) -> None:
-    door, _ = door_to(text, max_attempts=1)
+    door, _ = door_to(text, attempts=1)
     with pytest.raises(ModelOutputError, match="judge/tasks") as err:
         ask(door)
     assert said in str(err.value)
@@ -181,8 +188,14 @@ def test_a_cut_reply_is_called_cut() -> None:
     assert "cut off at the length limit" in model.asked[1][-1].text
 
 
+def test_a_reply_that_ends_early_at_the_limit_counts_and_is_said_to() -> None:
+    door, _ = door_to(AIMessage(content=YES, response_metadata={"finish_reason": "length"}))
+    assert ask(door).verdicts
+    assert "ends early" in door.take_calls()[0].faults[0]
+
+
 def test_the_schema_is_appended_by_the_door_and_names_no_insides() -> None:
-    door, model = door_to('{"tasks": []}', max_attempts=1)
+    door, model = door_to('{"tasks": []}', attempts=1)
     with pytest.raises(ModelOutputError):
         door("robot/tasks_type2", FreeMotionReply, at=AT, variables={"say": "Go!"})
     text = model.asked[0][0].text
@@ -204,14 +217,8 @@ def test_seed_and_temperature_follow_prompt_and_address() -> None:
     assert all(0 <= seed < 2**31 for seed in seeds)
 
 
-def test_a_model_that_takes_no_seed_is_given_none() -> None:
-    door, model = door_to(YES, seeded=False)
-    ask(door)
-    assert model.options == [{"temperature": 0.25}]
-
-
 def test_the_offline_kind_gets_the_variables_and_no_schema() -> None:
-    door, model = door_to("no", YES, reads_variables=True)
+    door, model = door_to("no", YES, reads_variables=True, options=lambda request, structure: {})
     ask(door)
     first, again = model.asked[0][0], model.asked[1][-1]
     assert first.text == "Judge!"
@@ -226,13 +233,16 @@ def test_the_offline_kind_gets_the_variables_and_no_schema() -> None:
     assert model.options == [{}, {}]
 
 
-def test_a_call_that_cannot_reach_the_model_is_recorded_and_raised_at_once() -> None:
+def test_a_model_that_cannot_be_reached_is_tried_again_and_every_try_is_recorded() -> None:
     for error in (ConnectionRefusedError("refused"), ModelTimeoutError("too slow")):
-        door, model = door_to(error)
+        door, model = door_to(error, error, error)
         with pytest.raises(ModelCallError, match=f"judge/tasks: scripted:one cannot be asked: {error}"):
             ask(door)
         (call,) = door.take_calls()
-        assert (len(model.asked), call.attempts, len(call.faults)) == (1, 1, 1)
+        assert (len(model.asked), call.attempts, len(call.faults)) == (3, 1, 3)
+        door, _ = door_to(error, YES)
+        assert ask(door).verdicts
+        assert door.take_calls()[0].faults == [f"attempt 1: {error}; sent again after 1 s"]
 
 
 def test_a_garbled_answer_of_the_server_is_asked_for_again() -> None:
@@ -240,20 +250,21 @@ def test_a_garbled_answer_of_the_server_is_asked_for_again() -> None:
     assert ask(door).verdicts
     assert [len(asked) for asked in model.asked] == [1, 1, 1]
     (call,) = door.take_calls()
-    assert (call.attempts, len(call.faults)) == (3, 2)
+    assert (call.attempts, len(call.faults)) == (1, 2)
+    assert all("what the server sent is no reply" in fault for fault in call.faults)
 
 
 def test_a_server_that_only_talks_garbage_is_a_call_error() -> None:
     door, _ = door_to(*[ValueError("choices is null")] * 3)
-    with pytest.raises(ModelCallError, match="gave no reply: attempt 3: .*choices is null"):
+    with pytest.raises(ModelCallError, match="cannot be asked: .*choices is null"):
         ask(door)
     (call,) = door.take_calls()
-    assert [fault[:10] for fault in call.faults] == ["attempt 1:", "attempt 2:", "attempt 3:"]
+    assert len(call.faults) == 3
 
 
 def test_an_error_names_the_server_and_gives_no_key_away(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ACME_API_KEY", "sk-secret")
-    door, _ = door_to(ConnectionError("the key sk-secret\nis wrong"), address="http://box:8000/v1")
+    door, _ = door_to(ConnectionError("the key sk-secret\nis wrong"), address="http://box:8000/v1", retries=0)
     with pytest.raises(
         ModelCallError, match="scripted:one at http://box:8000/v1 cannot be asked: the key <ACME_API_KEY> is"
     ):
@@ -265,14 +276,11 @@ def test_garbage_after_a_bad_reply_does_not_lose_the_repair() -> None:
     door, model = door_to("no", ValueError("garbage"), YES)
     ask(door)
     assert [m.type for m in model.asked[2]] == ["human", "ai", "human"]
-    door, _ = door_to("no", ValueError("garbage"), ValueError("garbage"))
-    with pytest.raises(ModelOutputError) as err:
-        ask(door)
-    assert err.value.reply == "no"
+    assert [fault[:9] for fault in door.take_calls()[0].faults] == ["attempt 1", "attempt 2"]
 
 
 def test_a_bug_in_a_model_of_ours_is_not_taken_for_a_bad_answer() -> None:
-    door, _ = door_to(KeyError("bug"), garbled=())
+    door, _ = door_to(KeyError("bug"), line=None)
     with pytest.raises(KeyError):
         ask(door)
     assert len(door.take_calls()) == 1
@@ -366,7 +374,7 @@ def test_the_cache_tells_apart_what_decides_a_reply(tmp_path: Path) -> None:
 
 def test_a_call_that_failed_is_not_cached(tmp_path: Path) -> None:
     cache = ReplyCache(tmp_path / "c")
-    door, _ = door_to("no", cache=cache, max_attempts=1)
+    door, _ = door_to("no", cache=cache, attempts=1)
     with pytest.raises(ModelOutputError):
         ask(door)
     door, model = door_to(YES, cache=cache)

@@ -1,0 +1,175 @@
+"""Decoding that cannot leave a JSON schema: at each step only tokens that keep the reply valid can be drawn.
+
+llguidance says which tokens those are. A reply that nears the length limit is closed by the shortest way, so that even
+a model which knows nothing, or will not stop, answers with valid JSON.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import torch
+from llguidance import LLMatcher, LLTokenizer
+from llguidance.hf import from_tokenizer
+from transformers import LogitsProcessor
+
+from core.errors import ModelCallError
+
+_COMPILED = 256  # schemas kept: one differs from another by the objects that it names
+_ESCAPES = 'nt"\\'  # no \uXXXX: half a surrogate pair would be no text
+_CLOSERS = (b'"', b"}", b"]", b",")
+"""What to draw near the limit, first choice first: end the text, the object, the list; of numbers, the number."""
+_SLACK = 8
+
+
+class Grammars:
+    """A tokenizer's view of schemas; compiled ones are kept."""
+
+    def __init__(self, tokenizer: Any, vocabulary: int, ends: Sequence[int]) -> None:
+        """Read a Hugging Face tokenizer (about a second for 128,000 tokens).
+
+        Raises:
+            ValueError: If it is a slow tokenizer, for which nothing can be constrained.
+        """
+        size = max(vocabulary, len(tokenizer))
+        self._tokenizer: LLTokenizer = from_tokenizer(tokenizer, n_vocab=size, eos_token=list(ends))
+        self._compiled: dict[str, LLMatcher] = {}
+        pieces = [self._tokenizer.tokenize_bytes(closer) for closer in _CLOSERS]
+        self.closers = [ids[0] for ids in pieces if len(ids) == 1]
+
+    def matcher(self, schema: Mapping[str, Any]) -> LLMatcher:
+        """A fresh matcher at the start of a reply.
+
+        Raises:
+            ModelCallError: If the schema cannot be compiled.
+        """
+        text = json.dumps(schema, ensure_ascii=False)
+        if text not in self._compiled:
+            grammar = LLMatcher.grammar_from_json_schema(
+                text,
+                overrides={
+                    "whitespace_flexible": False,
+                    "item_separator": ", ",
+                    "key_separator": ": ",
+                    "json_allowed_escapes": _ESCAPES,
+                },
+            )
+            made = LLMatcher(self._tokenizer, grammar, log_level=0)
+            if made.is_error():
+                raise ModelCallError(f"the reply's schema cannot be enforced: {' '.join(made.get_error().split())}")
+            if len(self._compiled) >= _COMPILED:
+                self._compiled.pop(next(iter(self._compiled)))
+            self._compiled[text] = made
+        return self._compiled[text].deep_copy()
+
+
+class Row:
+    """One reply of a batch as it grows."""
+
+    def __init__(self, *, temperature: float, seed: int, limit: int, ends: Sequence[int]) -> None:
+        """Start a reply of at most `limit` tokens; a temperature of 0 takes the likeliest token."""
+        self.temperature = temperature
+        self.limit = limit
+        self.closed = False
+        self._ends = list(ends)
+        self._noise = torch.Generator().manual_seed(seed)
+        self._matcher: LLMatcher | None = None
+        self._closers: Sequence[int] = ()
+        self._reserve = 0
+        self._drawn = 0
+        self._done = False
+
+    def hold_to(self, grammars: Grammars, schema: Mapping[str, Any], room: int) -> None:
+        """Keep the reply to a schema; the limit is raised, up to `room`, to what the shortest reply may need."""
+        self._matcher, self._closers = grammars.matcher(schema), grammars.closers
+        self._reserve = shortest(schema, schema.get("$defs", {})) + _SLACK
+        self.limit = min(max(self.limit, self._reserve), room)
+
+    def draw(self, scores: torch.Tensor) -> int:
+        """Choose the next token from scores of shape (V,)."""
+        if self._done:
+            return self._ends[0]
+        if self._drawn >= self.limit:
+            return self._end()
+        if self._matcher is not None:
+            scores = self._allowed(self._matcher, scores)
+        token = self._sample(scores)
+        self._drawn += 1
+        if token in self._ends:
+            return self._end(token)
+        if self._matcher is not None and not self._matcher.consume_token(token):
+            raise ModelCallError(f"constrained decoding lost its way: {self._matcher.get_error()}")
+        return token
+
+    def _end(self, token: int | None = None) -> int:
+        self._done = True
+        return self._ends[0] if token is None else token
+
+    def _allowed(self, matcher: LLMatcher, scores: torch.Tensor) -> torch.Tensor:
+        bits = np.unpackbits(np.frombuffer(matcher.compute_bitmask(), np.uint8), bitorder="little")[: len(scores)]
+        if self.limit - self._drawn <= self._reserve and not matcher.is_accepting():
+            closer = next((token for token in self._closers if bits[token]), None)
+            if closer is not None:
+                self.closed = True
+                bits = np.zeros_like(bits)
+                bits[closer] = 1
+        mask = torch.from_numpy(bits).to(scores.device, torch.bool)
+        if len(mask) < len(scores):
+            mask = torch.nn.functional.pad(mask, (0, len(scores) - len(mask)))
+        return scores.masked_fill(~mask, -torch.inf)
+
+    def _sample(self, scores: torch.Tensor) -> int:
+        """Invert the cumulative distribution at one seeded number; no global random state is used."""
+        if self.temperature == 0:
+            return int(scores.argmax())
+        shares = torch.softmax(scores.to(torch.float64) / self.temperature, dim=-1).cumsum(dim=-1)
+        point = torch.rand((), generator=self._noise, dtype=torch.float64).to(shares.device) * shares[-1]
+        return min(int(torch.searchsorted(shares, point, right=True)), _last(scores))
+
+
+class Drawing(LogitsProcessor):
+    """Chooses each row's next token, so that `generate` only has to take the highest score."""
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        """Draw for the rows of one batch, in order."""
+        self._rows = rows
+
+    def __call__(self, input_ids: torch.Tensor, scores: torch.Tensor) -> torch.Tensor:
+        """Return scores of shape (B, V) that are 0 at each row's token and -inf elsewhere."""
+        chosen = torch.full_like(scores, -torch.inf)
+        for n, row in enumerate(self._rows):
+            chosen[n, row.draw(scores[n])] = 0.0
+        return chosen
+
+
+def shortest(schema: Mapping[str, Any], definitions: Mapping[str, Any]) -> int:
+    """Bound the bytes of the shortest reply that fits a schema, wherever it is broken off.
+
+    A token is a byte at least. An enumeration counts by its longest value, since it may have been begun.
+    """
+    if "$ref" in schema:
+        return shortest(definitions[schema["$ref"].rpartition("/")[2]], definitions)
+    if "const" in schema or "enum" in schema:
+        values: list[object] = schema.get("enum", [schema.get("const")])
+        return max(len(json.dumps(value).encode()) for value in values)
+    if options := [*schema.get("anyOf", ()), *schema.get("oneOf", ())]:
+        return max(shortest(option, definitions) for option in options)
+    kind = schema.get("type")
+    if kind == "object":
+        return 2 + sum(len(json.dumps(name)) + 4 + length for name, length in _fields(schema, definitions))
+    if kind == "array":
+        return 2 + max(1, int(schema.get("minItems", 0))) * (2 + shortest(schema["items"], definitions))
+    return 8 + 4 * int(schema.get("minLength", 0))
+
+
+def _fields(schema: Mapping[str, Any], definitions: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
+    for name, part in schema["properties"].items():
+        yield name, shortest(part, definitions)
+
+
+def _last(scores: torch.Tensor) -> int:
+    """The last token that may be drawn at all; rounding must not lead beyond it."""
+    return int(torch.nonzero(scores > -torch.inf)[-1])

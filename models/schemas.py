@@ -1,0 +1,81 @@
+"""The JSON schema of a reply: as a model reads it in words, and as a decoder or a server enforces it.
+
+The enforced schema is narrower than the reply type: every field is required, the names and ids of objects are those
+that the prompt shows, and lists are as long as the prompt asks for. What it forbids, the reply type may still accept.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from core.people import Frozen
+
+_OBJECTS = {
+    "PickPlace": {"object": "movable", "receptacle": "fixed"},
+    "FreeMotion": {"target": "fixed"},
+}
+"""By type and field: the variable of the prompt (an `ObjectMap`) that says which objects there are."""
+_COUNTS = {
+    "verdicts": ("offers", "guesses", "tasks"),
+    "tasks": ("n_tasks",),
+    "intentions": ("n_intentions",),
+}
+"""By list: the variables of which the first that is there says how long the list is."""
+_NOTES = {"title", "description"}
+
+
+def schema_of(reply: type[Frozen]) -> str:
+    """A reply type's JSON schema on one line, without titles and notes that say nothing to a model."""
+    return json.dumps(_bare(reply.model_json_schema(), _NOTES), ensure_ascii=False)
+
+
+def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any]) -> dict[str, Any]:
+    """What constrained decoding, or a server's `response_format`, holds a reply to.
+
+    Args:
+        reply: The reply type.
+        variables: What the prompt was filled with.
+
+    Returns:
+        A schema in which every object lists all its fields as required and allows no other.
+    """
+    schema: dict[str, Any] = _bare(reply.model_json_schema(), {*_NOTES, "default"})
+    definitions = schema.get("$defs", {})
+    for part in (schema, *definitions.values()):
+        if "properties" in part:
+            part["required"] = list(part["properties"])
+            part["additionalProperties"] = False
+    for name, fields in _OBJECTS.items():
+        for field, variable in fields.items():
+            if name in definitions and variables.get(variable):
+                _only(definitions[name]["properties"], field, variables[variable])
+    for field, sources in _COUNTS.items():
+        counted = next((variables[source] for source in sources if source in variables), None)
+        if counted is not None and field in schema["properties"]:
+            _as_long_as(schema["properties"][field], counted if isinstance(counted, int) else len(counted))
+    return schema
+
+
+def _only(properties: dict[str, Any], field: str, objects: Mapping[str, Any]) -> None:
+    properties[field] = {"type": "string", "enum": sorted(objects)}
+    properties[f"{field}_id"] = {"type": "integer", "enum": sorted({int(place[0]) for place in objects.values()})}
+
+
+def _as_long_as(items: dict[str, Any], count: int) -> None:
+    if items.get("minItems", 0) <= count <= items.get("maxItems", count):
+        items |= {"minItems": count, "maxItems": count}
+
+
+def _bare(schema: Any, notes: set[str], *, names: bool = False) -> Any:
+    """Drop keywords; `names` says that the keys are names of fields, which may be called like a keyword."""
+    if isinstance(schema, list):
+        return [_bare(part, notes) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    return {
+        key: _bare(value, notes, names=not names and key in {"properties", "$defs"})
+        for key, value in schema.items()
+        if names or key not in notes
+    }

@@ -1,0 +1,161 @@
+"""The way to a server: a gate that keeps the pace, and patience with requests that fail on their way.
+
+A request that the server could not take, or that came back as no chat completion, is sent again after a pause that
+doubles each time, or as long as the server's Retry-After asks for. Every failure is noted in the call's faults.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from email.utils import parsedate_to_datetime
+from typing import TypeVar
+
+from core.errors import ModelCallError
+from models.settings import CallSettings
+
+Answer = TypeVar("Answer")
+Sleep = Callable[[float], None]
+
+_AGAIN = frozenset({408, 409, 425, 429})
+_MINUTE = 60.0
+
+
+def wait(seconds: float) -> None:
+    """Do nothing for a while."""
+    threading.Event().wait(seconds)
+
+
+class Gate:
+    """Lets through so many requests at once, and begins so many in a minute; threads may share it."""
+
+    def __init__(
+        self, at_once: int, per_minute: int | None, *, sleep: Sleep = wait, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """Open a gate; `sleep` and `clock` are in seconds."""
+        self._free = threading.BoundedSemaphore(at_once)
+        self._per_minute = per_minute
+        self._sleep, self._clock = sleep, clock
+        self._begun: deque[float] = deque()
+        self._lock = threading.Lock()
+
+    @contextmanager
+    def passed(self) -> Iterator[None]:
+        """Be one of those under way."""
+        with self._free:
+            while (pause := self._pause()) > 0:
+                self._sleep(pause)
+            yield
+
+    def _pause(self) -> float:
+        """Seconds until another request may begin; at 0 it has begun."""
+        if self._per_minute is None:
+            return 0.0
+        with self._lock:
+            now = self._clock()
+            while self._begun and self._begun[0] <= now - _MINUTE:
+                self._begun.popleft()
+            if len(self._begun) < self._per_minute:
+                self._begun.append(now)
+                return 0.0
+            return self._begun[0] + _MINUTE - now
+
+
+@functools.lru_cache(maxsize=64)
+def gate_to(server: str, at_once: int, per_minute: int | None) -> Gate:
+    """The one gate that all studies of this process pass on their way to a server."""
+    return Gate(at_once, per_minute)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A way to one server.
+
+    Attributes:
+        settings: Retries and pauses.
+        gate: The pace.
+        unreachable: What the client raises when it got no answer, or one that says no.
+        garbled: What it raises when the answer is no chat completion.
+        sleep: Waits for so many seconds.
+        now: The time of day, for a Retry-After that names a date.
+    """
+
+    settings: CallSettings
+    gate: Gate
+    unreachable: tuple[type[Exception], ...]
+    garbled: tuple[type[Exception], ...] = ()
+    sleep: Sleep = wait
+    now: Callable[[], datetime] = lambda: datetime.now(UTC)
+
+    def send(
+        self, request: Callable[[], Answer], note: Callable[[str], None], say: Callable[[Exception], str]
+    ) -> Answer:
+        """Send a request until it is answered.
+
+        Args:
+            request: Does it once.
+            note: Is told each failure.
+            say: Puts an error into words without giving keys away.
+
+        Raises:
+            RefusedError: If the server finds the request itself wrong (400 or 422).
+            ModelCallError: If it cannot be answered, or was not for all the retries.
+        """
+        for attempt in itertools.count():
+            try:
+                with self.gate.passed():
+                    return request()
+            except self.unreachable as err:
+                problem, failure = say(err), err
+                status = status_of(err)
+                if status in {400, 422}:
+                    raise RefusedError(problem) from err
+                if status is not None and status not in _AGAIN and status < 500:
+                    raise ModelCallError(problem) from err
+            except self.garbled as err:
+                problem, failure = f"what the server sent is no reply: {say(err)}", err
+            if attempt == self.settings.retries:
+                raise ModelCallError(problem) from failure
+            pause = self._pause(failure, attempt)
+            if pause > self.settings.max_pause:
+                note(problem)
+                raise ModelCallError(f"the server asks to be left alone for {pause:.0f} seconds") from failure
+            note(f"{problem}; sent again after {pause:.3g} s")
+            self.sleep(pause)
+        raise AssertionError("counting does not end")
+
+    def _pause(self, err: Exception, attempt: int) -> float:
+        """Seconds to wait before the next try."""
+        grown = min(self.settings.backoff * 2.0**attempt, self.settings.max_pause)
+        return max(grown, self._asked_for(err) or 0.0)
+
+    def _asked_for(self, err: Exception) -> float | None:
+        headers: Mapping[str, str] = getattr(getattr(err, "response", None), "headers", None) or {}
+        text = headers.get("retry-after")
+        if text is None:
+            return None
+        try:
+            return max(0.0, float(text))
+        except ValueError:
+            pass
+        try:
+            return max(0.0, (parsedate_to_datetime(text) - self.now()).total_seconds())
+        except (ValueError, TypeError):  # a TypeError is a date without a time zone
+            return None
+
+
+class RefusedError(Exception):
+    """The server finds the request wrong; asked for in another form it may do. Never leaves the backend."""
+
+
+def status_of(err: BaseException) -> int | None:
+    """The HTTP status that an error of a client tells of, if it does."""
+    status = getattr(err, "status_code", None)
+    return status if isinstance(status, int) else None

@@ -1,0 +1,113 @@
+"""Tiny models with random weights and a tokenizer trained on the spot: they know nothing, but they are real models."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import torch
+from tokenizers import Tokenizer, decoders, pre_tokenizers, trainers
+from tokenizers.models import BPE
+from transformers import (
+    CLIPImageProcessor,
+    CLIPVisionConfig,
+    LlamaConfig,
+    LlamaForCausalLM,
+    LlavaConfig,
+    LlavaForConditionalGeneration,
+    LlavaProcessor,
+    PreTrainedTokenizerFast,
+)
+
+from core.asks import ASKS
+from prompts import PromptLibrary
+from prompts.examples import examples
+
+TEXT = (
+    "{% for m in messages %}{{ m['role'] }}: {{ m['content'] }}\n{% endfor %}"
+    "{% if add_generation_prompt %}assistant: {% endif %}"
+)
+SEEING = (
+    "{% for m in messages %}{{ m['role'] }}: {% for part in m['content'] %}"
+    "{% if part['type'] == 'image' %}<image>{% else %}{{ part['text'] }}{% endif %}{% endfor %}\n{% endfor %}"
+    "assistant: "
+)
+LLAMA: dict[str, Any] = {
+    "hidden_size": 32,
+    "intermediate_size": 32,
+    "num_hidden_layers": 1,
+    "num_attention_heads": 2,
+    "num_key_value_heads": 1,
+    "max_position_embeddings": 16_384,
+    "bos_token_id": 0,
+    "eos_token_id": 1,
+    "initializer_range": 0.5,
+}
+
+
+def byte_tokenizer(template: str | None = TEXT, *more: str) -> PreTrainedTokenizerFast:
+    """Bytes as tokens, so that nothing has to be learned."""
+    return _trained(iter(()), template, *more)
+
+
+def word_tokenizer(template: str | None = TEXT, *more: str) -> PreTrainedTokenizerFast:
+    """Learned from the shipped prompts, so that they are short in it."""
+    library = PromptLibrary()
+    texts = (library.render(name, variables).text for name in sorted(ASKS) for variables in examples(name))
+    return _trained(texts, template, *more)
+
+
+def _trained(texts: Iterator[str], template: str | None, *more: str) -> PreTrainedTokenizerFast:
+    bare = Tokenizer(BPE())
+    bare.pre_tokenizer = pre_tokenizers.ByteLevel(add_prefix_space=False)
+    bare.decoder = decoders.ByteLevel()
+    alphabet = pre_tokenizers.ByteLevel.alphabet()
+    trainer = trainers.BpeTrainer(
+        vocab_size=2000, special_tokens=["<s>", "</s>", *more], initial_alphabet=alphabet, show_progress=False
+    )
+    bare.train_from_iterator(texts, trainer)
+    fast = PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
+    fast.chat_template = template
+    return fast
+
+
+def random_llama(folder: Path, words: PreTrainedTokenizerFast | None = None) -> Path:
+    """Write a Llama of some thousand weights."""
+    words = words or byte_tokenizer()
+    words.save_pretrained(folder)
+    with torch.random.fork_rng():
+        torch.manual_seed(0)
+        LlamaForCausalLM(LlamaConfig(vocab_size=len(words), **LLAMA)).save_pretrained(folder)
+    return folder
+
+
+def random_llava(folder: Path, words: PreTrainedTokenizerFast | None = None) -> Path:
+    """Write a Llava: a CLIP eye of 16 x 16 pixels before the same Llama. `words` must know <image>."""
+    words = words or byte_tokenizer(SEEING, "<image>")
+    size = {"height": 16, "width": 16}
+    LlavaProcessor(
+        image_processor=CLIPImageProcessor(size=size, crop_size=size),
+        tokenizer=words,
+        patch_size=8,
+        vision_feature_select_strategy="default",
+        num_additional_image_tokens=1,
+        chat_template=SEEING,
+    ).save_pretrained(folder)
+    vision = CLIPVisionConfig(
+        hidden_size=16,
+        intermediate_size=16,
+        num_hidden_layers=2,
+        num_attention_heads=2,
+        image_size=16,
+        patch_size=8,
+        projection_dim=16,
+        initializer_factor=20.0,
+    )
+    text = LlamaConfig(vocab_size=len(words), **LLAMA)
+    image = words.convert_tokens_to_ids("<image>")
+    with torch.random.fork_rng():
+        torch.manual_seed(0)
+        config = LlavaConfig(vision_config=vision, text_config=text, image_token_id=image)
+        LlavaForConditionalGeneration(config).save_pretrained(folder)
+    return folder
