@@ -56,7 +56,7 @@ _EXPECTED = {
     "calls.at_once": "a whole number from 1 to 1024",
     "calls.attempts": "a whole number from 1 to 10",
     "calls.max_tokens": "a whole number from 64 up",
-    "calls.structure": "auto, json_schema, tools, json_object or none",
+    "calls.structure": "auto, json_schema, tools, json_object or text",
     "calls.device": "auto, cpu, mps, cuda or cuda:N",
     "calls.dtype": "auto, float32, bfloat16 or float16",
     "calls.batch": "a whole number from 1 to 256",

@@ -75,7 +75,7 @@ class Backend:
     sees: bool = False
     reads_variables: bool = False
     options: Options = _no_options
-    structures: Sequence[Structure] = ("none",)
+    structures: Sequence[Structure] = ("text",)
     line: Line | None = None
     address: str | None = None
     _refused: list[Structure] = field(default_factory=list)
@@ -174,7 +174,7 @@ def _offline(role: Role, embeddings: Embeddings) -> Backend:
 
 def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
     model = importlib.import_module("models.huggingface").open_model(name, settings)
-    constrained = model.constrains and settings.structure != "none"
+    constrained = model.constrains and settings.structure != "text"
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
         schema = request.schema if structure == "json_schema" else None
@@ -185,7 +185,7 @@ def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
         model,
         sees=model.sees,
         options=options,
-        structures=("json_schema",) if constrained else ("none",),
+        structures=("json_schema",) if constrained else ("text",),
     )
 
 
@@ -195,7 +195,7 @@ def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, 
     if not key and not base_url:
         raise ConfigError(f"the model {spec} needs a key in the environment variable OPENAI_API_KEY, or --base-url")
     model = package.ChatOpenAI(
-        model=name, base_url=base_url, api_key=key or "none", timeout=settings.timeout, max_retries=0
+        model=name, base_url=base_url, api_key=key or "text", timeout=settings.timeout, max_retries=0
     )
     length = "max_tokens" if base_url else "max_completion_tokens"
 
@@ -231,7 +231,7 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
         raise ConfigError(f"the model {spec} needs a package that is not installed: {one_line(err)}") from err
     except (ValueError, TypeError) as err:
         raise ConfigError(f'the model "{spec}" cannot be opened: {one_line(err)}; a model may be {_HELP}') from err
-    structures = tuple(one for one in _structures(settings) if one in {"tools", "none"}) or ("none",)
+    structures = tuple(one for one in _structures(settings) if one in {"tools", "text"}) or ("text",)
     takes_tools = type(model).bind_tools is not BaseChatModel.bind_tools
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
@@ -245,7 +245,7 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
         model,
         sees=_sees(spec, model),
         options=options,
-        structures=structures if takes_tools else ("none",),
+        structures=structures if takes_tools else ("text",),
         line=_line(spec, settings, sleep, (ModelError, OSError, RuntimeError)),
     )
 
@@ -256,7 +256,7 @@ def _line(server: str, settings: CallSettings, sleep: Sleep, unreachable: tuple[
 
 
 def _structures(settings: CallSettings) -> tuple[Structure, ...]:
-    return ("json_schema", "tools", "none") if settings.structure == "auto" else (settings.structure,)
+    return ("json_schema", "tools", "text") if settings.structure == "auto" else (settings.structure,)
 
 
 def _drawn(request: Request) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from pydantic import Field
 from core.people import Frozen
 
 Seconds = Annotated[float, Field(gt=0, le=86_400, allow_inf_nan=False)]
-Structure: TypeAlias = Literal["auto", "json_schema", "tools", "json_object", "none"]
+Structure: TypeAlias = Literal["auto", "json_schema", "tools", "json_object", "text"]
 
 
 class CallSettings(Frozen):
@@ -26,7 +26,7 @@ class CallSettings(Frozen):
         attempts: Answers asked for before a bad one is an error; the model is shown what was wrong with the last.
         max_tokens: Most tokens of one reply.
         structure: How a server is held to the reply's form; auto takes the first that it does not refuse of
-            json_schema, tools and none.
+            json_schema, tools and text (the prompt alone).
         device: Where weights of this process go; auto takes a GPU if there is one.
         dtype: Their number format; auto takes the repository's own on a GPU, else float32.
         batch: Most prompts that a model of this process answers together. None is 16 on a GPU and 1 elsewhere, where

@@ -100,7 +100,7 @@ def test_a_prompt_that_does_not_fit_is_a_call_error(llama: HuggingFaceChat) -> N
 
 
 def test_random_weights_without_constraint_end_in_an_output_error_and_a_full_record(llama: HuggingFaceChat) -> None:
-    free = CallSettings(structure="none", max_tokens=64)
+    free = CallSettings(structure="text", max_tokens=64)
     backend = open_backend(f"huggingface:{llama.path}", "judge", EMBEDDINGS, settings=free)
     door = Door(prompts=PromptLibrary(), backends={"judge": backend}, seed=1, settings=free)
     with pytest.raises(ModelOutputError):
