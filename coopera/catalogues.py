@@ -33,9 +33,11 @@ def load_catalogues(config: Config) -> Catalogues:
     from evaluation import SETTINGS, known_methods  # noqa: PLC0415
     from simulation.scene import list_scenes  # noqa: PLC0415
 
+    shipped = list_scenes()
+    imported = [scene for scene in list_scenes([config.data_dir / "scenes"]) if scene not in shipped]
     return Catalogues(
         people=list(humans.known_ids(config.data_dir)),
-        scenes=list_scenes([config.data_dir / "scenes"]),
+        scenes=[*shipped, *imported],
         methods=known_methods(),
         needs={number: (setting.people, setting.scenes, setting.days) for number, setting in SETTINGS.items()},
     )

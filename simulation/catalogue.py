@@ -16,6 +16,7 @@ from pydantic import Field, ValidationError, model_validator
 from core.errors import ConfigError
 from core.household import plain
 from core.people import Frozen
+from simulation.categories import DYNAMIC, STATIC
 from simulation.scene import SceneObject
 from simulation.shapes import Colour, Kit, Part, Recipe, Size, plain_box
 from simulation.shapes_fixtures import FIXTURES
@@ -56,12 +57,13 @@ class FixedClass(Frozen):
 
 
 class MovableClass(Frozen):
-    """A class of things that are carried about."""
+    """A class of things that are carried about; `ycb` is the object of the YCB set that it stands for."""
 
     category: str
     size: tuple[Metres, Metres, Metres]
     colours: list[Hex] = Field(min_length=1)
     put: list[str] = Field(min_length=1)
+    ycb: str | None = None
 
 
 class RoomKind(Frozen):
@@ -89,7 +91,11 @@ class Catalogue(Frozen):
             unknown = sorted(set(kind.rooms) - set(self.rooms))
             if unknown:
                 raise ValueError(f"fixed.{cls}.rooms names the unknown room {unknown[0]!r}")
+            if kind.category not in STATIC:
+                raise ValueError(f"fixed.{cls}.category must be one of {', '.join(STATIC)}, not {kind.category!r}")
         for cls, thing in self.movable.items():
+            if thing.category not in DYNAMIC:
+                raise ValueError(f"movable.{cls}.category must be one of {', '.join(DYNAMIC)}, not {thing.category!r}")
             strange = sorted(set(thing.put) - set(self.fixed) - {"floor"})
             if strange:
                 raise ValueError(f"movable.{cls}.put names the unknown class {strange[0]!r}")

@@ -71,18 +71,10 @@ def _places(scene: Scene) -> Iterator[str]:
         room = scene.room(thing.room)
         if room is None:  # the schema forbids it
             continue
-        inside = thing.bounds if thing.fixed else None
-        if inside is None:
-            if not room.contains(*thing.xy):
-                yield f"{thing.name} lies outside its room, the {room.name}."
-        elif not _within(inside, room.bounds.grown(_SLACK)):
-            yield f"{thing.name} stands outside its room, the {room.name}."
+        if not room.bounds.encloses(thing.bounds, _SLACK):
+            yield f"{thing.name} {'stands' if thing.fixed else 'lies'} outside its room, the {room.name}."
         if thing.position[2] < -_SLACK:
             yield f"{thing.name} is sunk into the floor."
-
-
-def _within(inner: tuple[float, float, float, float], outer: tuple[float, float, float, float]) -> bool:
-    return inner[0] >= outer[0] and inner[1] >= outer[1] and inner[2] <= outer[2] and inner[3] <= outer[3]
 
 
 def _overlaps(scene: Scene) -> Iterator[str]:

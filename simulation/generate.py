@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,11 @@ from simulation.shapes import Size
 from simulation.spots import Spot, Taken, furniture_on, is_free, spots, taken_at, taken_by
 
 MOST_ROOMS = 24
+MOST_THINGS = 300
+THINGS_PER_ROOM = 8.5  # PAPER App. B: from 33 movable things in 4 rooms to 94 in 11
 _ATTEMPTS = 8
+_NEEDED = 20
+"""A room without the first piece of its kind's furniture (a bedroom without a bed) counts as so many missing."""
 _COMFORTABLE = 0.68
 """Things are put this near to where one can stand if they can be, in metres."""
 
@@ -34,7 +39,7 @@ class _Draft(NamedTuple):
 
 
 def generate(
-    seed: int, rooms: int | Sequence[str] = 7, id: str = "home", *, things: Sequence[str] | None = None
+    seed: int, rooms: int | Sequence[str] = 7, id: str = "home", *, things: int | Sequence[str] | None = None
 ) -> Scene:
     """Generate a home in which everything can be walked up to and taken: several are tried, the fullest first.
 
@@ -44,7 +49,7 @@ def generate(
         seed: Any integer; the same gives the same home on every machine.
         rooms: How many rooms (1 to 24), or their kinds in words.
         id: The home's id.
-        things: Classes of movable things to put in it, one each, repeats allowed; without it each known class once.
+        things: How many movable things to put in it, or their classes, repeats allowed; without it `THINGS_PER_ROOM`.
             Things that find no fitting support are left out.
 
     Raises:
@@ -52,13 +57,16 @@ def generate(
         SimulationError: If no layout of so many rooms was found.
     """
     kinds = _room_kinds(rooms)
-    wanted = list(things) if things is not None else sorted(catalogue().movable)
-    unknown = sorted(set(wanted) - set(catalogue().movable))
+    if things is None:
+        things = round(THINGS_PER_ROOM * len(kinds))
+    if isinstance(things, int) and not 0 <= things <= MOST_THINGS:
+        raise ConfigError(f"A home has 0 to {MOST_THINGS} movable things, not {things}.")
+    unknown = [] if isinstance(things, int) else sorted(set(things) - set(catalogue().movable))
     if unknown:
         raise ConfigError(f"There is no movable class {unknown[0]!r} in the catalogue.")
     best: tuple[int, Scene] | None = None
     for draft in _drafts(seed, kinds):
-        scene = _inhabit(draft, seed, id, wanted)
+        scene = _inhabit(draft, seed, id, things)
         problems = len(check(scene))
         if best is None or problems < best[0]:
             best = (problems, scene)
@@ -68,11 +76,24 @@ def generate(
     return best[1]
 
 
-def _inhabit(draft: _Draft, seed: int, id: str, wanted: Sequence[str]) -> Scene:
+def _inhabit(draft: _Draft, seed: int, id: str, things: int | Sequence[str]) -> Scene:
     furniture = _name_furniture(draft, rng_at(seed, "colours"))
     home = Scene(id=SceneId(id), seed=seed, rooms=draft.layout.rooms, doors=draft.layout.doors, objects=furniture)
-    things = _place_things(home, wanted, rng_at(seed, "things"))
-    return Scene(id=home.id, seed=seed, rooms=home.rooms, doors=home.doors, objects=[*furniture, *things])
+    wanted = _choose(home, things, rng_at(seed, "which things")) if isinstance(things, int) else things
+    placed = _place_things(home, wanted, rng_at(seed, "things"))
+    return Scene(id=home.id, seed=seed, rooms=home.rooms, doors=home.doors, objects=[*furniture, *placed])
+
+
+def _choose(home: Scene, count: int, rng: np.random.Generator) -> list[str]:
+    """Classes of things that belong in a home: of each super-category in turn, none twice before all are there."""
+    there = {"floor", *(thing.cls for thing in home.fixed)}
+    by_category: dict[str, list[str]] = {}
+    for cls, kind in sorted(catalogue().movable.items()):
+        if not there.isdisjoint(kind.put):
+            by_category.setdefault(kind.category, []).append(cls)
+    shuffled = [[classes[int(i)] for i in rng.permutation(len(classes))] for classes in by_category.values()]
+    once = [cls for row in zip_longest(*shuffled) for cls in row if cls is not None]
+    return [once[i % len(once)] for i in range(count)] if once else []
 
 
 def _room_kinds(rooms: int | Sequence[str]) -> list[str]:
@@ -105,8 +126,9 @@ def _furnish(layout: Layout, seed: int, attempt: int) -> _Draft:
     for room in layout.rooms:
         doors = [door for door in layout.doors if room.name in door.between]
         plan = RoomPlan(room, doors, outer, rng_at(seed, "furniture", attempt, room.name))
-        for cls in catalogue().rooms[room.kind].furniture:
-            missing += not plan.add(cls)
+        for index, cls in enumerate(catalogue().rooms[room.kind].furniture):
+            if not plan.add(cls):
+                missing += 1 if index else _NEEDED
         pieces.append(plan.pieces)
     return _Draft(layout, pieces, missing)
 

@@ -26,6 +26,8 @@ USUAL_ROOMS = (
     "bedroom",
     "dining room",
     "laundry room",
+    "garage",
+    "sunroom",
 )
 _LAYOUTS = 400
 _MOST_LAYOUTS = 4000

@@ -55,6 +55,15 @@ class Bounds(NamedTuple):
             and other.y0 < self.y1 + margin
         )
 
+    def encloses(self, other: Bounds, slack: float = 0.0) -> bool:
+        """Whether the other rectangle lies within this one, or sticks out by no more than `slack` metres."""
+        return (
+            other.x0 >= self.x0 - slack
+            and other.y0 >= self.y0 - slack
+            and other.x1 <= self.x1 + slack
+            and other.y1 <= self.y1 + slack
+        )
+
     def grown(self, by: float) -> Bounds:
         """The rectangle with each side moved outwards by `by`."""
         return Bounds(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)

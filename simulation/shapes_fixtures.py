@@ -266,6 +266,43 @@ def curtain(kit: Kit) -> None:
     kit.rod((0, 0.01, h * 0.97), 0.018, w, DARK_WOOD, "x")
 
 
+def bay_window(kit: Kit) -> None:
+    """Draw a window in an arch of bricks, on a low wall with a deep sill."""
+    w, d, h = kit.w, kit.d, kit.h
+    sill = h * 0.3
+    kit.box((0, -0.01, 0), (w, d - 0.02, sill - 0.04), (0.72, 0.45, 0.36))
+    kit.box((0, 0, sill - 0.04), (w, d, 0.04), CREAM)
+    kit.box((0, -d / 2 + 0.02, sill), (w * 0.8, 0.02, h * 0.58), (0.62, 0.83, 0.97))
+    for x in (-0.2, 0.2):
+        kit.box((x * w, -d / 2 + 0.04, sill), (0.04, 0.02, h * 0.58), WHITE)
+    kit.box((0, -d / 2 + 0.04, sill + h * 0.3), (w * 0.8, 0.02, 0.04), WHITE)
+    for side in (-1, 1):
+        kit.box((side * w * 0.45, -d * 0.2, sill), (w * 0.1, d * 0.6, h * 0.52))
+        kit.box((side * w * 0.36, -d * 0.2, h * 0.82), (w * 0.12, d * 0.6, h * 0.08))
+        kit.box((side * w * 0.2, -d * 0.2, h * 0.88), (w * 0.26, d * 0.6, h * 0.06))
+    kit.box((0, -d * 0.2, h * 0.92), (w * 0.34, d * 0.6, h * 0.08))
+
+
+def bicycle(kit: Kit) -> None:
+    """Draw a bicycle along x, its front wheel to the left: wheels, frame, saddle, handlebar, a crate on the carrier."""
+    w, d, h = kit.w, kit.d, kit.h
+    wheel = min(h * 0.31, w * 0.2)
+    for side in (-1, 1):
+        kit.tube((side * (w / 2 - wheel), 0, wheel), wheel, 0.04, BLACK, "y")
+        kit.tube((side * (w / 2 - wheel), 0, wheel), wheel * 0.8, 0.05, STEEL, "y")
+    kit.box((0, 0, wheel), (w - 2 * wheel, 0.04, 0.05))
+    kit.box((-w * 0.04, 0, h * 0.68), (w * 0.44, 0.04, 0.05))
+    kit.box((w * 0.16, 0, wheel), (0.04, 0.04, h * 0.86 - wheel))
+    kit.box((-w * 0.25, 0, wheel), (0.05, 0.05, h * 0.96 - wheel))
+    kit.rod((-w * 0.25, 0, h * 0.97), 0.02, d, BLACK, "y")
+    kit.box((w * 0.16, 0, h * 0.86), (0.26, 0.16, 0.06), DARK_WOOD)
+    kit.tube((0, 0, wheel * 0.9), 0.1, 0.06, DARK, "y")
+    kit.box((w * 0.36, 0, h * 0.66), (w * 0.24, d * 0.75, h * 0.06), WOOD)
+    for side in (-1, 1):
+        kit.box((w * 0.36, side * d * 0.36, h * 0.72), (w * 0.24, 0.02, h * 0.08), WOOD)
+    kit.box((w * 0.1, d * 0.2, 0), (0.03, 0.03, wheel), DARK)
+
+
 FIXTURES: dict[str, Recipe] = {
     recipe.__name__: recipe
     for recipe in (
@@ -287,5 +324,7 @@ FIXTURES: dict[str, Recipe] = {
         fireplace,
         radiator,
         curtain,
+        bay_window,
+        bicycle,
     )
 }

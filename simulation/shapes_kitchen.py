@@ -7,6 +7,7 @@ from simulation.shapes import (
     DARK,
     DARK_WOOD,
     GREEN,
+    PAPER,
     RED,
     STEEL,
     WHITE,
@@ -188,6 +189,11 @@ def pudding_box(kit: Kit) -> None:
     _packet(kit, (0.95, 0.9, 0.75), (0.5, 0.28, 0.12))
 
 
+def gelatin_box(kit: Kit) -> None:
+    """Draw a low box with a light band and a red berry."""
+    _packet(kit, PAPER, RED)
+
+
 def _can(kit: Kit, label: Colour) -> None:
     kit.tube((0, 0, 0), kit.w / 2, kit.h, STEEL)
     kit.tube((0, 0, kit.h * 0.1), kit.w / 2 * 1.03, kit.h * 0.42)
@@ -202,6 +208,24 @@ def tomato_soup_can(kit: Kit) -> None:
 def tuna_can(kit: Kit) -> None:
     """Draw a flat blue can."""
     _can(kit, YELLOW)
+
+
+def chips_can(kit: Kit) -> None:
+    """Draw a tall tube with a light lid."""
+    _can(kit, YELLOW)
+
+
+def coffee_can(kit: Kit) -> None:
+    """Draw a wide can with a brown label."""
+    _can(kit, DARK_WOOD)
+
+
+def potted_meat_can(kit: Kit) -> None:
+    """Draw a low tin with flat sides, a yellow band and a ring to open it."""
+    kit.box((0, 0, 0), (kit.w, kit.d, kit.h))
+    kit.box((0, 0, kit.h * 0.25), (kit.w * 1.01, kit.d * 1.01, kit.h * 0.45), YELLOW)
+    kit.box((0, 0, kit.h * 0.94), (kit.w * 0.96, kit.d * 0.96, kit.h * 0.06), STEEL)
+    kit.tube((0, 0, kit.h), kit.d * 0.2, 0.003, DARK)
 
 
 def banana(kit: Kit) -> None:
@@ -320,8 +344,12 @@ KITCHEN_THINGS: dict[str, Recipe] = {
         cracker_box,
         sugar_box,
         pudding_box,
+        gelatin_box,
         tomato_soup_can,
         tuna_can,
+        chips_can,
+        coffee_can,
+        potted_meat_can,
         banana,
         apple,
         lemon,

@@ -51,10 +51,21 @@ def taken_at(spot: Spot, size: Size) -> Taken:
 
 
 def furniture_on(scene: Scene, carrier: SceneObject) -> list[Taken]:
-    """Spaces on, over or beside a piece of furniture that other furniture fills, such as a microwave on a counter."""
+    """Spaces on, over or beside a piece of furniture that are filled: by other furniture, and by what is not its room."""
     around = carrier.bounds.grown(_OVERHANG)
     near = [other for other in scene.fixed if other.name != carrier.name and other.bounds.overlaps(around)]
-    return [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
+    filled = [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
+    room = scene.room(carrier.room)
+    return filled if room is None else [*filled, *_outside(room.bounds)]
+
+
+def _outside(room: Bounds) -> list[Taken]:
+    out = room.grown(_OVERHANG)
+    strips = (
+        *(out._replace(x1=room.x0), out._replace(x0=room.x1)),
+        *(out._replace(y1=room.y0), out._replace(y0=room.y1)),
+    )
+    return [Taken(strip, 0.0, math.inf) for strip in strips]
 
 
 def spots(carrier: SceneObject, size: Size, taken: Iterable[Taken]) -> list[Spot]:

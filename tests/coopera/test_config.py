@@ -44,6 +44,17 @@ def test_a_setting_decides_what_is_left_open() -> None:
     assert config.day_hours == list(range(9, 22))
 
 
+@pytest.mark.parametrize("setting", [1, 2, 3, 4])
+def test_what_ships_is_enough_for_every_setting_and_an_imported_home_takes_no_ones_place(
+    tmp_path: Path, setting: int
+) -> None:
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "abbey.json").write_text("{}")
+    config = resolve(Config(setting=setting, data_dir=tmp_path))
+    wanted = {1: 1, 2: 5, 3: 1, 4: 3}[setting]
+    assert config.scenes == ["maple", "oak", "pine", "rowan", "willow"][:wanted]
+
+
 def test_run_folders_are_numbered_without_a_clock(tmp_path: Path) -> None:
     (tmp_path / "run-001").mkdir()
     (tmp_path / "run-003").mkdir()

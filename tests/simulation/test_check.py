@@ -110,3 +110,10 @@ def test_overlapping_rooms_are_found() -> None:
         {"name": "b", "kind": "study", "x0": 2, "y0": 0, "x1": 5, "y1": 3},
     ]
     assert any("a and b overlap" in problem for problem in check(Scene.model_validate({"id": "two", "rooms": rooms})))
+
+
+def test_a_thing_that_sticks_into_the_wall_is_found(maple: Scene) -> None:
+    room = maple.rooms[0]
+    broom = next(thing for thing in maple.movable if thing.on is None)
+    into = with_changed(maple, broom.name, room=room.name, position=(room.x0 + 0.01, room.centre[1], 0.0))
+    assert f"{broom.name} lies outside its room, the {room.name}." in check(into)
