@@ -51,7 +51,7 @@ def taken_at(spot: Spot, size: Size) -> Taken:
 
 
 def furniture_on(scene: Scene, carrier: SceneObject) -> list[Taken]:
-    """Spaces on, over or beside a piece of furniture that are filled: by other furniture, and by what is not its room."""
+    """Spaces on, over or beside a piece of furniture that are filled: by other furniture, and all outside its room."""
     around = carrier.bounds.grown(_OVERHANG)
     near = [other for other in scene.fixed if other.name != carrier.name and other.bounds.overlaps(around)]
     filled = [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
