@@ -24,11 +24,12 @@ from core.randomness import Address, seed_at
 from models.backends import Backend, Request, open_backends
 from models.cache import CachedReply, ReplyCache, key_of
 from models.parsing import BadReplyError, read_reply
-from models.schemas import enforced_schema, schema_of
+from models.schemas import enforced_schema, schema_of, strays
 from models.settings import CallSettings
 from models.transport import Sleep, wait
 
 SHOWN = 4000  # characters of a bad reply that the model is shown again
+STRAYS = 5  # things out of place that a model is told of at once
 SEEDS = 2**31  # servers take seeds of 31 bits
 _ANSWER = "Answer with one JSON object and nothing else. It must fit this JSON schema:"
 _AGAIN = (
@@ -212,6 +213,12 @@ class Door:
                 reason = f"it was cut off at the length limit; {err}" if answer.cut else str(err)
                 talk.bad(reason, more=attempt + 1 < self.settings.attempts)
                 continue
+            last = attempt + 1 == self.settings.attempts
+            if stray := "; ".join(strays(valid.model_dump(), talk.schema)[:STRAYS]):
+                reason = stray
+                talk.bad(reason, more=not last)
+                if not last:
+                    continue
             if answer.cut:
                 talk.fault("the reply reached the length limit and ends early, though it can be used")
             if self.cache is not None:

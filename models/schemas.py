@@ -1,13 +1,14 @@
 """The JSON schema of a reply: as a model reads it in words, and as a decoder or a server enforces it.
 
 The enforced schema is narrower than the reply type: every field is required, the names and ids of objects are those
-that the prompt shows, and lists are as long as the prompt asks for. What it forbids, the reply type may still accept.
+that the prompt shows, and lists are as long as the prompt asks for. What it forbids, the reply type may still accept:
+a model that cannot be held to it is told where it strays, and in the end its reply counts as it is.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from core.people import Frozen
@@ -24,6 +25,7 @@ _COUNTS = {
 }
 """By list: the variables of which the first that is there says how long the list is."""
 _NOTES = {"title", "description"}
+_SHOWN = 5
 
 
 def schema_of(reply: type[Frozen]) -> str:
@@ -56,6 +58,29 @@ def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any]) -> dict[s
         if counted is not None and field in schema["properties"]:
             _as_long_as(schema["properties"][field], counted if isinstance(counted, int) else len(counted))
     return schema
+
+
+def strays(value: Any, schema: Mapping[str, Any], place: str = "") -> list[str]:
+    """Say where a valid reply leaves the enforced schema: things that are not there, too many or too few of a list."""
+    return list(_strays(value, schema, schema.get("$defs", {}), place))
+
+
+def _strays(value: Any, schema: Mapping[str, Any], definitions: Mapping[str, Any], place: str) -> Iterator[str]:
+    if "$ref" in schema:
+        schema = definitions[schema["$ref"].rpartition("/")[2]]
+    if "enum" in schema and value not in schema["enum"]:
+        known = json.dumps(schema["enum"][:_SHOWN], ensure_ascii=False)
+        yield f"{place}: there is no {json.dumps(value, ensure_ascii=False)}, but for example {known}"
+    if isinstance(value, list):
+        count = schema.get("minItems", 0)
+        if count == schema.get("maxItems") != len(value):
+            yield f"{place}: there must be {count} of them, not {len(value)}"
+        for n, item in enumerate(value):
+            yield from _strays(item, schema.get("items", {}), definitions, f"{place}.{n}")
+    elif isinstance(value, dict):
+        for name, part in schema.get("properties", {}).items():
+            if name in value:
+                yield from _strays(value[name], part, definitions, f"{place}.{name}" if place else name)
 
 
 def _only(properties: dict[str, Any], field: str, objects: Mapping[str, Any]) -> None:
