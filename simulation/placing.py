@@ -15,7 +15,7 @@ from simulation.state import HomeState
 
 def free_places(scene: Scene, state: HomeState, thing: SceneObject, receptacle: SceneObject) -> list[Spot]:
     """Free places for a thing on a piece of furniture: usual surface first, then those nearest to its front."""
-    around = receptacle.bounds.grown(0.1)
+    around = receptacle.bounds.grown(max(thing.size[:2]))  # a long thing hangs over the edge
     taken = furniture_on(scene, receptacle)
     for other in scene.movable:
         where = state.thing(other)

@@ -14,8 +14,9 @@ import numpy as np
 
 from core.household import Agent, HandOver, PickPlace, plain
 from simulation import fetch
+from simulation.check import FLOOR_REACH
 from simulation.humanoid_reach import reaching
-from simulation.navigation import Stand
+from simulation.navigation import REACH, Stand
 from simulation.placing import free_places, full
 from simulation.plans import (
     APART,
@@ -43,12 +44,16 @@ _COMFORTABLE = 0.85
 
 
 class Errand(NamedTuple):
-    """A point that a hand should get to, the furniture it lies on, what is carried there, and how often to try."""
+    """A point that a hand should get to, the furniture it lies on, what is carried there, and how often to try.
+
+    `reaches`: how far from the point one may stand (metres), the preferred distance first.
+    """
 
     point: tuple[float, float, float]
     on: SceneObject | None
     carries: str | None = None
     tries: int = _TRIES
+    reaches: tuple[float, ...] = (REACH, _FAR_REACH)
 
 
 def to_body(stand: Stand, point: tuple[float, float, float]) -> Array:
@@ -69,12 +74,13 @@ def grip(thing: SceneObject, position: tuple[float, float, float]) -> tuple[floa
     return position[0], position[1], position[2] + max(0.6 * thing.size[2], 0.02)
 
 
-def stands_for(ground: Ground, plan: Plan, agent: Agent, on: SceneObject | None, point: Point) -> Iterator[Stand]:
+def stands_for(ground: Ground, plan: Plan, agent: Agent, errand: Errand) -> Iterator[Stand]:
     """Yield places to stand at to reach a point: clear of the other one first, near ones before stretched ones."""
     taken = discs(plan.state, other(agent))
     start = plan.state.spot(agent)
     later: list[Stand] = []
-    for reach in (0.8, _FAR_REACH):
+    on, point = errand.on, errand.point[:2]
+    for reach in errand.reaches:
         found = (
             ground.navigator.approach(point, start, reach=reach)
             if on is None
@@ -96,7 +102,7 @@ def go_to_reach(
     Returns:
         The place, and the posture in which the point is reached; None if there is no such place.
     """
-    for tries, stand in enumerate(stands_for(ground, plan, agent, errand.on, errand.point[:2])):
+    for tries, stand in enumerate(stands_for(ground, plan, agent, errand)):
         if tries >= errand.tries:
             break
         posture = posture_for(agent, stand, errand.point)
@@ -149,15 +155,17 @@ def put(
     ]
     if not places:
         raise UnableError(full(receptacle, thing))
-    for place in places[:: max(1, len(places) // 8)]:
-        errand = Errand(grip(thing, place[:3]), receptacle, thing.name, tries=8)
-        found = go_to_reach(ground, plan, agent, errand, watch)
-        if found is not None:
-            there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
-            plan.steps.append(Handle(agent, *found, thing.name, there))
-            plan.state = plan.state.with_thing(thing.name, there)
-            plan.at.append(receptacle.name)
-            return
+    for far in (False, True):  # first where the other one can take it, too
+        for place in places[:: max(1, len(places) // 8)]:
+            reach = _FAR_REACH if far else FLOOR_REACH if place.z < 0.1 else REACH
+            errand = Errand(grip(thing, place[:3]), receptacle, thing.name, tries=8, reaches=(reach,))
+            found = go_to_reach(ground, plan, agent, errand, watch)
+            if found is not None:
+                there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
+                plan.steps.append(Handle(agent, *found, thing.name, there))
+                plan.state = plan.state.with_thing(thing.name, there)
+                plan.at.append(receptacle.name)
+                return
     raise UnableError(f"the {agent} cannot reach a free place on the {plain(receptacle.name)}")
 
 

@@ -34,8 +34,6 @@ _LONG = 0.7
 _FINE = 0.125
 _BULKY = 0.35
 _NEAR, _FAR = 0.05, 30.0
-_GLANCE = (64, 48)
-_CLOSE = 0.9  # metres
 Image = NDArray[np.uint8]
 
 
@@ -176,15 +174,10 @@ class Stage:
         Returns:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
         """
-        image, mask, _ = self._render(camera, size)
-        return image, mask
-
-    def _render(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64], Array]:
-        """Colours, bodies and distances (metres along the view) of each pixel."""
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
         lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, _NEAR, _FAR)
-        _, _, colours, depth, mask = pybullet.getCameraImage(
+        _, _, colours, _, mask = pybullet.getCameraImage(
             width,
             height,
             view,
@@ -195,15 +188,7 @@ class Stage:
             physicsClientId=self.client,
         )
         image: Image = np.asarray(colours, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
-        buffer = np.asarray(depth, dtype=np.float64).reshape(height, width)
-        metres: Array = _FAR * _NEAR / (_FAR - (_FAR - _NEAR) * buffer)
-        return image, np.asarray(mask, dtype=np.int64).reshape(height, width), metres
-
-    def glance(self, camera: Camera) -> tuple[float, float]:
-        """Take a small picture and judge it: share of the person's pixels, and of pixels right before the camera."""
-        image, mask, depth = self._render(camera, _GLANCE)
-        del image
-        return float((mask == self.person).mean()), float(((depth < _CLOSE) & (mask != self.person)).mean())
+        return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
 
 
 def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:

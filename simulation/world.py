@@ -57,7 +57,7 @@ class World:
         self.scene = scene.id
         self.frame_size = frame_size
         self.errors = errors or Errors()
-        self._scene = scene
+        self.layout = scene
         self._library: Library = load_library()
         self._ground = Ground(scene, Navigator(scene), self._library, match)
         self.state = self._initial()
@@ -80,19 +80,19 @@ class World:
 
     def _initial(self) -> HomeState:
         """The person in the middle of the most spacious room, the robot of the next one."""
-        rooms = sorted(self._scene.rooms, key=lambda room: (-_area(room.bounds), room.name))
+        rooms = sorted(self.layout.rooms, key=lambda room: (-_area(room.bounds), room.name))
         places = [place for room in rooms if (place := self._ground.navigator.middle_of(room.name)) is not None]
         person = places[0]
         robot = next((place for place in places[1:] if math.dist(place, person) > 1.0), None)
         if robot is None:
-            cells = self._ground.navigator.free_in(self._scene.room_at(*person).name)
+            cells = self._ground.navigator.free_in(self.layout.room_at(*person).name)
             robot = max(cells, key=lambda cell: round(math.dist(cell, person), 3))
         return HomeState(scene=self.scene, person=PersonState(spot=person, place=person), robot=RobotState(spot=robot))
 
     @property
     def rooms(self) -> list[str]:
         """Names of the rooms, sorted."""
-        return sorted(room.name for room in self._scene.rooms)
+        return sorted(room.name for room in self.layout.rooms)
 
     @property
     def motions(self) -> list[str]:
@@ -102,12 +102,27 @@ class World:
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
         """The object-room mapping as things now stand, sorted by name."""
         if kind == "fixed":
-            return {thing.name: (thing.id, thing.room) for thing in self._scene.fixed}
-        return {thing.name: (thing.id, room_of_thing(self._scene, self.state, thing)) for thing in self._scene.movable}
+            return {thing.name: (thing.id, thing.room) for thing in self.layout.fixed}
+        return {thing.name: (thing.id, room_of_thing(self.layout, self.state, thing)) for thing in self.layout.movable}
+
+    def as_scene(self) -> Scene:
+        """The home as things now stand, as a home of its own: to be checked, drawn or written to a file.
+
+        What the person and the robot hold comes from the magic box and is not in it.
+        """
+        things = []
+        for thing in self.layout.objects:
+            if not thing.fixed:
+                where = self.state.thing(thing)
+                change = {"position": where.position, "yaw": where.yaw, "on": where.on}
+                room = room_of_thing(self.layout, self.state, thing)
+                thing = thing.model_copy(update={**change, "room": room})
+            things.append(thing)
+        return self.layout.model_copy(update={"objects": things})
 
     def class_of(self, name: str) -> str:
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
-        thing = self._scene.object(name)
+        thing = self.layout.object(name)
         return thing.cls if thing is not None else name
 
     def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
@@ -130,6 +145,14 @@ class World:
             self._record(plan, agent, act.object if isinstance(act, PickPlace) else plan.state.person.thing)
         self.state = plan.state
         return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
+
+    def plan(self, agent: Agent, act: Act) -> Plan:
+        """What `perform` would do, step by step, without doing it.
+
+        Raises:
+            UnableError: With the reason why it cannot be done.
+        """
+        return self._plan(agent, act, None)
 
     def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
         recording = Filming(self._library, self.state).film(plan.steps, agent)
@@ -164,7 +187,7 @@ class World:
         recording = self._recorded()
         return perceive(
             self._watching().stage,
-            self._scene,
+            self.layout,
             recording,
             self._library,
             errors=self.errors,
@@ -218,7 +241,7 @@ class World:
             raise SimulationError(f"The snapshot of the home cannot be used, field {where}: {first['msg']}.") from err
         if state.scene != self.scene:
             raise SimulationError(f"The snapshot is of the home {state.scene!r}, but this is {self.scene!r}.")
-        strange = sorted(set(state.moved) - {thing.name for thing in self._scene.movable})
+        strange = sorted(set(state.moved) - {thing.name for thing in self.layout.movable})
         if strange:
             raise SimulationError(f"The snapshot moves {strange[0]!r}, which this home does not have.")
         self.state = state
@@ -226,7 +249,7 @@ class World:
 
     def on(self, cls: str, receptacle_cls: str) -> bool:
         """Whether some thing of a class is on (or in) some furniture of a class."""
-        for thing in self._scene.movable:
+        for thing in self.layout.movable:
             where = self.state.thing(thing).on
             if thing.cls == cls and where is not None and self.class_of(where) == receptacle_cls:
                 return True
@@ -240,16 +263,16 @@ class World:
     def near(self, agent: Agent, cls: str, within: float = 1.0) -> bool:
         """Whether an agent is within some metres of furniture of a class, in the same room."""
         place = self.state.person.place if agent == "human" else self.state.robot.spot
-        room = self._scene.room_at(*place).name
+        room = self.layout.room_at(*place).name
         return any(
             thing.cls == cls and thing.room == room and thing.bounds.distance(*place) <= within
-            for thing in self._scene.fixed
+            for thing in self.layout.fixed
         )
 
     def at(self, agent: Agent, room: str) -> bool:
         """Whether an agent is in a room."""
         place = self.state.person.place if agent == "human" else self.state.robot.spot
-        return self._scene.room_at(*place).name == room
+        return self.layout.room_at(*place).name == room
 
 
 def _area(bounds: tuple[float, float, float, float]) -> float:

@@ -30,7 +30,10 @@ def persons_share(world: World, tick: int) -> tuple[float, float]:
     camera = watcher._view(recording, recording.shots[index].at(recording.shots[index].deed))
     moment = recording.shots[index].at(within)
     watcher.stage.show(recording.state, moment)
-    return watcher.stage.glance(robot_camera(moment.robot))[0], watcher.stage.glance(camera)[0]
+    stage = watcher.stage
+    masks = [stage.picture(one, (64, 48))[1] for one in (robot_camera(moment.robot), camera)]
+    robot, third = (float((mask == stage.person).mean()) for mask in masks)
+    return robot, third
 
 
 @pytest.mark.parametrize(

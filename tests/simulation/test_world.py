@@ -218,7 +218,7 @@ def test_another_process_continues_from_a_snapshot_byte_for_byte(home, tmp_path)
 
 
 def _assert_consistent(world: World) -> None:
-    scene, state, ground = world._scene, world.state, world._ground
+    scene, state, ground = world.layout, world.state, world._ground
     for spot in (state.person.spot, state.robot.spot):
         assert ground.navigator.can_stand(*spot)
     assert math.dist(state.person.spot, state.robot.spot) >= 0.55

@@ -1,0 +1,159 @@
+"""Does the home work, and what does a day of it cost? `python -m benchmarks.home [--scenes …] [--commands N] [--days N]`.
+
+1. Commands: random pick-and-place commands by each body, in one life of each home. A command names a thing and a piece
+   of furniture; those for which the furniture has no free place at all are drawn again and counted apart. After each
+   command every path is checked against the furniture, and at the end the whole home as any home is (`coopera scenes
+   check`): nothing floats, nothing is inside another, everything can still be reached.
+2. A day: 13 hours of five acts of each body, the first of each hour watched by the robot. CPU seconds without pictures,
+   and what eight pictures of two views an hour cost on top.
+3. Memory: the same home lived in for many days, in one process; resident memory at the start and at the end.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from core.errors import SimulationError
+from core.household import Act, Agent, FreeMotion, HandOver, PickPlace
+from simulation import World, list_scenes, load_scene
+from simulation.catalogue import blocks
+from simulation.check import check
+from simulation.navigation import RADIUS, clearance, obstacle_boxes
+from simulation.placing import free_places
+from simulation.plans import Walk
+
+AGENTS: tuple[Agent, Agent] = ("human", "robot")
+HOURS, TASKS = 13, 5
+BOX = ("mug", "book", "towel", "water bottle", "phone", "apple")
+
+
+def random_pick_place(world: World, rng: np.random.Generator) -> tuple[PickPlace, bool]:
+    """A random command, and whether the furniture has any free place for the thing."""
+    scene = world.layout
+    thing = scene.movable[rng.integers(len(scene.movable))]
+    receptacle = scene.fixed[rng.integers(len(scene.fixed))]
+    act = PickPlace(object_id=thing.id, object=thing.name, receptacle_id=receptacle.id, receptacle=receptacle.name)
+    return act, bool(free_places(scene, world.state, thing, receptacle))
+
+
+def lowest_clearance(world: World, agent: Agent, act: Act) -> float:
+    """The least distance from furniture and walls on all ways of a planned act, in metres."""
+    scene = world.layout
+    boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
+    lowest = np.inf
+    for step in world.plan(agent, act).steps:
+        if isinstance(step, Walk):
+            for a, b in zip(step.points, step.points[1:], strict=False):
+                line = np.linspace(a, b, 2 + int(np.hypot(b[0] - a[0], b[1] - a[1]) / 0.02))
+                lowest = min(lowest, float(clearance(line[:, 0], line[:, 1], boxes).min()))
+    return lowest
+
+
+def commands(scene: str, agent: Agent, count: int) -> None:
+    """Give random commands in one home and print what came of them."""
+    rng = np.random.default_rng([count, len(scene), AGENTS.index(agent)])
+    reasons: Counter[str] = Counter()
+    done, impossible, lowest = 0, 0, np.inf
+    with World(load_scene(scene)) as world:
+        for _ in range(count):
+            act, possible = random_pick_place(world, rng)
+            while not possible:
+                impossible += 1
+                act, possible = random_pick_place(world, rng)
+            try:
+                lowest = min(lowest, lowest_clearance(world, agent, act))
+            except SimulationError as err:
+                reasons[f"{act.object} -> {act.receptacle}: {err}"] += 1
+                continue
+            done += world.perform(agent, act).ok
+        problems = check(world.as_scene())
+    print(
+        f"{scene:10} {agent:6} {done}/{count} = {done / count:.1%} done; {impossible} drawn for which there is no place; "
+        f"nearest any path comes to furniture {lowest:.3f} m (body radius {RADIUS}); problems afterwards {len(problems)}"
+    )
+    for line in [*reasons, *problems]:
+        print(f"    {line}")
+
+
+def live_a_day(world: World, rng: np.random.Generator, *, folder: Path | None = None) -> None:
+    """One day of both; with a folder, the first act of each hour is rendered into it."""
+    for _ in range(HOURS):
+        for number in range(TASKS):
+            for agent in AGENTS:
+                watched = agent == "human" and number == 0
+                world.perform(agent, random_act(world, agent, rng), record=watched)
+                if watched:
+                    world.percept(rng)
+                    if folder is not None:
+                        world.frames(8, folder)
+
+
+def random_act(world: World, agent: Agent, rng: np.random.Generator) -> Act:
+    """Half pick-and-place, half of what the body does in type 2."""
+    if rng.random() < 0.5:
+        return random_pick_place(world, rng)[0]
+    if agent == "robot":
+        return HandOver(object=str(rng.choice(BOX)))
+    target = world.layout.fixed[rng.integers(len(world.layout.fixed))]
+    motion = str(rng.choice(world.motions))
+    return FreeMotion(target_id=target.id, target=target.name, in_hand=str(rng.choice(BOX)), motion=motion)
+
+
+def days(scene: str, count: int) -> None:
+    """Print the cost of a day, with and without pictures, and the memory over many days."""
+    with World(load_scene(scene)) as world, tempfile.TemporaryDirectory() as folder:
+        live_a_day(world, np.random.default_rng(0))
+        plain = _timed(world, None)
+        small = _timed(world, Path(folder))
+        world.frame_size = (1024, 768)
+        large = _timed(world, Path(folder))
+        world.frame_size = (320, 240)
+        print(f"{scene:10} a day without pictures {plain:.1f} s CPU (median of 3); 8 pictures of 2 views an hour cost")
+        print(f"{'':10} {small - plain:.1f} s more at 320x240 and {large - plain:.1f} s more at 1024x768")
+        start = world.snapshot()
+        before = _resident()
+        for day in range(count):
+            world.restore(start)
+            live_a_day(world, np.random.default_rng(day))
+        print(
+            f"{'':10} resident memory {before:.0f} MB at the start of {count} days, {_resident():.0f} MB at their end"
+        )
+
+
+def _timed(world: World, folder: Path | None) -> float:
+    took = []
+    for seed in range(3 if folder is None else 1):
+        start = time.process_time()
+        live_a_day(world, np.random.default_rng(seed), folder=folder)
+        took.append(time.process_time() - start)
+    return float(np.median(took))
+
+
+def _resident() -> float:
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * resource.getpagesize() / 1e6
+
+
+def main() -> None:
+    """Measure what the arguments ask for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scenes", default=",".join(list_scenes()), help="homes, separated by commas")
+    parser.add_argument("--commands", type=int, default=200, help="commands to each body in each home")
+    parser.add_argument("--days", type=int, default=100, help="days over which memory is watched")
+    args = parser.parse_args()
+    for scene in args.scenes.split(","):
+        for agent in AGENTS:
+            if args.commands:
+                commands(scene, agent, args.commands)
+    days(args.scenes.split(",")[0], args.days)
+
+
+if __name__ == "__main__":
+    main()
