@@ -25,6 +25,7 @@ bench: $(READY)
 	$(BIN)/python -m benchmarks.classifier
 	$(BIN)/python -m benchmarks.memory_stream
 	$(BIN)/python -m benchmarks.learning
+	$(BIN)/python -m benchmarks.home
 
 # torch comes first and pinned, so that nothing that depends on it brings another build.
 $(READY): pyproject.toml constraints.txt

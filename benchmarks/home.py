@@ -1,4 +1,4 @@
-"""Does the home work, and what does a day of it cost? `python -m benchmarks.home [--scenes …] [--commands N] [--days N]`.
+"""Does the home work, and what does a day of it cost? `python -m benchmarks.home [--scenes …] [--commands N]`.
 
 1. Commands: random pick-and-place commands by each body, in one life of each home. A command names a thing and a piece
    of furniture; those for which the furniture has no free place at all are drawn again and counted apart. After each
@@ -75,8 +75,8 @@ def commands(scene: str, agent: Agent, count: int) -> None:
             done += world.perform(agent, act).ok
         problems = check(world.as_scene())
     print(
-        f"{scene:10} {agent:6} {done}/{count} = {done / count:.1%} done; {impossible} drawn for which there is no place; "
-        f"nearest any path comes to furniture {lowest:.3f} m (body radius {RADIUS}); problems afterwards {len(problems)}"
+        f"{scene:10} {agent:6} {done}/{count} = {done / count:.1%} done; {impossible} drawn without any place; "
+        f"paths keep {lowest:.3f} m from furniture (body radius {RADIUS}); problems afterwards: {len(problems)}"
     )
     for line in [*reasons, *problems]:
         print(f"    {line}")
@@ -122,9 +122,7 @@ def days(scene: str, count: int) -> None:
         for day in range(count):
             world.restore(start)
             live_a_day(world, np.random.default_rng(day))
-        print(
-            f"{'':10} resident memory {before:.0f} MB at the start of {count} days, {_resident():.0f} MB at their end"
-        )
+        print(f"{'':10} resident memory {before:.0f} MB before {count} more days, {_resident():.0f} MB after")
 
 
 def _timed(world: World, folder: Path | None) -> float:
@@ -152,7 +150,8 @@ def main() -> None:
         for agent in AGENTS:
             if args.commands:
                 commands(scene, agent, args.commands)
-    days(args.scenes.split(",")[0], args.days)
+    if args.days:
+        days(args.scenes.split(",")[0], args.days)
 
 
 if __name__ == "__main__":
