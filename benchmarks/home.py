@@ -1,9 +1,9 @@
 """Does the home work, and what does a day of it cost? `python -m benchmarks.home [--scenes …] [--commands N]`.
 
-1. Commands: random pick-and-place commands by each body, in one life of each home. A command names a thing and a piece
-   of furniture; those for which the furniture has no free place at all are drawn again and counted apart. After each
-   command every path is checked against the furniture, and at the end the whole home as any home is (`coopera scenes
-   check`): nothing floats, nothing is inside another, everything can still be reached.
+1. Commands: random pick-and-place commands by the person and by each robot, in one life of each home. A command
+   names a thing and a piece of furniture; those for which the furniture has no free place at all are drawn again and
+   counted apart. Every path is checked against the furniture, and at the end the whole home as any home is (`coopera
+   scenes check`): nothing floats, nothing is inside another, everything can still be reached.
 2. A day: 13 hours of five acts of each body, the first of each hour watched by the robot. CPU seconds without pictures,
    and what eight pictures of two views an hour cost on top.
 3. Memory: the same home lived in for many days, in one process; resident memory at the start and at the end.
@@ -28,6 +28,7 @@ from simulation.check import check
 from simulation.navigation import RADIUS, clearance, obstacle_boxes
 from simulation.placing import free_places
 from simulation.plans import Walk
+from simulation.robot import ROBOTS
 
 AGENTS: tuple[Agent, Agent] = ("human", "robot")
 HOURS, TASKS = 13, 5
@@ -56,12 +57,12 @@ def lowest_clearance(world: World, agent: Agent, act: Act) -> float:
     return lowest
 
 
-def commands(scene: str, agent: Agent, count: int) -> None:
+def commands(scene: str, agent: Agent, count: int, robot: str) -> None:
     """Give random commands in one home and print what came of them."""
     rng = np.random.default_rng([count, len(scene), AGENTS.index(agent)])
     reasons: Counter[str] = Counter()
     done, impossible, lowest = 0, 0, np.inf
-    with World(load_scene(scene)) as world:
+    with World(load_scene(scene), robot=robot) as world:
         for _ in range(count):
             act, possible = random_pick_place(world, rng)
             while not possible:
@@ -74,8 +75,9 @@ def commands(scene: str, agent: Agent, count: int) -> None:
                 continue
             done += world.perform(agent, act).ok
         problems = check(world.as_scene())
+    who = robot if agent == "robot" else "person"
     print(
-        f"{scene:10} {agent:6} {done}/{count} = {done / count:.1%} done; {impossible} drawn without any place; "
+        f"{scene:10} {who:11} {done}/{count} = {done / count:.1%} done; {impossible} without any place; "
         f"paths keep {lowest:.3f} m from furniture (body radius {RADIUS}); problems afterwards: {len(problems)}"
     )
     for line in [*reasons, *problems]:
@@ -147,9 +149,10 @@ def main() -> None:
     parser.add_argument("--days", type=int, default=100, help="days over which memory is watched")
     args = parser.parse_args()
     for scene in args.scenes.split(","):
-        for agent in AGENTS:
-            if args.commands:
-                commands(scene, agent, args.commands)
+        if args.commands:
+            commands(scene, "human", args.commands, ROBOTS[0])
+            for robot in ROBOTS:
+                commands(scene, "robot", args.commands, robot)
     if args.days:
         days(args.scenes.split(",")[0], args.days)
 

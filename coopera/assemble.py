@@ -152,7 +152,12 @@ class _Homes:
     def __call__(self, scene: SceneId) -> Home:
         if scene not in self._open:
             layout = load_scene(scene, [self._config.data_dir / "scenes"])
-            world = World(layout, frame_size=self._config.frame_size, match=_nearest_motion(self._embeddings))
+            world = World(
+                layout,
+                robot=self._config.robot,
+                frame_size=self._config.frame_size,
+                match=_nearest_motion(self._embeddings),
+            )
             self._open[scene] = self._stack.enter_context(world)
         return self._open[scene]
 

@@ -13,6 +13,7 @@ from coopera.config import Config
 from core.errors import ConfigError
 from core.people import Persona
 from graphs.person import PERSON_MODELS
+from simulation.robot import ROBOTS
 
 
 class Catalogues(NamedTuple):
@@ -54,6 +55,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
     _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
+    _check("robot", "robot", [config.robot], list(ROBOTS))
     _check("humans", "person", config.humans or [], known.people)
     _check("scenes", "home", config.scenes or [], known.scenes)
     people = config.humans or _first("humans", known.people, n_people, config.setting)

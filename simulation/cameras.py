@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simulation import fetch
 from simulation.humanoid import forward
-from simulation.navigation import Disc, Navigator
+from simulation.navigation import RADIUS, Disc, Navigator
 from simulation.plans import Placed, clear_of
+from simulation.robot import RobotBody
 from simulation.rotations import Array, about_z, wrapped
 from simulation.scene import Point, Scene
 from simulation.stage import Camera, Stage
@@ -47,9 +47,9 @@ def body_points(person: Placed) -> Array:
     return turned
 
 
-def robot_camera(robot: Placed) -> Camera:
+def robot_camera(body: RobotBody, robot: Placed) -> Camera:
     """The camera in the robot's head."""
-    place, direction = fetch.camera(robot.pose)
+    place, direction = body.camera(robot.pose)
     heading = about_z(robot.yaw)
     eye = heading @ place + np.array((robot.x, robot.y, 0.0))
     target = eye + heading @ direction
@@ -110,7 +110,7 @@ def watching_place(
     beside = (away >= 0.9) & (away <= 5.0) & (off < 0.65)
 
     def can_pass(place: Point) -> bool:
-        past = Disc(*place, fetch.RADIUS)
+        past = Disc(*place, RADIUS)
         return navigator.route(keep_clear[0], keep_clear[-1], avoid=past).points is not None
 
     return _best_sight(stage, focus, start, cells[beside], taken, can_pass)
@@ -132,8 +132,9 @@ def _best_sight(
         return None
     away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
     towards = np.arctan2(person.y - cells[:, 1], person.x - cells[:, 0])
+    ahead, _, high = stage.body.camera(stage.body.tucked)[0].tolist()
     eyes = np.stack(
-        (cells[:, 0] + 0.27 * np.cos(towards), cells[:, 1] + 0.27 * np.sin(towards), 1.1 + 0 * away), axis=1
+        (cells[:, 0] + ahead * np.cos(towards), cells[:, 1] + ahead * np.sin(towards), high + 0 * away), axis=1
     )
     stage.hide(focus.ignore)
     share = seen_share(stage, eyes, body_points(person))

@@ -73,7 +73,7 @@ def visible_from_robot(stage: Stage, scene: Scene, recording: Recording, moment:
     An object is seen if it lies within the picture and a ray to its middle or to the middle of its top meets nothing
     else first. The stage must show the moment.
     """
-    camera = robot_camera(moment.robot)
+    camera = robot_camera(stage.body, moment.robot)
     eye, ahead = np.array(camera.eye), np.array(camera.target) - np.array(camera.eye)
     names, points = [], []
     for thing in scene.objects:

@@ -9,9 +9,10 @@ from typing import NamedTuple, Protocol
 
 from core.errors import SimulationError
 from core.household import Agent, plain
-from simulation import fetch
+from simulation.elbowroom import Elbowroom
 from simulation.motions import Library, Motion
-from simulation.navigation import Disc, Navigator, Stand
+from simulation.navigation import RADIUS, Disc, Navigator, Stand
+from simulation.robot import RobotBody
 from simulation.rotations import Array
 from simulation.scene import Point, Scene, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
@@ -95,13 +96,17 @@ class Placed(NamedTuple):
 
 @dataclass(slots=True)
 class Plan:
-    """Steps in order, the home afterwards, the distance the acting agent goes, and the furniture it acts at."""
+    """Steps in order, the home afterwards, the distance the acting agent goes, and the furniture it acts at.
+
+    `blocked` names what last kept the robot's arm from a posture that it could otherwise have taken.
+    """
 
     state: HomeState
     steps: list[Step] = field(default_factory=list)
     metres: float = 0.0
     at: list[str] = field(default_factory=list)
     motion: Motion | None = None
+    blocked: str | None = None
 
     def mark(self) -> tuple[HomeState, int, float]:
         """Remember where the plan stands."""
@@ -120,6 +125,8 @@ class Ground:
     scene: Scene
     navigator: Navigator
     motions: Library
+    robot: RobotBody
+    room: Elbowroom
     search: Callable[[str], str] | None = None
 
     def fixed(self, name: str) -> SceneObject:
@@ -153,13 +160,13 @@ def discs(state: HomeState, agent: Agent) -> list[Disc]:
     person = state.person
     found = [Disc(*person.spot)]
     if math.dist(person.spot, person.place) > 0.1:
-        found.append(Disc(*person.place, _APART_SEATED - fetch.RADIUS))
+        found.append(Disc(*person.place, _APART_SEATED - RADIUS))
     return found
 
 
 def clear_of(place: Point, taken: list[Disc]) -> bool:
     """Whether a standing body at a place touches none of the discs."""
-    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius + fetch.RADIUS - 1e-9 for disc in taken)
+    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius + RADIUS - 1e-9 for disc in taken)
 
 
 def stand_up(person: PersonState, spot: Point) -> PersonState:

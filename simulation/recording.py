@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 
 from core.household import Agent
-from simulation import fetch
 from simulation.humanoid import SLICES, blend
 from simulation.humanoid_reach import carrying, reaching, standing
 from simulation.motions import Hold, Library, Motion
 from simulation.motions_poses import Setting, clip, pose_at
 from simulation.navigation import Stand
 from simulation.plans import Give, Handle, Placed, Play, Step, Turn, Walk
+from simulation.robot import RobotBody
 from simulation.rotations import Array, smooth, wrapped
 from simulation.scene import Point
 from simulation.skills import to_body
@@ -92,9 +92,9 @@ def person_still(library: Library, person: PersonState) -> Placed:
     return Placed(*person.place, person.yaw, pose_at(library[person.motion], 0.0, setting))
 
 
-def robot_still(state: HomeState) -> Placed:
+def robot_still(body: RobotBody, state: HomeState) -> Placed:
     """The robot between two acts."""
-    posture = fetch.TUCKED if state.robot.thing is None else fetch.CARRYING
+    posture = body.tucked if state.robot.thing is None else body.carrying
     return Placed(*state.robot.spot, state.robot.yaw, posture)
 
 
@@ -145,10 +145,11 @@ def walking(gone: float, carries: bool) -> Array:
 class Filming:
     """Turns the steps of a plan into shots."""
 
-    def __init__(self, library: Library, start: HomeState) -> None:
+    def __init__(self, library: Library, body: RobotBody, start: HomeState) -> None:
         self.motions = library
+        self.body = body
         self.person = person_still(library, start.person)
-        self.robot = robot_still(start)
+        self.robot = robot_still(body, start)
         self.hand = Held(start.person.thing) if start.person.thing else None
         self.gripper = Held(start.robot.thing) if start.robot.thing else None
         self.moved: dict[str, ThingState] = {}
@@ -175,7 +176,7 @@ class Filming:
     def _go(self, step: Walk) -> None:
         yaw = Track.along(step.points).heading(math.inf)
         if step.agent == "robot":
-            self.robot = Placed(*step.points[-1], self.robot.yaw if yaw is None else yaw, fetch.TUCKED)
+            self.robot = Placed(*step.points[-1], self.robot.yaw if yaw is None else yaw, self.body.tucked)
         else:
             self.person = Placed(*step.points[-1], self.person.yaw if yaw is None else yaw, standing())
         if step.agent == self._actor:
@@ -198,7 +199,7 @@ class Filming:
         def at(tick: int) -> Placed:
             gone = max(track.marks[-1] - (ticks - tick) * speed, 0.0)
             yaw = track.heading(gone)
-            pose = walking(gone, carries) if agent == "human" else (fetch.CARRYING if carries else fetch.TUCKED)
+            pose = walking(gone, carries) if agent == "human" else self._idle(agent, carries)
             return Placed(*track.at(gone), still.yaw if yaw is None else yaw, pose)
 
         return ticks, at
@@ -208,8 +209,8 @@ class Filming:
         agent = step.agent
         walk_ticks, walk_at = self._approach(agent)
         came = walk_at(walk_ticks)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, _idle(agent, step.put is not None))
-        after = here._replace(pose=_idle(agent, step.put is None))
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(agent, step.put is not None))
+        after = here._replace(pose=self._idle(agent, step.put is None))
         bent = here._replace(pose=step.posture)
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + _HOLD
@@ -264,8 +265,8 @@ class Filming:
         """Drive up, hold out the thing, and let the person take it."""
         walk_ticks, walk_at = self._approach("robot")
         came = walk_at(walk_ticks)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, fetch.CARRYING)
-        out, empty = here._replace(pose=step.posture), here._replace(pose=fetch.TUCKED)
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self.body.carrying)
+        out, empty = here._replace(pose=step.posture), here._replace(pose=self.body.tucked)
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + 2 * _HOLD
         still, moved = self.person, self.moved
@@ -291,14 +292,19 @@ class Filming:
 
     def _frozen(self, agent: Agent) -> Callable[[Placed, Held | None, dict[str, ThingState]], Moment]:
         """Moments in which only one agent moves; the robot keeps its head towards the person."""
-        person, robot, hand, gripper = self.person, self.robot, self.hand, self.gripper
+        person, robot, hand, gripper, turning = self.person, self.robot, self.hand, self.gripper, self.body
 
         def moment(body: Placed, held: Held | None, moved: dict[str, ThingState]) -> Moment:
             if agent == "human":
-                return Moment(body, watching(robot, body), held, gripper, moved)
+                return Moment(body, watching(turning, robot, body), held, gripper, moved)
             return Moment(person, body, hand, held, moved)
 
         return moment
+
+    def _idle(self, agent: Agent, holds: bool) -> Array:
+        if agent == "robot":
+            return self.body.carrying if holds else self.body.tucked
+        return carrying() if holds else standing()
 
     def _finish(self, agent: Agent, body: Placed, held: Held | None, moved: dict[str, ThingState]) -> None:
         self.moved = moved
@@ -315,17 +321,11 @@ def _receiving(person: Placed, step: Give) -> Placed:
     return person if pose is None else person._replace(yaw=yaw, pose=pose)
 
 
-def watching(robot: Placed, person: Placed) -> Placed:
+def watching(body: RobotBody, robot: Placed, person: Placed) -> Placed:
     """The robot with its head turned to the person's body."""
     height = min(max(float(person.pose[2]) + 0.15, 0.3), 1.1)
     stand = Stand(robot.x, robot.y, robot.yaw, 0.0, 0.0)
-    return robot._replace(pose=fetch.look_at(robot.pose, to_body(stand, (person.x, person.y, height))))
-
-
-def _idle(agent: Agent, holds: bool) -> Array:
-    if agent == "robot":
-        return fetch.CARRYING if holds else fetch.TUCKED
-    return carrying() if holds else standing()
+    return robot._replace(pose=body.look_at(robot.pose, to_body(stand, (person.x, person.y, height))))
 
 
 def _between(first: Placed, second: Placed, share: float, agent: Agent) -> Placed:

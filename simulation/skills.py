@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 
 from core.household import Agent, HandOver, PickPlace, plain
-from simulation import fetch
 from simulation.check import FLOOR_REACH
 from simulation.humanoid_reach import reaching
-from simulation.navigation import REACH, Stand
+from simulation.navigation import RADIUS, REACH, Stand
 from simulation.placing import free_places, full
 from simulation.plans import (
     APART,
@@ -31,13 +31,14 @@ from simulation.plans import (
     discs,
     other,
 )
-from simulation.rotations import Array
+from simulation.rotations import Array, about_z
 from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
 from simulation.walking import walk
 
 _FAR_REACH = 1.0
 _TRIES = 24
+_POSTURES = 4
 HANDING = (APART, 1.25)
 """Nearest and farthest distance from the person's middle at which the robot hands over a thing."""
 _COMFORTABLE = 0.85
@@ -63,10 +64,26 @@ def to_body(stand: Stand, point: tuple[float, float, float]) -> Array:
     return np.array((dx * cos + dy * sin, dy * cos - dx * sin, point[2]))
 
 
-def posture_for(agent: Agent, stand: Stand, point: tuple[float, float, float]) -> Array | None:
-    """How an agent that stands there gets its hand to a point of the world; None if it cannot."""
-    target = to_body(stand, point)
-    return reaching(target) if agent == "human" else fetch.reach(target)
+def posture_for(ground: Ground, plan: Plan, agent: Agent, stand: Stand, errand: Errand) -> Array | None:
+    """How an agent that stands there gets its hand to a point of the world; None if it cannot.
+
+    The robot's arm must keep clear of furniture and walls; what it would hit is noted in the plan.
+    """
+    target = to_body(stand, errand.point)
+    if agent == "human":
+        return reaching(target)
+    return _arm_posture(ground, plan, stand, target, errand.on)
+
+
+def _arm_posture(ground: Ground, plan: Plan, stand: Stand, target: Array, on: SceneObject | None) -> Array | None:
+    """The robot's first posture that reaches a point of its body frame and keeps the arm clear."""
+    body, heading, place = ground.robot, about_z(stand.yaw).T, np.array((stand.x, stand.y, 0.0))
+    for posture in islice(body.reach(target), _POSTURES):
+        hit = ground.room.hit(body.arm(posture) @ heading + place, target @ heading + place, on)
+        if hit is None:
+            return posture
+        plan.blocked = hit
+    return None
 
 
 def grip(thing: SceneObject, position: tuple[float, float, float]) -> tuple[float, float, float]:
@@ -105,7 +122,7 @@ def go_to_reach(
     for tries, stand in enumerate(stands_for(ground, plan, agent, errand)):
         if tries >= errand.tries:
             break
-        posture = posture_for(agent, stand, errand.point)
+        posture = posture_for(ground, plan, agent, stand, errand)
         if posture is None:
             continue
         mark = plan.mark()
@@ -134,7 +151,7 @@ def take(ground: Ground, plan: Plan, agent: Agent, thing: SceneObject, watch: Wa
     carrier = ground.scene.object(where.on) if where.on else None
     found = go_to_reach(ground, plan, agent, Errand(grip(thing, where.position), carrier), watch)
     if found is None:
-        raise UnableError(f"the {agent} cannot reach the {plain(thing.name)}")
+        raise UnableError(f"the {agent} cannot reach the {plain(thing.name)}{_why(plan)}")
     plan.steps.append(Handle(agent, *found, thing.name, None))
     if carrier is not None:
         plan.at.append(carrier.name)
@@ -166,7 +183,11 @@ def put(
                 plan.state = plan.state.with_thing(thing.name, there)
                 plan.at.append(receptacle.name)
                 return
-    raise UnableError(f"the {agent} cannot reach a free place on the {plain(receptacle.name)}")
+    raise UnableError(f"the {agent} cannot reach a free place on the {plain(receptacle.name)}{_why(plan)}")
+
+
+def _why(plan: Plan) -> str:
+    return f": its arm would hit the {plain(plan.blocked)}" if plan.blocked else ""
 
 
 def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:
@@ -206,7 +227,7 @@ def hand_over(ground: Ground, state: HomeState, act: HandOver) -> Plan:
     person = state.person
     for stand in _before_person(ground, state):
         point = handing_point(person, stand)
-        posture = fetch.reach(to_body(stand, point))
+        posture = _arm_posture(ground, plan, stand, to_body(stand, point), None)
         if posture is None:
             continue
         try:
@@ -226,7 +247,7 @@ def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
     gap = np.hypot(*(cells - np.array(person.place)).T)
     near = (gap >= HANDING[0]) & (gap <= HANDING[1])
     for disc in discs(state, "human"):
-        near &= np.hypot(*(cells - np.array((disc.x, disc.y))).T) >= disc.radius + fetch.RADIUS
+        near &= np.hypot(*(cells - np.array((disc.x, disc.y))).T) >= disc.radius + RADIUS
     cells, gap = cells[near], gap[near]
     towards = np.arctan2(person.place[1] - cells[:, 1], person.place[0] - cells[:, 0])
     side = np.abs(np.remainder(towards - person.yaw, math.tau) - math.pi)  # 0 straight ahead of the person

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.household import Agent
-from simulation import fetch
-from simulation.engine import pybullet  # isort: split
+from simulation.engine import load_urdf, pybullet  # isort: split
 
 from simulation.build import build  # after the engine: whoever imports pybullet first makes it print
 from simulation.humanoid import JOINTS, SLICES, Frames, forward
 from simulation.plans import Placed
 from simulation.recording import Held, Moment
+from simulation.robot import RobotBody
 from simulation.rotations import Array, about_z, matrix, quaternion
 from simulation.scene import Scene
 from simulation.state import HomeState, ThingState
@@ -48,15 +48,15 @@ class Camera(NamedTuple):
 class Stage:
     """All bodies of a home in one pybullet client; `close` it after use."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, body: RobotBody) -> None:
         """Build the home, the person and the robot: about 0.1 s."""
-        self.scene = scene
+        self.scene, self.body = scene, body
         self.client: int = pybullet.connect(pybullet.DIRECT)
         self.home = build(scene, self.client)
-        self.person = self._load("person.urdf")
-        self.robot = self._load("fetch.urdf")
+        self.person = load_urdf(BODIES / "person.urdf", self.client)
+        self.robot = load_urdf(body.urdf, self.client)
         self._person_joints = self._joints(self.person, tuple(name for name, _ in JOINTS))
-        self._robot_joints = self._joints(self.robot, fetch.JOINTS)
+        self._robot_joints = self._joints(self.robot, body.joints)
         self._shown: dict[str, ThingState] = {
             thing.name: ThingState(position=thing.position, yaw=thing.yaw, on=thing.on) for thing in scene.movable
         }
@@ -68,10 +68,6 @@ class Stage:
         if self.client >= 0:
             pybullet.disconnect(self.client)
             self.client = -1
-
-    def _load(self, name: str) -> int:
-        path = str(BODIES / name)
-        return int(pybullet.loadURDF(path, useFixedBase=True, physicsClientId=self.client))
 
     def _joints(self, body: int, names: Sequence[str]) -> list[int]:
         count = pybullet.getNumJoints(body, physicsClientId=self.client)
@@ -126,10 +122,14 @@ class Stage:
         else:
             name, size = self._from_box(held.name)
             self._carried.add(name)
-        place, turn = _in_hand(placed, held, size) if agent == "human" else _in_gripper(placed, size)
+        place, turn = _in_hand(placed, held, size) if agent == "human" else self._in_gripper(placed, size)
         heading = about_z(placed.yaw)
         at = heading @ place + np.array((placed.x, placed.y, 0.0))
         self.home.move_to(name, (float(at[0]), float(at[1]), float(at[2])), quaternion(heading @ turn))
+
+    def _in_gripper(self, robot: Placed, size: Point3) -> tuple[Array, Array]:
+        place = self.body.gripper(robot.pose).place
+        return place - np.array((0.0, 0.0, min(0.6 * size[2], 0.5 * size[2] + 0.03))), np.eye(3)
 
     def _from_box(self, text: str) -> tuple[str, Point3]:
         """The body of a thing from the magic box; the newest few are kept."""
@@ -276,8 +276,3 @@ def _long_tool(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
     across = np.array((0.0, 1.0, 0.0)) - up * up[1]
     across = across / math.sqrt(float(across @ across))
     return foot + up * 0.5 * size[0], np.stack((up, across, np.cross(up, across)), axis=1)
-
-
-def _in_gripper(robot: Placed, size: Point3) -> tuple[Array, Array]:
-    place = fetch.gripper(robot.pose).place
-    return place - np.array((0.0, 0.0, min(0.6 * size[2], 0.5 * size[2] + 0.03))), np.eye(3)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from core.household import Agent
-from simulation import fetch
-from simulation.navigation import Disc, Route
+from simulation.navigation import RADIUS, Disc, Route
 from simulation.plans import Ground, Plan, UnableError, Walk, discs, other, stand_up
 from simulation.scene import Point
 
@@ -55,7 +54,7 @@ def _in_the_way(route: Route, taken: list[Disc]) -> Disc | None:
     """The first disc that a walker on the route would touch; the start is left out, since they are there already."""
     points = route.points or []
     for disc in taken:
-        need = disc.radius + fetch.RADIUS - 0.01
+        need = disc.radius + RADIUS - 0.01
         for a, b in zip(points, points[1:], strict=False):
             if _to_line((disc.x, disc.y), a, b) < min(need, math.dist(points[0], (disc.x, disc.y)) - 0.01):
                 return disc

@@ -20,7 +20,7 @@ class Watcher:
     def __init__(self, ground: Ground) -> None:
         """Start pybullet and build the home in it."""
         self.ground = ground
-        self.stage = Stage(ground.scene)
+        self.stage = Stage(ground.scene, ground.robot)
 
     def close(self) -> None:
         """Give pybullet back."""
@@ -36,7 +36,8 @@ class Watcher:
         """
         person = plan.state.person
         route = self.ground.navigator.route(person.spot, spot)
-        elsewhere = robot_still(plan.state)._replace(x=-100.0, y=-100.0)  # it must not see itself in the way
+        # It must not see itself in the way.
+        elsewhere = robot_still(self.ground.robot, plan.state)._replace(x=-100.0, y=-100.0)
         self.stage.show(plan.state, Moment(deed, elsewhere, None, None, {}))
         focus = self._focus(deed)
         place = watching_place(
@@ -70,7 +71,7 @@ class Watcher:
                 views[index] = self._view(recording, shot.at(shot.deed))
             moment = shot.at(within)
             self.stage.show(recording.state, moment)
-            pictures["robot"].append(self.stage.picture(robot_camera(moment.robot), size)[0])
+            pictures["robot"].append(self.stage.picture(robot_camera(self.stage.body, moment.robot), size)[0])
             pictures["human"].append(self.stage.picture(views[index], size)[0])
         return pictures
 

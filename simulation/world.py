@@ -15,11 +15,13 @@ from pydantic import ValidationError
 from core.errors import SimulationError
 from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace, plain
 from simulation.activity import free_motion, stay
+from simulation.elbowroom import Elbowroom
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
 from simulation.percept import Errors, perceive
 from simulation.plans import Ground, Plan, UnableError
 from simulation.recording import Filming, Recording
+from simulation.robot import load_robot
 from simulation.scene import Scene
 from simulation.skills import hand_over, pick_place
 from simulation.state import HomeState, PersonState, RobotState, room_of_thing
@@ -39,6 +41,7 @@ class World:
         self,
         scene: Scene,
         *,
+        robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
         match: Callable[[str], str] | None = None,
         errors: Errors | None = None,
@@ -47,19 +50,21 @@ class World:
 
         Args:
             scene: The home.
+            robot: Name of the robot's body, one of `simulation.robot.ROBOTS`.
             frame_size: Width and height of the pictures in pixels.
             match: Finds the caption of `motions` that a free-form text means; without it words are compared.
             errors: How often the percept errs.
 
         Raises:
             SimulationError: If nobody can stand anywhere in the home.
+            ConfigError: If there is no such robot.
         """
         self.scene = scene.id
         self.frame_size = frame_size
         self.errors = errors or Errors()
         self.layout = scene
         self._library: Library = load_library()
-        self._ground = Ground(scene, Navigator(scene), self._library, match)
+        self._ground = Ground(scene, Navigator(scene), self._library, load_robot(robot), Elbowroom(scene), match)
         self.state = self._initial()
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
@@ -155,7 +160,7 @@ class World:
         return self._plan(agent, act, None)
 
     def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
-        recording = Filming(self._library, self.state).film(plan.steps, agent)
+        recording = Filming(self._library, self._ground.robot, self.state).film(plan.steps, agent)
         recording.motion = plan.motion or self._library[self.state.person.motion]
         recording.near, recording.in_hand = plan.at, in_hand
         self._recording = recording

@@ -44,6 +44,7 @@ def run(
     person: Annotated[
         str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
     ] = None,
+    robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
     pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -69,6 +70,7 @@ def run(
         "learning": learning,
         "human": human,
         "person": person,
+        "robot": robot,
         "pictures": pictures,
     }
     config = resolve(load_config(study, flags))

@@ -31,7 +31,7 @@ def persons_share(world: World, tick: int) -> tuple[float, float]:
     moment = recording.shots[index].at(within)
     watcher.stage.show(recording.state, moment)
     stage = watcher.stage
-    masks = [stage.picture(one, (64, 48))[1] for one in (robot_camera(moment.robot), camera)]
+    masks = [stage.picture(one, (64, 48))[1] for one in (robot_camera(stage.body, moment.robot), camera)]
     robot, third = (float((mask == stage.person).mean()) for mask in masks)
     return robot, third
 

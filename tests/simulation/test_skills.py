@@ -4,17 +4,19 @@ import math
 
 import pytest
 
+from simulation.elbowroom import Elbowroom
 from simulation.motions import load_library
 from simulation.navigation import Disc, Navigator, Stand
 from simulation.placing import free_places
 from simulation.plans import Give, Ground, Handle, Plan, UnableError, Walk, clear_of, discs
-from simulation.skills import hand_over, pick_place, posture_for
+from simulation.robot import load_robot
+from simulation.skills import Errand, hand_over, pick_place, posture_for
 from simulation.state import HomeState, PersonState, RobotState
 from simulation.walking import walk
 from tests.simulation.flat import bring, flat, put
 
 SCENE = flat()
-GROUND = Ground(SCENE, Navigator(SCENE), load_library())
+GROUND = Ground(SCENE, Navigator(SCENE), load_library(), load_robot("fetch"), Elbowroom(SCENE))
 
 
 def home(person=(1.0, 2.2), robot=(7.5, 4.3), **details) -> HomeState:
@@ -95,8 +97,9 @@ def test_a_thing_is_not_put_on_the_seat_in_which_the_person_sits() -> None:
 
 def test_an_arm_does_not_reach_across_the_room() -> None:
     for agent in ("human", "robot"):
-        assert posture_for(agent, Stand(0.0, 0.0, 0.0, 0.0, 0.0), (2.5, 0.0, 0.9)) is None
-        assert posture_for(agent, Stand(0.0, 0.0, 0.0, 0.0, 0.0), (0.7, 0.0, 0.8)) is not None
+        here = Stand(7.0, 1.0, 0.0, 0.0, 0.0)
+        assert posture_for(GROUND, Plan(home()), agent, here, Errand((9.5, 1.0, 0.9), None)) is None
+        assert posture_for(GROUND, Plan(home()), agent, here, Errand((7.7, 1.0, 0.8), None)) is not None
 
 
 def test_a_hand_over_happens_before_the_person_at_arms_length() -> None:
@@ -129,6 +132,6 @@ def test_a_person_who_sits_takes_up_the_seat_and_the_floor_before_it() -> None:
 
 def test_who_is_walled_in_cannot_be_helped() -> None:
     small = SCENE.model_copy(update={"doors": []})
-    ground = Ground(small, Navigator(small), load_library())
+    ground = Ground(small, Navigator(small), load_library(), load_robot("fetch"), Elbowroom(small))
     with pytest.raises(UnableError):
         pick_place(ground, home(), "human", put("book_1", "dining_table_1"))
