@@ -1,0 +1,74 @@
+"""Figures of the checks, and what the paper reports for each (PAPER §4.2, §4.5, Tables 1, 2 and 5)."""
+
+from __future__ import annotations
+
+from core.people import Frozen
+
+FULL = "full"
+"""The person as the paper simulates it; every other variant is an ablation."""
+
+
+class Figure(Frozen):
+    """One measured number.
+
+    Attributes:
+        check: Such as "distinct".
+        measure: What of it, such as "intentions".
+        variant: How the person was simulated: "full", or an ablation's name.
+        value: The number; None where it could not be measured, and `note` says why.
+        low: Lower end of its 95 % bootstrap interval, None where there is none.
+        high: Upper end.
+        n: How many of `unit` it is drawn from.
+        unit: Such as "days".
+        control: The same computation where it must find nothing, named in `control_is`.
+        paper: What the paper reports, None where it reports nothing.
+    """
+
+    check: str
+    measure: str
+    variant: str = FULL
+    value: float | None = None
+    low: float | None = None
+    high: float | None = None
+    n: int = 0
+    unit: str = ""
+    control: float | None = None
+    control_is: str = ""
+    paper: float | None = None
+    note: str = ""
+
+
+PAPER: dict[tuple[str, str, str], float] = {
+    ("distinct", "intentions", FULL): 0.995,
+    ("distinct", "tasks", FULL): 0.830,
+    ("distinct", "intentions", "no_extension"): 0.950,
+    ("distinct", "tasks", "no_extension"): 0.800,
+    ("diverse", "SD", FULL): 0.939,
+    ("coherent", "aligned", FULL): 0.342,
+    ("coherent", "mismatched", FULL): -0.497,
+    ("temporal", "accuracy", FULL): 0.789,
+    ("temporal", "F1", FULL): 0.790,
+    ("temporal", "accuracy", "single_shot"): 0.751,
+    ("temporal", "F1", "single_shot"): 0.740,
+    ("like people", "aligned", FULL): 0.810,
+    ("like people", "generic", FULL): 0.554,
+    ("like people", "mismatched", FULL): 0.523,
+    ("seen by people", "multiple choice", FULL): 0.764,
+    ("seen by people", "matching", FULL): 0.712,
+}
+"""(check, measure, variant) -> the published figure (Llama-3.1-8B people, 10 in 5 scenes for 20 days; BERT-large)."""
+
+
+def unmeasured(check: str, *measures: str, why: str) -> list[Figure]:
+    """Figures that could not be measured, with the reason."""
+    return [Figure(check=check, measure=measure, note=why) for measure in measures]
+
+
+def as_variant(figures: list[Figure], variant: str) -> list[Figure]:
+    """The figures of one way of simulating a person, each with what the paper reports of it."""
+    return [
+        figure.model_copy(
+            update={"variant": variant, "paper": PAPER.get((figure.check, figure.measure, variant), figure.paper)}
+        )
+        for figure in figures
+    ]
