@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import humans, memory, prompts, reports, run, scenes
+from coopera.commands import analyse, humans, memory, prompts, reports, run, scenes
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -26,6 +26,7 @@ app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")
 app.add_typer(memory.app, name="memory")
+app.add_typer(analyse.app, name="analyse")
 
 
 def main(args: Sequence[str] | None = None) -> int:

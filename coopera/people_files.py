@@ -46,7 +46,7 @@ def read_lives(paths: Sequence[Path]) -> Found:
 
     Raises:
         ConfigError: If there is no run, one holds no hour, or they do not go together: another language model behind
-            the person, another collaboration type, or another person of the same id.
+            the person, another collaboration type, or another person of the same id; or if there is one person only.
         RunError: If a run's files are damaged or newer than this version.
     """
     if not paths:
@@ -71,6 +71,11 @@ def read_lives(paths: Sequence[Path]) -> Found:
         failed = sum(record.human is None for record in hours)
         sources.append(Source(str(path), variant, run.config.seed, run.config.method, len(days), failed))
     model, collab = kinds[next(iter(kinds))]
+    for lives in variants.values():
+        if len(lives.people) < 2:
+            raise ConfigError(
+                f"RUN: these runs hold one person only ({lives.people[0]}); the checks compare at least two people."
+            )
     return Found(dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))), sources, model, collab)
 
 

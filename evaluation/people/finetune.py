@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -54,7 +55,8 @@ class FinetunedEncoder:
         self._model, self._recipe, self._seed = model, recipe or Recipe(), seed
         self._device = "cuda" if torch.cuda.is_available() else "cpu"
         self._tokenizer = self._load(AutoTokenizer)
-        self._load_network(2)
+        with self._own_generator():
+            self._load_network(2)  # what cannot be trained is refused at once
 
     def people(
         self, train: Sequence[Sequence[str]], labels: Sequence[int], test: Sequence[Sequence[str]], *, kind: str
@@ -76,11 +78,15 @@ class FinetunedEncoder:
         known = sorted(set(labels))
         place = {label: at for at, label in enumerate(known)}
         seed = seed_at(self._seed, "finetune", kind, len(train)) % 2**63
-        with torch.random.fork_rng(devices=[0] if self._device == "cuda" else []):
+        with self._own_generator():
             torch.manual_seed(seed)
             network = self._load_network(len(known))
             self._fit(network, train, [place[label] for label in labels], self._recipe.epochs[kind])
         return [known[at] for at in self._answers(network, test)]
+
+    def _own_generator(self) -> AbstractContextManager[None]:
+        """Leave the global random state as it was."""
+        return torch.random.fork_rng(devices=[0] if self._device == "cuda" else [])
 
     def _fit(self, network: Any, texts: Sequence[Text], labels: Sequence[int], epochs: int) -> None:
         optimizer = torch.optim.AdamW(network.parameters(), lr=self._recipe.learning_rate)
@@ -123,6 +129,7 @@ class FinetunedEncoder:
         """Load a part of the model, without the warning that its new head is untrained: it is about to be trained."""
         before = transformers_logging.get_verbosity()
         transformers_logging.set_verbosity_error()  # type: ignore[no-untyped-call]
+        transformers_logging.disable_progress_bar()  # type: ignore[no-untyped-call]
         try:
             return kind.from_pretrained(self._model, trust_remote_code=False, **options)
         except (OSError, ValueError, KeyError, ImportError, RuntimeError) as err:

@@ -72,18 +72,19 @@ def coherence(lives: Lives, *, seed: int = 0) -> list[Figure]:
         steps = [[Pair(b, true[(at + step) % len(true)]) for at, b in enumerate(believed)] for step in range(len(true))]
         for name, pairs in (("aligned", steps[0]), ("mismatched", steps[1])):
             interval = bootstrap(pairs, statistic, seed=seed)
+            others = [r for step in steps[1:] if not np.isnan(r := statistic(step))] if name == "mismatched" else []
             figures.append(
                 Figure(
                     check="coherent",
                     measure=name + suffix,
-                    value=None if np.isnan(interval.mean) else interval.mean,
-                    low=None if np.isnan(interval.low) else interval.low,
-                    high=None if np.isnan(interval.high) else interval.high,
+                    value=_finite(interval.mean),
+                    low=_finite(interval.low),
+                    high=_finite(interval.high),
                     n=len(people),
                     unit="people",
-                    control=_finite(np.nanmean([statistic(step) for step in steps[1:]])) if name != "aligned" else None,
-                    control_is="mean over all steps" if name != "aligned" else "",
-                    note=f"{len(lives.beliefs)} robots",
+                    control=float(np.mean(others)) if others else None,
+                    control_is="mean over all steps" if others else "",
+                    note=f"{len(lives.beliefs)} robots" if not np.isnan(interval.mean) else "no trait varies",
                 )
             )
     return figures
@@ -113,6 +114,5 @@ def _scores(people: Sequence[BigFive]) -> Floats:
     return np.array([[getattr(person, trait) for trait in TRAITS] for person in people], dtype=np.float64)
 
 
-def _finite(value: object) -> float | None:
-    number = float(value)  # type: ignore[arg-type]
-    return None if np.isnan(number) else number
+def _finite(value: float) -> float | None:
+    return None if np.isnan(value) else value

