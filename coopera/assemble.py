@@ -12,6 +12,7 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 
 from coopera.config import Config
+from coopera.lived import open_lived
 from coopera.rundir import RunDir
 from core.hour import ModelCall
 from core.household import SceneId
@@ -35,7 +36,8 @@ _GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
 def model_specs(config: Config) -> dict[Role, str]:
     """Which model plays which role."""
-    return {"human": config.models.human, "robot": config.models.robot, "judge": config.models.judge}
+    robot = config.backbone if find_method(config.method).other_backbone else config.models.robot
+    return {"human": config.models.human, "robot": robot, "judge": config.models.judge}
 
 
 def open_embeddings(config: Config) -> Embeddings:
@@ -122,6 +124,7 @@ def open_services(
             seed=config.seed,
             frames=config.frames if config.pictures == "sampled" else 0,
             person=PERSON_MODELS[config.person],
+            lived=open_lived(config),
         )
 
 
@@ -178,7 +181,12 @@ class _Streams:
 def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddings) -> Callable[[], Classifier]:
     if method.judge is not None:
         return partial(method.judge, kind)
-    inputs = Inputs(traits=method.traits, context=method.context, rank=method.order)
+    time_only = method.time_only
+    inputs = Inputs(
+        traits=method.traits and not time_only,
+        context=method.context and not time_only,
+        rank=method.order and not time_only,
+    )
     return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
 
 

@@ -51,17 +51,20 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         ConfigError: Naming the field, what is wrong and what there is.
     """
     known = catalogues or load_catalogues(config)
+    config = _by_schedule(config)
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
     _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
     _check("robot", "robot", [config.robot], list(ROBOTS))
+    _refuse_online(config)
     _check("humans", "person", config.humans or [], known.people)
     _check("scenes", "home", config.scenes or [], known.scenes)
     people = config.humans or _first("humans", known.people, n_people, config.setting)
     scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
-    _groups("humans", people, n_people, config.setting)
-    _groups("scenes", scenes, n_scenes, config.setting)
+    if not config.schedule:
+        _groups("humans", people, n_people, config.setting)
+        _groups("scenes", scenes, n_scenes, config.setting)
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
@@ -74,6 +77,29 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
             "out": config.out or next_folder(Path("runs")),
         }
     )
+
+
+def _refuse_online(config: Config) -> None:
+    """Refuse a method that is defined for the offline model alone with another one."""
+    from evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    if find_method(config.method).offline_only and not config.models.robot.startswith("offline"):
+        raise ConfigError(
+            f"method: {config.method} is defined for the offline robot model alone so far, and the robot model here is "
+            f"{config.models.robot}; see evaluation/baselines.py."
+        )
+
+
+def _by_schedule(config: Config) -> Config:
+    """With a schedule, its people, homes and days are the run's."""
+    if not config.schedule:
+        return config
+    who, where = (list(dict.fromkeys(names)) for names in zip(*config.schedule, strict=True))
+    said = {"humans": who, "scenes": where, "days": len(config.schedule)}
+    for field, value in said.items():
+        if getattr(config, field) not in (None, value):
+            raise ConfigError(f"{field}: the schedule says this already; leave it out.")
+    return config.model_copy(update=said)
 
 
 def _first(field: str, ids: Sequence[str], count: int, setting: int) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import analyse, humans, memory, prompts, reports, run, scenes
+from coopera.commands import analyse, benchmark, humans, memory, prompts, reports, run, scenes
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ app.command()(run.run)
 app.command()(run.resume)
 app.command()(reports.trace)
 app.command()(reports.report)
+app.command()(benchmark.benchmark)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")

@@ -47,6 +47,9 @@ _EXPECTED = {
     "robot": "the name of a robot's body such as fetch",
     "pictures": "sampled, none or video",
     "frames": "a whole number from 1 to 64",
+    "schedule": "a list of days, each [person, scene]",
+    "backbone": "a model such as offline:words",
+    "lived": "the path of a finished run without a robot",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
     "calls": "a mapping of settings such as timeout, retries and max_tokens",
     "calls.timeout": "a number of seconds above 0",
@@ -108,6 +111,9 @@ class Config(Frozen):
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels.
         calls: How models are called (`models.settings.CallSettings`).
+        schedule: The days of one episode, each a person and a home, in place of the setting's own order.
+        backbone: The robot's language model in methods that are there to try another one.
+        lived: A finished run without a robot, whose days the people live again.
         data_dir: Folder of imported people and homes.
     """
 
@@ -132,6 +138,9 @@ class Config(Frozen):
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
     frame_size: tuple[Pixels, Pixels] = (320, 240)
     calls: CallSettings = CallSettings()
+    schedule: Annotated[list[tuple[Text, Text]], Field(min_length=1, max_length=366)] | None = None
+    backbone: Text = "offline:words"
+    lived: Path | None = None
     data_dir: Path = Field(default_factory=default_data_dir)
 
     @field_validator("setting", "collab", mode="before")

@@ -22,7 +22,7 @@ from core.errors import RunError
 from core.hour import Counts, DayPlan
 from core.household import SceneId
 from core.people import PersonId
-from evaluation import SETTINGS, pool, schedule
+from evaluation import SETTINGS, episode, pool, schedule
 from graphs import STATE_TYPES, Services, build_study_graph
 from prompts import PromptLibrary
 
@@ -85,6 +85,8 @@ def new_run(config: Config) -> Iterator[tuple[RunDir, Services]]:
 
 def plan_days(config: Config) -> list[DayPlan]:
     """The days of a resolved configuration, in order."""
+    if config.schedule:
+        return episode([(PersonId(who), SceneId(where)) for who, where in config.schedule], config.hours, config.collab)
     return schedule(
         SETTINGS[config.setting],
         [PersonId(person) for person in config.humans or []],

@@ -9,7 +9,7 @@ from core.lazy import lazy_names
 if TYPE_CHECKING:
     from evaluation.counts import count, pool
     from evaluation.methods import METHODS, find_method, known_methods, register
-    from evaluation.settings import SETTINGS, schedule
+    from evaluation.settings import SETTINGS, episode, schedule
     from evaluation.success import Measure
 
 __all__ = [
@@ -17,6 +17,7 @@ __all__ = [
     "SETTINGS",
     "Measure",
     "count",
+    "episode",
     "find_method",
     "known_methods",
     "pool",
@@ -33,6 +34,7 @@ _HOMES = {
     "known_methods": "evaluation.methods",
     "pool": "evaluation.counts",
     "register": "evaluation.methods",
+    "episode": "evaluation.settings",
     "schedule": "evaluation.settings",
 }
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 from importlib.metadata import EntryPoint, entry_points
 
 from core.errors import ConfigError
+from evaluation.baselines import Finetuned, Habit
 from graphs.method import Method
 
 GROUP = "coopera.methods"
@@ -20,9 +21,23 @@ METHODS: dict[str, Method] = {
     method.name: method
     for method in (
         OURS,
-        replace(OURS, name="random", verdicts="accept", learns=False),  # PAPER §4.3: no classifiers, all accepted
+        # PAPER §4.3, baselines: one intention and its tasks from the history in the prompt, nothing validated
+        replace(OURS, name="direct_prompting", guesses=1, verdicts="accept", learns=False),
+        Method(
+            name="direct_finetuning", traits=False, own=Finetuned, offline_only=True
+        ),  # see evaluation.baselines for what it learns
+        replace(OURS, name="oracle", intentions="told", verdicts="accept", learns=False),
+        replace(OURS, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
+        replace(OURS, name="intention_agnostic", intentions="skipped"),
+        replace(OURS, name="human_context_agnostic", time_only=True),
         replace(OURS, name="no_traits", traits=False),  # PAPER §4.5
         replace(OURS, name="no_context", context=False),  # PAPER §4.5
+        replace(OURS, name="other_backbone", other_backbone=True),  # PAPER §4.5
+        # references that the paper lacks
+        Method(name="frequency_prior", traits=False, own=Habit),
+        replace(OURS, name="always_no", traits=False, verdicts="reject", learns=False),
+        # ours on its very first day, every day: the baseline of generalisation
+        replace(OURS, name="untrained", traits=False, context=False, learns=False),
         # nobody helps: a person's life alone, which later runs of any method may take over
         replace(OURS, name="none", traits=False, context=False, verdicts="accept", learns=False, robot=False),
         replace(OURS, name="no_order", order=False),  # classifiers see the paper's fields and nothing else

@@ -82,6 +82,23 @@ def schedule(
     ]
 
 
+def episode(
+    visits: Sequence[tuple[PersonId, SceneId]], hours: int = HOURS_PER_DAY, collab: Collab = 2
+) -> list[DayPlan]:
+    """Lay out one episode with a person and a home for each of its days."""
+    return [
+        DayPlan(
+            day=day,
+            episode_day=day,
+            person=person,
+            scene=scene,
+            hours=[FIRST_HOUR + n for n in range(hours)],
+            collab=collab,
+        )
+        for day, (person, scene) in enumerate(visits)
+    ]
+
+
 def _groups(field: str, ids: Sequence[Id], size: int, setting: Setting) -> list[list[Id]]:
     if not ids or len(ids) % size:
         raise ConfigError(

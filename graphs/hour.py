@@ -23,7 +23,8 @@ from core.people import Picture
 from core.protocols import Home
 from core.randomness import Address
 from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
-from graphs.robot import RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
+from graphs.lived import Shown
+from graphs.robot import OracleInput, RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
 
 
@@ -62,8 +63,12 @@ class Node(Protocol):
 def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, HourState]:
     """Compile the hour; a reply that cannot be read ends it early, as failed, and it is recorded all the same."""
     human, robot, own = build_human_graph(), build_robot_graph(), build_own_robot_graph()
+    oracle = build_robot_graph(OracleInput)
 
     def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+        if runtime.context.lived:
+            again = runtime.context.lived.hour(state["plan"], _clock(state).hour)
+            return {"human": again.human} if again.human else {"failure": again.reason}
         ctx = human_context(runtime.context, state["plan"])
         ctx.memories.forget_from(_clock(state).now)
         given = HumanInput(clock=_clock(state), hours=state["plan"].hours)
@@ -74,6 +79,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         ctx.guesses.forget_from(_clock(state).now)
         given = RobotInput(clock=_clock(state), observation=state["observation"], picture=state["picture"])
         helper = robot if ctx.own is None else own
+        if ctx.method.intentions == "told":
+            helper, given = oracle, OracleInput(**given, told=state["human"].intention.text)
         return {"robot": robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
@@ -102,6 +109,10 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """
     services, plan, clock = runtime.context, state["plan"], _clock(state)
     home, first = services.home(plan.scene), state["human"].tasks[0]
+    keeps = services.lived if not services.frames else None
+    if keeps and (shown := keeps.shown(plan, clock.hour)):
+        home.restore(shown.world)
+        return {"observation": shown.observation, "outcomes": [shown.outcome]}
     outcome = home.perform("human", first.act, record=True)
     frames = []
     if services.frames:
@@ -110,18 +121,27 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     blind = not services.ask.sees("robot")
     percept = home.percept(services.rng(Address(plan.person, clock.day, clock.hour, "percept"))) if blind else None
     text = first.act.describe() if plan.collab == 1 else None
-    return {"observation": Observation(frames=frames, percept=percept, first_task=text), "outcomes": [outcome]}
+    observation = Observation(frames=frames, percept=percept, first_task=text)
+    if keeps:
+        keeps.keep(plan, clock.hour, Shown(observation=observation, outcome=outcome, world=home.snapshot()))
+    return {"observation": observation, "outcomes": [outcome]}
 
 
 def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Have the person do what is left, except what the robot has done. Adds to `outcomes`."""
+    """Have the person do what is left, except what the robot has done. Adds to `outcomes`.
+
+    In a day that was lived before, what came of the person's acts is known.
+    """
     home = runtime.context.home(state["plan"].scene)
     helped = state["robot"].outcomes if "robot" in state else []
     done = {_effect(home, outcome) for outcome in helped if outcome.ok}
     shown = 1 if "observation" in state else 0
-    remaining = [task.act for task in state["human"].tasks[shown:]]
-    mine = [act for act in remaining if _effect(home, Outcome(agent="human", act=act, ok=True)) not in done]
-    return {"outcomes": [home.perform("human", act) for act in mine]}
+    remaining = [Outcome(agent="human", act=task.act, ok=True) for task in state["human"].tasks]
+    if runtime.context.lived:
+        again = runtime.context.lived.hour(state["plan"], _clock(state).hour)
+        remaining = [Outcome.model_validate(one) for one in again.world["outcomes"]]
+    mine = [one for one in remaining[shown:] if _effect(home, one) not in done]
+    return {"outcomes": mine if runtime.context.lived else [home.perform("human", one.act) for one in mine]}
 
 
 def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -137,11 +157,13 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Remember the hour and write its trace: the last act of an hour. Writes `world`."""
     services, plan, clock = runtime.context, state["plan"], _clock(state)
     human, robot = state.get("human"), state.get("robot")
-    if human:
+    if human and not services.lived:
         texts = [task.act.describe() for task in human.tasks]
         services.memories("human", plan.episode, plan.person).add(human.intention.text, texts, clock.now)
     if robot:
         _remember_guess(services, plan, clock, robot)
+    if services.lived:
+        services.home(plan.scene).restore(services.lived.hour(plan, clock.hour).world["poses"])
     world = services.home(plan.scene).snapshot()
     success = state.get("success")
     services.recorder.write_hour(

@@ -24,9 +24,16 @@ class Method:
         context: Whether retrieved intentions and tasks enter prompts and classifiers.
         order: Whether the classifiers see the robot's own order of its guesses. DEVIATES: the paper's do not, but they
             see nothing of what the robot saw either, and its order sums that up.
-        verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything.
+        time_only: Whether the classifiers see nothing but the candidate and the time.
+        intentions: "inferred" from what is seen; "told" by the person; "skipped", so that what is seen stands where an
+            intention would and tasks are imagined for it directly.
+        guesses: How many intentions are imagined; by default the paper's number.
+        verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything, "reject"
+            nothing.
         learns: Whether the evening trains the classifiers, or one's own robot.
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
+        offline_only: Whether the method means something with the offline robot model alone.
+        other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
         own: The class of a robot of one's own, which then takes the place of our graph (`graphs.own_robot`). Of the
             other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
@@ -36,8 +43,13 @@ class Method:
     traits: bool = True
     context: bool = True
     order: bool = True
-    verdicts: Literal["classifiers", "accept"] = "classifiers"
+    time_only: bool = False
+    intentions: Literal["inferred", "told", "skipped"] = "inferred"
+    guesses: int | None = None
+    verdicts: Literal["classifiers", "accept", "reject"] = "classifiers"
     learns: bool = True
+    offline_only: bool = False
+    other_backbone: bool = False
     robot: bool = True
     judge: Callable[[Kind], Classifier] | None = None
     own: MakeRobot | None = None
@@ -49,6 +61,7 @@ class Numbers:
     HUMAN_TASKS = {1: 3, 2: 5}  # PAPER §3.1
     ROBOT_INTENTIONS = {1: 3, 2: 5}  # PAPER App. D says 5; the authors' code asks for 3 in type 1
     ROBOT_TASKS = {1: 3, 2: 5}  # PAPER App. D
+    DIRECT_TASKS = 8  # ours: where no intention is inferred, as many tasks as one reply may hold
     RECALL_INTENTIONS = 3  # PAPER §4.1
     RECALL_TASKS = 5  # PAPER §4.1
     SEARCH_OBJECTS = 30  # the authors' code

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Any
 
 from langgraph.graph import END, START, StateGraph
@@ -41,6 +42,12 @@ class RobotInput(TypedDict):
     picture: Picture
 
 
+class OracleInput(RobotInput):
+    """What an oracle is given besides: the truth. Only the graph of a method that says so has this input."""
+
+    told: str
+
+
 class Imagined(TypedDict):
     """The tasks imagined for one accepted intention."""
 
@@ -51,6 +58,7 @@ class Imagined(TypedDict):
 class RobotState(RobotInput, total=False):
     """Working state of the robot's hour; a key is absent until its node has run."""
 
+    told: str  # the true intention, of an oracle alone
     recalled: list[Recalled]  # by observe
     intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
     imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
@@ -70,9 +78,11 @@ class TaskRequest(TypedDict):
     rank: int
 
 
-def build_robot_graph() -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
-    """Compile the robot's graph; invoke it with a `RobotInput` and a `RobotContext`."""
-    graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=RobotInput)
+def build_robot_graph(
+    given: type[RobotInput] = RobotInput,
+) -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
+    """Compile the robot's graph; invoke it with a `RobotInput` (an oracle's: `OracleInput`) and a `RobotContext`."""
+    graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=given)
     for node in (observe, imagine_intentions, classify_intentions, imagine_tasks, classify_tasks, act):
         graph.add_node(node)
     graph.add_edge(START, "observe")
@@ -130,8 +140,7 @@ def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]
     ctx, clock, seen = runtime.context, state["clock"], state["observation"]
     if not ctx.method.context:
         return {"recalled": []}
-    sight = seen.first_task or (seen.percept.caption() if seen.percept else "")
-    query = f"{clock.label}, {clock.weekday}. {sight}"
+    query = f"{clock.label}, {clock.weekday}. {_sight(seen)}"
     dawn = clock.day * 24
     told = recall_both(ctx.history, query, clock, since=None)
     guessed = recall_both(ctx.guesses, query, clock, since=dawn)
@@ -145,13 +154,17 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
     """
     ctx, clock, seen = runtime.context, state["clock"], state["observation"]
+    if ctx.method.intentions == "told":
+        return {"intentions": [IntentionCandidate(text=state["told"])]}
+    if ctx.method.intentions == "skipped":
+        return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
     percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
-    count = Numbers.ROBOT_INTENTIONS[ctx.collab]
+    count = ctx.method.guesses or Numbers.ROBOT_INTENTIONS[ctx.collab]
     reply = ctx.ask(
         "robot/intentions",
         IntentionsReply,
         at=_at(clock, ctx, "imagine_intentions"),
-        images=[ctx.images / frame for frame in seen.frames] if ctx.ask.sees("robot") else (),
+        images=_pictures(seen, ctx),
         variables={
             **when(clock),
             **belief(state["picture"], ctx),
@@ -180,10 +193,13 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
 def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Keep the likely intentions. Reads and completes `intentions`.
 
-    Where none is accepted the most probable one goes on, and that is said.
+    Where none is accepted the most probable one goes on, and that is said. An intention that was told or skipped
+    needs no verdict.
     DEVIATES: the authors' code then takes one at random.
     """
     ctx, candidates = runtime.context, state["intentions"]
+    if ctx.method.intentions != "inferred":
+        return {"intentions": [c.model_copy(update={"probability": 1.0, "accepted": True}) for c in candidates]}
     asked = [example(state, ctx.person, intention=c.text) for c in candidates]
     probabilities = _verdicts(ctx, "intention", asked)
     accepted = [p >= 0.5 for p in probabilities]
@@ -225,6 +241,9 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     """
     ctx, clock, intention = runtime.context, state["clock"], state["intention"]
     home, count = ctx.home, Numbers.ROBOT_TASKS[ctx.collab]
+    direct = ctx.method.intentions == "skipped"
+    if direct:
+        count = Numbers.DIRECT_TASKS
     extra = (
         {"movable": home.objects("movable"), "first_task": state["observation"].first_task} if ctx.collab == 1 else {}
     )
@@ -233,6 +252,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
             f"robot/tasks_type{ctx.collab}",
             TASKS_REPLY[ctx.collab],
             at=_at(clock, ctx, "imagine_tasks", draw=state["rank"]),
+            images=_pictures(state["observation"], ctx) if direct else (),
             variables={
                 **when(clock),
                 **belief(state["picture"], ctx),
@@ -289,9 +309,17 @@ def belief(picture: Picture, ctx: RobotContext) -> dict[str, Any]:
 
 
 def _verdicts(ctx: RobotContext, kind: Kind, asked: Sequence[Example]) -> list[float]:
-    if ctx.method.verdicts == "accept":
-        return [1.0] * len(asked)
+    if ctx.method.verdicts != "classifiers":
+        return [1.0 if ctx.method.verdicts == "accept" else 0.0] * len(asked)
     return ctx.learner.classifiers[kind].probabilities(asked) if asked else []
+
+
+def _sight(seen: Observation) -> str:
+    return seen.first_task or (seen.percept.caption() if seen.percept else "")
+
+
+def _pictures(seen: Observation, ctx: RobotContext) -> list[Path]:
+    return [ctx.images / frame for frame in seen.frames] if ctx.ask.sees("robot") else []
 
 
 def _at(clock: Clock, ctx: RobotContext, node: str, draw: int = 0) -> Address:

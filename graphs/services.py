@@ -20,6 +20,7 @@ from core.people import Persona, PersonId
 from core.protocols import Ask, Home, Recorder
 from core.randomness import Address, rng_at
 from graphs.learning import Learner
+from graphs.lived import Lived
 from graphs.method import Method
 from graphs.own_robot import OwnRobot, Robot
 from graphs.person import FULL, PersonModel
@@ -121,6 +122,8 @@ class Services:
     """Sampled moments per hour and viewpoint; 0 renders nothing."""
     person: PersonModel = FULL
     """How people are simulated."""
+    lived: Lived | None = None
+    """Days that were lived before, which the people live again; by default they live new ones."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
 

@@ -1,7 +1,8 @@
 """From a model's name to a chat model: which backends there are, and what each of them can do.
 
-A *spec* names a model: `offline`, `openai:MODEL` (any OpenAI-compatible server, at the base URL),
-`huggingface:REPO-OR-FOLDER` (in this process), or `PROVIDER:MODEL` for the other providers of LangChain.
+A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone), `openai:MODEL` (any
+OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), or `PROVIDER:MODEL` for the
+other providers of LangChain.
 A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
 """
 
@@ -155,8 +156,8 @@ def open_backend(
         ConfigError: If the spec is unknown, or what it needs is not there.
     """
     chosen = settings or CallSettings()
-    if spec == "offline":
-        return _offline(role, embeddings)
+    if spec in ("offline", "offline:words"):
+        return _offline(spec, role, embeddings)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
@@ -167,9 +168,11 @@ def open_backend(
     return _any_provider(spec, provider, name, chosen, sleep)
 
 
-def _offline(role: Role, embeddings: Embeddings) -> Backend:
+def _offline(spec: str, role: Role, embeddings: Embeddings) -> Backend:
     offline = importlib.import_module("models.offline.chat")
-    return Backend("offline", offline.OfflineChatModel(role=role, embeddings=embeddings), reads_variables=True)
+    if spec != "offline":
+        embeddings = importlib.import_module("models.offline.words").WordEmbeddings()
+    return Backend(spec, offline.OfflineChatModel(role=role, embeddings=embeddings), reads_variables=True)
 
 
 def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:

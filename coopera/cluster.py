@@ -1,0 +1,67 @@
+"""The same jobs on a Ray cluster whose machines share a file system (the optional extra `ray`)."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from typing import Any
+
+from coopera.workers import TRIES, Done, Queue, Work
+from core.errors import ConfigError, CooperaError
+
+
+def work_on_ray(
+    jobs: Sequence[Any], work: Work, *, address: str, workers: int = 1, deadline: float | None = None
+) -> Generator[Done]:
+    """Do all jobs as Ray tasks of one core each, yielding each as it ends; one whose worker dies is tried again.
+
+    Args:
+        jobs: In the order in which they are to be started.
+        work: What does one, on any machine of the cluster: its folders must be there under the same paths.
+        address: As `ray.init` takes it ("auto", "ray://host:10001"), or "local" for a cluster of this process's own.
+        workers: Cores of such a local cluster.
+        deadline: By `time.monotonic`; no job is started after it.
+
+    Raises:
+        ConfigError: If Ray is not installed or the cluster cannot be reached.
+    """
+    try:
+        import ray  # noqa: PLC0415 - an optional extra
+    except ImportError:
+        raise ConfigError("--ray needs the package ray: pip install -c constraints.txt -e '.[ray]'") from None
+    local = address == "local"
+    try:
+        ray.init(
+            address=None if local else address,
+            num_cpus=workers if local else None,
+            include_dashboard=False,
+            log_to_driver=False,
+        )
+    except (ConnectionError, ValueError, RuntimeError) as err:
+        raise ConfigError(f"--ray {address}: there is no cluster that can be reached ({err}).") from None
+    try:
+        slots = max(1, int(ray.cluster_resources().get("CPU", 1)))  # type: ignore[no-untyped-call]
+        task = ray.remote(num_cpus=1, max_retries=TRIES - 1)(_try)
+        queue, running = Queue(list(jobs)), dict[Any, Any]()
+        while queue.jobs or running:
+            queue.end_at(deadline)
+            while len(running) < slots and (job := queue.take()) is not None:
+                running[task.remote(work, job)] = job
+            if not running:
+                break
+            [ended], _ = ray.wait(list(running))
+            job = running.pop(ended)
+            try:
+                error = ray.get(ended)
+            except ray.exceptions.RayError as err:
+                error = f"its process died {TRIES} times ({type(err).__name__})"
+            yield from queue.close(job, error)
+    finally:
+        ray.shutdown()
+
+
+def _try(work: Work, job: Any) -> str | None:
+    try:
+        work(job)
+    except (CooperaError, OSError) as err:
+        return str(err) or type(err).__name__
+    return None

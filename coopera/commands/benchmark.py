@@ -1,0 +1,116 @@
+"""`coopera benchmark`: a grid of methods, settings and seeds, and what came of it."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list
+
+STOPPED = 130
+FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episodes, --days, --hours"
+
+
+def benchmark(
+    grid: Annotated[Path | None, typer.Argument(metavar="[GRID.yaml]", help="A grid file; flags win.")] = None,
+    methods: Annotated[str | None, typer.Option(metavar="NAME,…", help="`all` takes all. [default: ours]")] = None,
+    settings: Annotated[str | None, typer.Option(metavar="1,…", help="1 to 4, 3+1, or those of the grid file.")] = None,
+    collab: Annotated[str | None, typer.Option(metavar="1,2", help="Collaboration types. [default: 2]")] = None,
+    seeds: Annotated[int | None, typer.Option(help="How many seeds, from 0. [default: 1]")] = None,
+    humans: Annotated[
+        str | None, typer.Option("--humans", "--people", metavar="ID,…|N", help="People, or how many.")
+    ] = None,
+    scenes: Annotated[str | None, typer.Option(metavar="ID,…|N", help="Homes, or how many.")] = None,
+    episodes: Annotated[int | None, typer.Option(help="Episodes of each setting. [default: as the paper]")] = None,
+    days: Annotated[int | None, typer.Option(help="Days of each episode. [default: as the setting has it]")] = None,
+    hours: Annotated[int | None, typer.Option(help="Hours of each day, from 9 am. [default: 13]")] = None,
+    workers: Annotated[int, typer.Option(min=1, max=256, help="Processes on this machine.")] = 1,
+    ray: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here.")] = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="The benchmark's folder; run again, it goes on.")] = Path(
+        "runs/benchmark"
+    ),
+    limit: Annotated[float | None, typer.Option(metavar="MINUTES", help="Start no run after so many minutes.")] = None,
+    model: Model = None,
+    base_url: BaseUrl = None,
+    prompts: PromptFolder = None,
+    classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Run methods on the same days of the same people, and write tables, figures and statistics.
+
+    Each run has a folder of its own and is picked up where it was left; a run that is done is not done again.
+    """
+    from coopera import benchmark as bench
+    from coopera.results import write_results
+
+    flags = {
+        "methods": _methods(methods),
+        "settings": as_list(settings),
+        "collab": _numbers("--collab", collab),
+        "seeds": seeds,
+        "humans": _some(humans),
+        "scenes": _some(scenes),
+        "episodes": episodes,
+        "days": days,
+        "hours": hours,
+    }
+    found = bench.load_grid(grid, flags)
+    shared: dict[str, Any] = {"base_url": base_url, "prompts": prompts, "classifier": classifier}
+    if model is not None:
+        shared["models"] = dict.fromkeys(("human", "robot", "judge"), model)
+    planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
+    bench.claim_folder(planned)
+    failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
+    summary = write_results(planned)
+    if as_json:
+        typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
+    else:
+        typer.echo(f"Results: {summary['page']}")
+    if failures:
+        raise typer.Exit(1)
+
+
+def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
+    """Work through what is left with a line per run; returns the runs that failed, with the reason."""
+    from coopera.benchmark import carry_out
+
+    total, left = len(planned.jobs), len(planned.left)
+    typer.echo(f"{total} runs, {total - left} of them done already.", err=True)
+    started, done, failures = time.monotonic(), total - left, dict[str, str]()
+    ends = carry_out(planned, workers=workers, ray=ray, deadline=started + 60 * limit if limit else None)
+    try:
+        for end in ends:
+            done += 1
+            what = f"failed: {end.error}" if end.error else "done"
+            if end.error:
+                failures[end.job.name] = end.error
+            typer.echo(f"{done} of {total} ({time.monotonic() - started:.0f} s): {end.job.name} {what}", err=True)
+    except KeyboardInterrupt:
+        typer.echo(f"Stopped. Run the same command again to go on: {planned.root}", err=True)
+        raise typer.Exit(STOPPED) from None
+    finally:
+        ends.close()
+    return failures
+
+
+def _methods(text: str | None) -> list[str] | None:
+    if text != "all":
+        return as_list(text)
+    from evaluation import METHODS
+
+    return [name for name, method in METHODS.items() if method.robot]
+
+
+def _numbers(flag: str, text: str | None) -> list[int] | None:
+    try:
+        return None if text is None else [int(part) for part in as_list(text) or []]
+    except ValueError:
+        raise typer.BadParameter(f"must be numbers such as 1,2, not {text!r}", param_hint=flag) from None
+
+
+def _some(text: str | None) -> list[str] | int | None:
+    return int(text) if text is not None and text.isdigit() else as_list(text)

@@ -1,0 +1,228 @@
+"""The results of a benchmark as a table: one row per method and hour, in an open format that anybody can check.
+
+A results folder holds `results.json` (what was run, by what, and the SHA-256 of the table) and `hours.csv` (the rows,
+sorted; also as `hours.parquet` where pyarrow is installed). Every table, figure and statistic is computed from these.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Literal
+
+from pydantic import Field, ValidationError
+
+from core.errors import ConfigError
+from core.hour import Counts, Evening, HourRecord
+from core.people import Frozen
+from evaluation.measures import by_person
+
+FORMAT = 1
+"""Raised whenever a column changes its meaning; readers refuse other numbers."""
+
+Share = Field(None, ge=0)
+
+
+class Row(Frozen):
+    """One hour under one method.
+
+    `day` is the day of the episode and `round` how many days of this person came before in it. `human` is the SHA-256
+    of all that the person decided in the hour, and the same under every method. `activity` is the group of household
+    activities that the true intention is nearest to. The measures are those of docs/measures.md.
+    """
+
+    method: str
+    setting: str
+    collab: Literal[1, 2]
+    seed: int = Field(ge=0)
+    episode: int = Field(ge=0)
+    day: int = Field(ge=0)
+    round: int = Field(ge=0)
+    last: bool
+    """Whether this is the person's last day of the episode."""
+    hour: int = Field(ge=0, le=23)
+    person: str
+    scene: str
+    status: Literal["ok", "failed"]
+    activity: str
+    human: str
+    predicate_tp: int | None = Share
+    predicate_fp: int | None = Share
+    predicate_fn: int | None = Share
+    predicate_tn: int | None = Share
+    predicate_unscored: int | None = Share
+    judge_tp: int | None = Share
+    judge_fp: int | None = Share
+    judge_fn: int | None = Share
+    judge_tn: int | None = Share
+    judge_unscored: int | None = Share
+    people_tp: int | None = Share
+    people_fp: int | None = Share
+    people_fn: int | None = Share
+    people_tn: int | None = Share
+    people_unscored: int | None = Share
+    remaining: int | None = Share
+    helped: int | None = Share
+    done: int | None = Share
+    useless: int | None = Share
+    metres: float | None = Share
+    saved_metres: float | None = Share
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """What no two rows share, and the order of the table."""
+        return (self.setting, self.collab, self.seed, self.episode, self.day, self.hour, self.method)
+
+    def counts(self, measure: str) -> Counts | None:
+        """The confusion counts by "predicate", "judge" or "people"; None in a failed hour."""
+        found = {name: getattr(self, f"{measure}_{name}") for name in _COUNTS}
+        return None if found["tp"] is None else Counts(**found)
+
+
+_COUNTS = ("tp", "fp", "fn", "tn", "unscored")
+_HELP = ("remaining", "helped", "done", "useless", "metres", "saved_metres")
+COLUMNS = tuple(Row.model_fields)
+
+
+class Card(Frozen):
+    """What results.json says of a table."""
+
+    format: int
+    coopera: str
+    name: str
+    offline: bool
+    """Whether the offline routine model played any role, so that the figures say nothing of language models."""
+    models: dict[str, str]
+    methods: list[str]
+    settings: list[str]
+    seeds: list[int]
+    rows: int
+    failed_hours: int
+    sha256: str
+    grid: dict[str, Any]
+
+
+def rows_of(
+    hours: Sequence[HourRecord],
+    evenings: Iterable[Evening],
+    activity: Callable[[str], str],
+    labels: Mapping[str, Any],
+) -> list[Row]:
+    """The rows of one run.
+
+    Args:
+        hours: In order.
+        evenings: Of the same days.
+        activity: Finds the group of an intention.
+        labels: method, setting, collab, seed and episode.
+    """
+    told = {evening.day: evening.feedback for evening in evenings}
+    lived = list(dict.fromkeys((hour.day, hour.person) for hour in hours))
+    rounds = {day: sum(who == person for _, who in lived[:place]) for place, (day, person) in enumerate(lived)}
+    last = {person: day for day, person in lived}
+    rows = []
+    for hour in hours:
+        said = by_person(item for item in told.get(hour.day, []) if item.hour == hour.hour)
+        measured: dict[str, Any] = {}
+        if hour.success:
+            for name, counts in (
+                ("predicate", hour.success.predicate),
+                ("judge", hour.success.judge),
+                ("people", said),
+            ):
+                measured |= {f"{name}_{field}": getattr(counts, field) for field in _COUNTS}
+            if hour.success.help:
+                measured |= {field: getattr(hour.success.help, field) for field in _HELP}
+        rows.append(
+            Row(
+                **labels,
+                day=hour.episode_day,
+                round=rounds[hour.day],
+                last=last[hour.person] == hour.day,
+                hour=hour.hour,
+                person=hour.person,
+                scene=hour.scene,
+                status=hour.status,
+                activity=activity(hour.human.intention.text) if hour.human else "",
+                human=hashlib.sha256(hour.human.model_dump_json().encode()).hexdigest() if hour.human else "",
+                **measured,
+            )
+        )
+    return rows
+
+
+def to_csv(rows: Iterable[Row]) -> str:
+    """The table as text, sorted; an empty cell is a figure that does not exist."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(row.model_dump() for row in sorted(rows, key=lambda row: row.key))
+    return text.getvalue()
+
+
+def from_csv(text: str, source: str) -> list[Row]:
+    """Read and check a table.
+
+    Raises:
+        ConfigError: Naming the file, the line, the column and what was expected.
+    """
+    reader = csv.DictReader(io.StringIO(text))
+    if tuple(reader.fieldnames or ()) != COLUMNS:
+        odd = sorted(set(reader.fieldnames or ()) ^ set(COLUMNS))
+        raise ConfigError(
+            f"{source}: the columns must be those of format {FORMAT}; check {', '.join(odd) or 'their order'}."
+        )
+    rows = []
+    for number, data in enumerate(reader, 2):
+        try:
+            rows.append(Row.model_validate({name: value for name, value in data.items() if value != ""} | _texts(data)))
+        except ValidationError as err:
+            first = err.errors(include_url=False)[0]
+            column = first["loc"][0] if first["loc"] else "?"
+            raise ConfigError(f"{source}, line {number}: {column} cannot be {first['input']!r}.") from None
+    if doubled := len(rows) - len({row.key for row in rows}):
+        raise ConfigError(f"{source}: {doubled} hours stand there twice.")
+    return rows
+
+
+def _texts(data: Mapping[str, Any]) -> dict[str, str]:
+    return {name: data[name] or "" for name in ("activity", "human")}
+
+
+def sha256(text: str) -> str:
+    """The table's fingerprint."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def check_card(data: Any, table: str, source: str) -> Card:
+    """Check a results folder's card against its table.
+
+    Raises:
+        ConfigError: If the card is of another format, incomplete, or not of this table.
+    """
+    found = data.get("format") if isinstance(data, dict) else None
+    if found != FORMAT:
+        raise ConfigError(f"{source}: the results are of format {found}, and this coopera reads format {FORMAT}.")
+    try:
+        card = Card.model_validate(data)
+    except ValidationError as err:
+        first = err.errors(include_url=False)[0]
+        where = ".".join(str(part) for part in first["loc"])
+        raise ConfigError(f"{source}: the field {where} is missing or wrong ({first['msg'].lower()}).") from None
+    if card.sha256 != sha256(table):
+        raise ConfigError(f"{source}: hours.csv is not the table that this card describes (its SHA-256 differs).")
+    return card
+
+
+def unpaired(rows: Iterable[Row]) -> list[str]:
+    """Hours in which the person did not do the same under every method; empty where all comparisons are paired."""
+    humans: dict[tuple[Any, ...], set[str]] = {}
+    for row in rows:
+        humans.setdefault(row.key[:-1], set()).add(row.human)
+    return [
+        f"setting {setting} type {collab} seed {seed} episode {episode} day {day} hour {hour}"
+        for (setting, collab, seed, episode, day, hour), seen in sorted(humans.items())
+        if len(seen) > 1
+    ]
