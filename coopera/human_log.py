@@ -25,7 +25,7 @@ _EXPECTED = {
     "day": "a whole number from 0 up",
     "hour": "a whole number from 0 to 23",
     "intention": "a text of 1 to 300 characters",
-    "tasks": "texts of 1 to 300 characters",
+    "tasks": "at most 8 texts of 1 to 300 characters",
 }
 
 

@@ -16,6 +16,7 @@ from core.errors import ConfigError
 from core.people import Persona, PersonId
 
 SHIPPED = Path(__file__).parent / "personas"
+_LARGEST = 1_000_000  # bytes of a persona file
 _ID = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 
 
@@ -58,6 +59,8 @@ def read_persona(path: Path) -> Persona:
     Raises:
         ConfigError: Naming the file, the field and what was expected.
     """
+    if path.is_file() and (size := path.stat().st_size) > _LARGEST:
+        raise ConfigError(f"{path}: profile must be a text of 1 to 20000 characters; the file has {size / 1e6:.1f} MB.")
     data = read_yaml(path, "persona file")
     try:
         persona = Persona.model_validate(data)
@@ -75,7 +78,8 @@ def write_persona(persona: Persona, folder: Path) -> Path:
         ConfigError: If the folder cannot be written.
     """
     path = folder / f"{persona.id}.yaml"
-    text = yaml.safe_dump(persona.model_dump(mode="json"), sort_keys=False, allow_unicode=True, width=110)
+    data = persona.model_dump(mode="json", exclude_none=True)
+    text = yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
     try:
         write_atomic(path, text)
     except OSError as err:
@@ -112,5 +116,7 @@ def _complaint(err: ValidationError, path: Path) -> str:
         "id": "lower-case letters, digits, - and _, at most 64",
         "name": "a text of 1 to 80 characters",
         "profile": "a text of 1 to 20000 characters",
+        "notes": "a text of at most 20000 characters",
+        "source": "a text",
     }.get(field, "a number from 1 to 5" if field.startswith("big_five.") else "a mapping of five numbers from 1 to 5")
     return f"{path}: {field} must be {expected}, not {str(first['input'])[:60]!r}."

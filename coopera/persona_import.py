@@ -5,19 +5,24 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import CancelledError, ThreadPoolExecutor, as_completed
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from coopera.files import read_text
 from coopera.humans import write_persona
-from core.errors import ConfigError
-from core.people import Persona, PersonId
-from core.protocols import Ask
+from core.big_five_test import ITEMS, TRIALS, score, vote
+from core.errors import ConfigError, ModelOutputError
+from core.people import Persona, PersonId, Provenance, Trial
+from core.protocols import Ask, Reply
 from core.randomness import Address, rng_at
-from core.replies import BigFiveReply, ProfileReply
+from core.replies import BigFiveReply, BigFiveTestReply, ProfileReply
 
 COLUMNS = ("user 1 personas", "user 2 personas", "Best Generated Conversation")
+_PROMPTS = ("persona/profile", "persona/big_five", "persona/big_five_test")
+_LONGEST = 20_000  # characters of a persona; the published ones have a few hundred
 _FIELD_LIMIT = 1_000_000  # characters; the published file's longest field has under 10,000
 
 # Used where a persona does not say its own name; drawn by id, so the same row has the same name everywhere.
@@ -43,11 +48,20 @@ class Row(NamedTuple):
     conversation: str
 
 
+class Maker(NamedTuple):
+    """What makes the personas, for their provenance: the model's name and the SHA of each prompt by name."""
+
+    ask: Ask
+    model: str
+    prompts: Mapping[str, str]
+
+
 class Imported(NamedTuple):
-    """What an import did, by id, in the order of the file."""
+    """What an import did, by id, in the order of the file; `failed` has the reason in one sentence."""
 
     written: list[PersonId]
     kept: list[PersonId]
+    failed: dict[PersonId, str]
 
 
 def read_rows(path: Path) -> list[Row]:
@@ -81,6 +95,9 @@ def _rows(text: str, path: Path) -> Iterator[Row]:
             row = Row(number, reader.line_num, *(cells[index].strip() for index in at))
             if not row.profile_1:
                 raise ConfigError(f"{where}: the column {COLUMNS[0]!r} must hold a persona, and it is empty.")
+            if len(row.profile_1) > _LONGEST:
+                size = len(row.profile_1)
+                raise ConfigError(f"{where}: a persona has at most {_LONGEST} characters, and this one has {size}.")
             yield row
     except csv.Error as err:
         raise ConfigError(f"{path}, line {reader.line_num} (row {number + 1}): this is not valid CSV ({err}).") from err
@@ -105,51 +122,88 @@ def person_id(path: Path, number: int) -> PersonId:
 
 def import_people(
     path: Path,
-    ask: Ask,
+    maker: Maker,
     folder: Path,
     *,
     limit: int | None = None,
     force: bool = False,
+    workers: int = 1,
     on_person: Callable[[PersonId, str], None] = lambda person, what: None,
 ) -> Imported:
     """Make a persona of each row and store it as <folder>/<id>.yaml; existing ones are kept unless forced.
 
-    The language model summarises and extends profile 1 into a self-introduction (PAPER §3.1), then reads the
-    Big Five from it. `on_person` is told each id with "written" or "kept". What is written before an error stays.
+    The language model summarises and extends profile 1 into a self-introduction, then reads the Big Five from it
+    (PAPER §3.2 and App. B). Rows are worked on by `workers` threads. Each person is written when whole, so an import
+    that is stopped goes on where it was; a row whose replies cannot be used is passed over and said. `on_person` is
+    told each id with "written", "kept" or "failed", from the calling thread.
 
     Raises:
         ConfigError: If the file or the folder cannot be used.
-        ModelOutputError: If a reply cannot be used.
         ModelCallError: If the model cannot be reached.
     """
-    done = Imported([], [])
-    for row in read_rows(path)[:limit]:
-        person = person_id(path, row.number)
-        kept = (folder / f"{person}.yaml").is_file() and not force
-        if not kept:
-            write_persona(_persona(person, row, path, ask), folder)
-        (done.kept if kept else done.written).append(person)
-        on_person(person, "kept" if kept else "written")
-    return done
+    rows = {person_id(path, row.number): row for row in read_rows(path)[:limit]}
+    kept = [person for person in rows if (folder / f"{person}.yaml").is_file() and not force]
+    for person in kept:
+        on_person(person, "kept")
+    stop = threading.Event()
+    failed: dict[PersonId, str] = {}
+    pool = ThreadPoolExecutor(max_workers=workers, thread_name_prefix="import")
+    try:
+        new = [person for person in rows if person not in kept]
+        waiting = {pool.submit(_make, person, rows[person], path, maker, stop): person for person in new}
+        for done in as_completed(waiting):
+            person = waiting[done]
+            try:
+                write_persona(done.result(), folder)
+            except ModelOutputError as err:
+                failed[person] = str(err)
+            maker.ask.take_calls()  # the votes are kept in the persona file; nothing else of the calls is
+            on_person(person, "failed" if person in failed else "written")
+    finally:
+        stop.set()
+        pool.shutdown(cancel_futures=True)
+    written = [person for person in rows if person not in kept and person not in failed]
+    return Imported(written, kept, {person: failed[person] for person in rows if person in failed})
 
 
-def _persona(person: PersonId, row: Row, path: Path, ask: Ask) -> Persona:
+def _make(person: PersonId, row: Row, path: Path, maker: Maker, stop: threading.Event) -> Persona:
     """Ask for the profile and the Big Five of one row."""
+
+    def ask(prompt: str, reply: type[Reply], draw: int, **variables: Any) -> Reply:
+        if stop.is_set():
+            raise CancelledError
+        at = Address(person, 0, 0, prompt.partition("/")[2], draw)
+        return maker.ask(prompt, reply, at=at, variables=variables)
+
     extended = ask(
         "persona/profile",
         ProfileReply,
-        at=Address(person, 0, 0, "profile"),
-        variables={"profile_1": row.profile_1, "profile_2": row.profile_2, "conversation": row.conversation},
-    )
-    # DEVIATES: one reading by the model; the paper takes a majority over five trials of it and of a 50-item test.
-    read = ask(
-        "persona/big_five",
-        BigFiveReply,
-        at=Address(person, 0, 0, "big_five"),
-        variables={"profile": extended.profile},
-    )
+        0,
+        profile_1=row.profile_1,
+        profile_2=row.profile_2,
+        conversation=row.conversation,
+    ).profile
+    statements = [item.says for item in ITEMS]
+    trials = []
+    for draw in range(TRIALS):
+        direct = ask("persona/big_five", BigFiveReply, draw, profile=extended).big_five
+        answers = ask("persona/big_five_test", BigFiveTestReply, draw, profile=extended, statements=statements).answers
+        trials.append(Trial(direct=direct, test=score(answers), answers=answers))
     own = _OWN_NAME.search(row.profile_1)
     name = own.group(1) if own else str(rng_at(0, person, "name").choice(_NAMES))
     return Persona(
-        id=person, name=name, profile=extended.profile, big_five=read.big_five, source=f"{path.name}, row {row.number}"
+        id=person,
+        name=name,
+        profile=extended,
+        # PAPER App. B: a majority vote over five trials; both readings of each trial have a vote
+        big_five=vote([reading for trial in trials for reading in (trial.direct, trial.test)]),
+        source=f"{path.name}, row {row.number}",
+        notes=" ".join(row.profile_1.split()),
+        provenance=Provenance(
+            file=path.name,
+            row=row.number,
+            model=maker.model,
+            prompts={prompt: maker.prompts[prompt] for prompt in _PROMPTS},
+            trials=trials,
+        ),
     )

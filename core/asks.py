@@ -5,6 +5,7 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first;
 - `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
+- `steps` are a real person's own words for the tasks, empty for a simulated one;
 - `percept` is a `Percept` as data with its `caption`, or None where the model looks at the pictures.
 """
 
@@ -35,13 +36,14 @@ def _spec(role: Role, reply: str, *variables: str) -> AskSpec:
 ASKS: dict[str, AskSpec] = {
     "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
+    "persona/big_five_test": _spec("human", "BigFiveTestReply", "profile", "statements"),
     "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "today"),
     "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours"),
     "human/tasks_type1": _spec(
-        "human", "PickPlaceReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "n_tasks"
+        "human", "PickPlaceReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "n_tasks", "steps"
     ),
     "human/tasks_type2": _spec(
-        "human", "FreeMotionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "motions", "n_tasks"
+        "human", "FreeMotionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "motions", "n_tasks", "steps"
     ),
     "human/reflect_profile_type1": _spec(
         "human", "PickPlaceReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "tasks"
@@ -57,6 +59,8 @@ ASKS: dict[str, AskSpec] = {
     ),
     "human/feedback_intentions": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "guesses"),
     "human/feedback_tasks": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
+    "human/grade_intentions": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "guesses"),
+    "human/grade_tasks": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
     "robot/intentions": _spec(
         "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "rooms", "percept", "first_task", "n_intentions"
     ),

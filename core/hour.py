@@ -88,7 +88,7 @@ class LoggedHour(Frozen):
     day: int = Field(ge=0)
     hour: int = Field(ge=0, le=23)
     intention: str = Field(min_length=1, max_length=300)
-    tasks: list[Annotated[str, Field(min_length=1, max_length=300)]] = []
+    tasks: Annotated[list[Annotated[str, Field(min_length=1, max_length=300)]], Field(max_length=8)] = []
 
 
 class Observation(Frozen):
@@ -239,6 +239,8 @@ class FeedbackItem(Frozen):
     helpful: bool | None
     """None where the person's answer could not be read: no label is made of it."""
     reason: str = ""
+    grade: int | None = Field(None, ge=1, le=5)
+    """How helpful, from 1 to 5, where feedback is graded."""
 
 
 class ToldHour(Frozen):

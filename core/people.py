@@ -32,11 +32,31 @@ class BigFive(Frozen):
         return ", ".join(f"{trait} {getattr(self, trait):.2f}" for trait in TRAITS)
 
 
+class Trial(Frozen):
+    """One of the readings of a person's Big Five: inferred directly, and by the 50-item test with its answers."""
+
+    direct: BigFive
+    test: BigFive
+    answers: list[int]
+
+
+class Provenance(Frozen):
+    """How an imported persona was made: from which row of which file, by which model and prompts, with which votes."""
+
+    file: str
+    row: int = Field(ge=1)
+    model: str
+    prompts: dict[str, str]
+    """SHA of each prompt's text, by name."""
+    trials: list[Trial]
+
+
 class Persona(Frozen):
     """A person as written in a persona file: the truth that the robot must infer.
 
     `source` says where the text came from ("coopera", or the file and row of an import). `notes` are the short
-    paragraph of traits that the profile extends; the ablation without profile extension lives by them.
+    paragraph of traits that the profile extends; the ablation without profile extension lives by them. `provenance`
+    stands in imported personas only.
     """
 
     id: PersonId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")
@@ -45,6 +65,7 @@ class Persona(Frozen):
     big_five: BigFive
     source: str = "coopera"
     notes: str = Field("", max_length=20_000)
+    provenance: Provenance | None = None
 
 
 class Picture(Frozen):

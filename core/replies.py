@@ -116,6 +116,19 @@ class VerdictsReply(Frozen):
     verdicts: Annotated[list[VerdictReply], Field(max_length=64)]
 
 
+class Grade(Frozen):
+    """How helpful something was, from 1 (of no use) to 5 (just what was needed), with the reason."""
+
+    grade: int = Field(ge=1, le=5)
+    reason: Reason = ""
+
+
+class GradesReply(Frozen):
+    """human/grade_intentions and human/grade_tasks: one grade per item, in the given order."""
+
+    grades: Annotated[list[Grade], Field(max_length=64)]
+
+
 class TraitsReply(Frozen):
     """robot/traits: who this person seems to be."""
 
@@ -137,6 +150,12 @@ class BigFiveReply(Frozen):
     big_five: BigFive
 
 
+class BigFiveTestReply(Frozen):
+    """persona/big_five_test: the fifty answers in order, each from 1 (disagree) to 5 (agree)."""
+
+    answers: Annotated[list[Annotated[int, Field(ge=1, le=5)]], Field(min_length=50, max_length=50)]
+
+
 REPLIES: dict[str, type[Frozen]] = {
     reply.__name__: reply
     for reply in (
@@ -149,9 +168,11 @@ REPLIES: dict[str, type[Frozen]] = {
         FreeMotionReflectionReply,
         IntentionsReply,
         VerdictsReply,
+        GradesReply,
         TraitsReply,
         ProfileReply,
         BigFiveReply,
+        BigFiveTestReply,
     )
 }
 """The reply types a prompt's front matter may name."""

@@ -7,7 +7,8 @@ With a checkpointer, each pass through `hour` leaves a durable checkpoint; the s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, TypeAlias
+from dataclasses import replace
+from typing import Any, Literal
 
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.graph import END, START, StateGraph
@@ -15,20 +16,20 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
+from core.clock import Clock
 from core.errors import ModelOutputError
 from core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
 from core.household import SceneId
+from core.interview import Question
 from core.people import PersonId, Picture
 from core.randomness import Address
-from core.replies import TraitsReply, VerdictsReply
+from core.replies import GradesReply, TraitsReply, VerdictsReply
 from graphs.hour import build_hour_graph, human_context
 from graphs.human import as_tasks, when, who
 from graphs.learning import told_of
+from graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
 from graphs.recall import as_memory
 from graphs.services import Services
-
-Answer: TypeAlias = tuple[bool | None, str]
-"""Yes, no or unreadable, and the reason."""
 
 
 class DayInput(TypedDict):
@@ -73,6 +74,7 @@ def build_day_graph(
         services.ask.take_calls()
         runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
         picture = state["pictures"].get(plan.person, Picture())
+        services = _with_person(services)
         done = hours.invoke({"plan": plan, "position": state["position"], "picture": picture}, context=services)
         return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
 
@@ -106,7 +108,7 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the imagined intentions too, and for
     the whole superset rather than for what was done, so that both classifiers get labels that are not biased by them.
     """
-    services, plan = runtime.context, state["plan"]
+    services, plan = _with_person(runtime.context), state["plan"]
     items: list[FeedbackItem] = []
     for hour in services.recorder.read_day(plan.day):
         if hour.human is not None and hour.robot is not None:
@@ -190,13 +192,20 @@ def _hour_feedback(
 ) -> list[FeedbackItem]:
     clock = plan.clock(plan.hours.index(hour))
     at = Address(plan.person, clock.day, clock.hour, "feedback")
-    known = {**when(clock), **who(human_context(services, plan)), "intention": human.intention.text}
     guesses = [c.text for c in robot.intentions]
     texts = [t.act.describe() for t in robot.tasks]
-    offers = [{"thought": t.thought, "text": text} for t, text in zip(robot.tasks, texts, strict=True)]
-    asked = {**known, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
-    heard = _ask_verdicts(services, "human/feedback_intentions", at, {**known, "guesses": guesses}, len(guesses))
-    said = _ask_verdicts(services, "human/feedback_tasks", at, asked, len(offers))
+    heard: Sequence[Verdict]
+    said: Sequence[Verdict]
+    if services.interview:
+        question = _question(services, plan, clock, human, [*guesses, *texts])
+        verdicts = ask_until_read(services.interview, question, lambda answer: read_verdicts(answer, question))
+        heard, said = verdicts[: len(guesses)], verdicts[len(guesses) :]
+    else:
+        known = {**when(clock), **who(human_context(services, plan)), "intention": human.intention.text}
+        offers = [{"thought": t.thought, "text": text} for t, text in zip(robot.tasks, texts, strict=True)]
+        asked = {**known, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
+        heard = _ask_verdicts(services, "intentions", at, {**known, "guesses": guesses}, len(guesses))
+        said = _ask_verdicts(services, "tasks", at, asked, len(offers))
     return [
         *_items(hour, "intention", guesses, robot.intentions, heard),
         *_items(hour, "task", texts, robot.tasks, said),
@@ -208,23 +217,59 @@ def _items(
     kind: Literal["intention", "task"],
     texts: Sequence[str],
     candidates: Sequence[IntentionCandidate | TaskCandidate],
-    answers: Sequence[Answer],
+    answers: Sequence[Verdict],
 ) -> list[FeedbackItem]:
     return [
-        FeedbackItem(hour=hour, kind=kind, text=text, accepted=bool(candidate.accepted), helpful=yes, reason=reason)
-        for text, candidate, (yes, reason) in zip(texts, candidates, answers, strict=True)
+        FeedbackItem(
+            hour=hour,
+            kind=kind,
+            text=text,
+            accepted=bool(candidate.accepted),
+            helpful=answer.yes,
+            reason=answer.reason,
+            grade=answer.grade,
+        )
+        for text, candidate, answer in zip(texts, candidates, answers, strict=True)
     ]
 
 
+def _with_person(services: Services) -> Services:
+    """The services of a node that may ask a real person."""
+    return replace(services, interview=interviewer()) if services.in_the_loop else services
+
+
+def _question(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, items: list[str]) -> Question:
+    return Question(
+        kind="feedback",
+        person=plan.person,
+        name=services.people[plan.person].name,
+        day=clock.day,
+        hour=clock.hour,
+        time=clock.label,
+        weekday=clock.weekday,
+        collab=plan.collab,
+        intention=human.intention.text,
+        tasks=[task.act.describe() for task in human.tasks],
+        items=items,
+        graded=services.graded,
+    )
+
+
 def _ask_verdicts(
-    services: Services, prompt: str, at: Address, variables: dict[str, Any], count: int
-) -> Sequence[Answer]:
+    services: Services, what: Literal["intentions", "tasks"], at: Address, variables: dict[str, Any], count: int
+) -> Sequence[Verdict]:
+    """Ask the simulated person; an answer that cannot be read, or of another length, is no verdict on anything."""
     if count == 0:
         return []
     try:
-        reply = services.ask(prompt, VerdictsReply, at=at, variables=variables)
+        if services.graded:
+            grades = services.ask(f"human/grade_{what}", GradesReply, at=at, variables=variables).grades
+            said = [Verdict(g.grade >= HELPFUL, g.reason, g.grade) for g in grades]
+        else:
+            verdicts = services.ask(f"human/feedback_{what}", VerdictsReply, at=at, variables=variables).verdicts
+            said = [Verdict(v.yes, v.reason) for v in verdicts]
     except ModelOutputError as err:
-        return [(None, str(err))] * count
-    if len(reply.verdicts) != count:
-        return [(None, f"{len(reply.verdicts)} answers to {count} questions")] * count
-    return [(v.yes, v.reason) for v in reply.verdicts]
+        return [Verdict(None, str(err))] * count
+    if len(said) != count:
+        return [Verdict(None, f"{len(said)} answers to {count} questions")] * count
+    return said

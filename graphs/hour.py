@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Annotated, Any, Protocol, cast
 
 from langgraph.graph import END, START, StateGraph
@@ -71,6 +72,7 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
             return {"human": again.human} if again.human else {"failure": again.reason}
         ctx = human_context(runtime.context, state["plan"])
         ctx.memories.forget_from(_clock(state).now)
+        ctx = replace(ctx, told=runtime.context.told(state["plan"], _clock(state)))
         given = HumanInput(clock=_clock(state), hours=state["plan"].hours)
         return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
 
@@ -199,6 +201,7 @@ def human_context(services: Services, plan: DayPlan) -> HumanContext:
         memories=services.memories("human", plan.episode, plan.person),
         embeddings=services.embeddings,
         model=services.person,
+        interview=services.interview,
     )
 
 

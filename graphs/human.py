@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
@@ -19,11 +19,9 @@ from core.household import ObjectMap, plain
 from core.randomness import Address
 from core.replies import (
     DayReply,
-    FreeMotionDraft,
     FreeMotionReflectionReply,
     FreeMotionReply,
     IntentionReply,
-    PickPlaceDraft,
     PickPlaceReflectionReply,
     PickPlaceReply,
 )
@@ -31,9 +29,7 @@ from graphs.checks import findings, repair
 from graphs.method import Numbers
 from graphs.recall import as_memory, as_variables, recall_both
 from graphs.services import HumanContext
-
-Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
-
+from graphs.stated import Draft, chosen, stated_intention, stated_steps
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflectionReply]] = {
@@ -57,6 +53,7 @@ class HumanState(HumanInput, total=False):
     intention: Intention  # by propose
     found: Found  # by search
     tasks: list[Task]  # by decompose, then revised by the reflections
+    stated: bool  # by decompose: a real person has said what the tasks are
     reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
     wrong: list[str]  # by reflect_scene: what code still finds wrong after it
     repairs: list[str]  # by mend
@@ -110,6 +107,8 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Decide what to do this hour. Reads `recalled`, `today`; writes `intention`."""
     ctx = runtime.context
+    if stated := stated_intention(ctx, state["clock"], _today(state)):
+        return {"intention": stated}
     if ctx.model.hourly:
         reply = ctx.ask(
             "human/intention",
@@ -140,8 +139,14 @@ def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 
 def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks`."""
+    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks` and `stated`.
+
+    Steps that a real person states are taken over: as they are where each is a choice, else as the model reads them.
+    """
     ctx, found = runtime.context, state["found"]
+    steps = stated_steps(ctx, state["clock"], _today(state), state["intention"], found)
+    if steps and (drafts := chosen(ctx, steps, found)):
+        return {"tasks": number(drafts, state["clock"]), "stated": True}
     things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
     reply = ctx.ask(
         f"human/tasks_type{ctx.collab}",
@@ -152,10 +157,11 @@ def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, An
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
-            "n_tasks": Numbers.HUMAN_TASKS[ctx.collab],
+            "n_tasks": len(steps) or Numbers.HUMAN_TASKS[ctx.collab],
+            "steps": steps,
         },
     )
-    return {"tasks": number(reply.tasks, state["clock"])}
+    return {"tasks": number(reply.tasks, state["clock"]), "stated": bool(steps)}
 
 
 def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
@@ -177,9 +183,9 @@ def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[s
     return _revised(state, reply, "reflect_profile")
 
 
-def reflects(_state: HumanState, runtime: Runtime[HumanContext]) -> Literal["reflect_profile", "mend"]:
-    """Reflect, unless the person model does without."""
-    return "reflect_profile" if runtime.context.model.reflection else "mend"
+def reflects(state: HumanState, runtime: Runtime[HumanContext]) -> Literal["reflect_profile", "mend"]:
+    """Reflect, unless the person model does without, or a real person has said what the tasks are."""
+    return "reflect_profile" if runtime.context.model.reflection and not state["stated"] else "mend"
 
 
 def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
@@ -222,7 +228,8 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
         ModelOutputError: If no task is left.
     """
     ctx = runtime.context
-    tasks, repairs = repair(state["tasks"], ctx.home, Numbers.HUMAN_TASKS[ctx.collab], ctx.search)
+    count = len(state["tasks"]) if state["stated"] else Numbers.HUMAN_TASKS[ctx.collab]
+    tasks, repairs = repair(state["tasks"], ctx.home, count, ctx.search)
     return {"tasks": tasks, "repairs": repairs}
 
 
@@ -265,6 +272,10 @@ def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:
 
 def _known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
+
+
+def _today(state: HumanState) -> list[str]:
+    return [f"{memory['when']}: {memory['text']}" for memory in state["today"]]
 
 
 def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:

@@ -14,7 +14,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
-from core.hour import Intention, Success, Task, TaskCandidate
+from core.clock import Clock
+from core.hour import DayPlan, Intention, LoggedHour, Success, Task, TaskCandidate
 from core.household import Collab, Outcome, SceneId
 from core.people import Persona, PersonId
 from core.protocols import Ask, Home, Recorder
@@ -24,6 +25,7 @@ from graphs.lived import Lived
 from graphs.method import Method
 from graphs.own_robot import OwnRobot, Robot
 from graphs.person import FULL, PersonModel
+from graphs.real_person import Interview
 from memory import MemoryStream, Search
 
 
@@ -56,6 +58,10 @@ class HumanContext:
     memories: Memories
     embeddings: Embeddings
     model: PersonModel = FULL
+    told: LoggedHour | None = None
+    """What a real person wrote down of this hour."""
+    interview: Interview | None = None
+    """How a real person in the loop is asked."""
 
     def search(self, texts: Sequence[str]) -> Search:
         """Search over a fixed list of texts (object names, motion captions)."""
@@ -82,6 +88,10 @@ class RobotContext:
     """A robot of one's own, as it is after its last evening; None where our graph helps."""
     images: Path
     """The folder to which the observation's frames are relative."""
+
+
+def nothing_was_told(_plan: DayPlan, _clock: Clock) -> None:
+    """Nobody wrote anything down: the person is simulated."""
 
 
 class Score(Protocol):
@@ -124,6 +134,14 @@ class Services:
     """How people are simulated."""
     lived: Lived | None = None
     """Days that were lived before, which the people live again; by default they live new ones."""
+    told: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_told
+    """What a real person wrote down of an hour."""
+    in_the_loop: bool = False
+    """Whether a real person is asked, by interrupts."""
+    graded: bool = False
+    """Whether the evening's feedback is grades from 1 to 5 instead of yes or no."""
+    interview: Interview | None = None
+    """How the node that runs now asks the person; set by the day graph."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from core.asks import ASKS
+from core.big_five_test import ITEMS
 
 _ACTS_1 = [
     {"object_id": 52, "object": "book_2", "receptacle_id": 3, "receptacle": "coffee_table_1"},
@@ -81,6 +82,7 @@ _FULL: dict[str, Any] = {
     "profile_2": "I drive a taxi. I love football. I have a cat.",
     "conversation": "User 1: Hi! How was your day?\nUser 2: Long, I drove all night. And yours?\n"
     "User 1: I marked essays, then I baked a rye bread to calm down.\nUser 2: I wish my cat could bake.",
+    "statements": [item.says for item in ITEMS],
     "rooms": ["bathroom", "bedroom", "kitchen", "living room", "study"],
     "today": [
         {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast"},
@@ -109,6 +111,7 @@ _FULL: dict[str, Any] = {
     },
     "motions": ["sit and read", "stretch both arms", "lean forward", "reach up", "walk in a circle"],
     "n_tasks": 5,
+    "steps": ["get my book from the shelf", "sit in the armchair and read"],
     "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 5 tasks, not 4."],
     "hours": ["9 am", "10 am", "11 am", "12 pm", "1 pm", "2 pm"],
     "tasks": _TASKS[2],
@@ -143,6 +146,7 @@ _BARE: dict[str, Any] = {
     "recalled_intentions": [],
     "recalled_tasks": [],
     "findings": [],
+    "steps": [],
     "percept": None,
     "profile_2": "",
     "conversation": "",

@@ -51,33 +51,51 @@ def import_humans(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR, or the user's own]")
     ] = None,
+    workers: Annotated[int, typer.Option(min=1, max=64, help="Rows worked on at the same time.")] = 4,
     force: Annotated[bool, typer.Option("--force", help="Write anew those who are there already.")] = False,
     model: Model = None,
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     as_json: AsJson = False,
 ) -> None:
-    """Make one person of each row, from the column "user 1 personas"."""
+    """Make one person of each row, from the column "user 1 personas"; stopped, it goes on where it was."""
     from coopera.config import load_config
-    from coopera.persona_import import import_people, read_rows
+    from coopera.persona_import import Maker, import_people, read_rows
 
     models = {"human": model} if model else None
     config = load_config(flags={"models": models, "base_url": base_url, "prompts": prompts, "data_dir": out})
     read_rows(file)  # a file that is wrong is refused before a model is loaded
     from coopera.assemble import open_ask
+    from core.errors import ConfigError
+    from prompts import PromptLibrary
 
     folder = config.data_dir / "humans"
-    ask = open_ask(config)
+    library = PromptLibrary(config.prompts)
+    replies = config.data_dir / "imports"  # a model's replies, so that those of a row that was broken off are not lost
+    try:
+        replies.mkdir(parents=True, exist_ok=True)
+    except OSError as err:
+        raise ConfigError(f"{replies}: people cannot be stored here ({err.strerror}).") from err
+    maker = Maker(open_ask(config, prompts=library, root=replies), config.models.human, library.hashes())
 
     def tell(person: str, what: str) -> None:
         typer.echo(f"{person}: {what}", err=True)
 
-    done = import_people(file, ask, folder, limit=limit, force=force, on_person=tell)
+    try:
+        done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
+    except KeyboardInterrupt:
+        typer.echo("Stopped. The same command goes on where it was.", err=True)
+        raise typer.Exit(130) from None
+    for person, why in done.failed.items():
+        typer.echo(f"{person}: {why}", err=True)
     if as_json:
-        found: dict[str, Any] = {"written": done.written, "kept": done.kept, "folder": str(folder)}
+        found: dict[str, Any] = {**done._asdict(), "folder": str(folder)}
         typer.echo(json.dumps(found))
-        return
-    typer.echo(f"{len(done.written)} written and {len(done.kept)} kept in {folder}.")
+    else:
+        failed = f", {len(done.failed)} failed" if done.failed else ""
+        typer.echo(f"{len(done.written)} written and {len(done.kept)} kept in {folder}{failed}.")
+    if done.failed:
+        raise typer.Exit(1)
 
 
 @app.command()

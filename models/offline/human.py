@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from core.people import Frozen
 from core.replies import DayReply, IntentionReply
-from models.offline import human_tasks, persona, verdicts
+from models.offline import big_five, human_tasks, persona, verdicts
 from models.offline.knowledge import Activity, Floats
 from models.offline.person import PrivateLife
 from models.offline.reading import Memory, big_five_of, clip, hour_of, memories, room_kind
@@ -45,13 +45,15 @@ class Human:
         if prompt in human_tasks.ANSWERS:
             life = self._life(variables) if "person" in variables else None
             return human_tasks.ANSWERS[prompt](self._sense, life, variables, rng)
-        return _OTHERS[prompt](self._sense, variables)
+        if prompt in _OTHERS:
+            return _OTHERS[prompt](self._sense, variables)
+        return _OF_TEXT[prompt](self._sense, variables, rng)
 
     def _life(self, variables: Mapping[str, Any]) -> PrivateLife:
-        big_five = big_five_of(variables["big_five"])
-        key = (str(variables["person"]), str(variables["profile"]), str(big_five))
+        traits = big_five_of(variables["big_five"])
+        key = (str(variables["person"]), str(variables["profile"]), str(traits))
         if key not in self._lives:
-            self._lives[key] = PrivateLife(self._sense, key[0], key[1], big_five)
+            self._lives[key] = PrivateLife(self._sense, key[0], key[1], traits)
         return self._lives[key]
 
     def _intention(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> IntentionReply:
@@ -150,6 +152,11 @@ def _clock(hour: int) -> str:
 _OTHERS: dict[str, Callable[[CommonSense, Mapping[str, Any]], Frozen]] = {
     "human/feedback_intentions": verdicts.feedback_intentions,
     "human/feedback_tasks": verdicts.feedback_tasks,
+    "human/grade_intentions": verdicts.grade_intentions,
+    "human/grade_tasks": verdicts.grade_tasks,
+}
+_OF_TEXT: dict[str, Callable[[CommonSense, Mapping[str, Any], np.random.Generator], Frozen]] = {
     "persona/profile": persona.profile,
-    "persona/big_five": persona.big_five,
+    "persona/big_five": lambda sense, variables, rng: big_five.infer(sense, str(variables["profile"]), rng),
+    "persona/big_five_test": lambda sense, variables, rng: big_five.take_test(sense, str(variables["profile"]), rng),
 }

@@ -11,7 +11,7 @@ from core.errors import ModelCallError
 from core.household import plain
 from core.people import Frozen
 from core.replies import FreeMotionDraft, FreeMotionReply, PickPlaceDraft, PickPlaceReply
-from models.offline import reflection
+from models.offline import own_steps, reflection
 from models.offline.choosing import favourite_spot, known, person_placements, reasons
 from models.offline.person import PrivateLife
 from models.offline.placing import free_motion, spots
@@ -28,6 +28,8 @@ def pick_and_place(
     sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], rng: np.random.Generator
 ) -> PickPlaceReply:
     """Answer human/tasks_type1: the person's usual placements among those that the home allows, in sensible order."""
+    if variables["steps"]:
+        return own_steps.placements(sense, variables)
     person, activity = known(life), sense.recognise(variables["intention"]).activity
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
@@ -55,6 +57,8 @@ def free_motions(
     The motions are those that the household file gives for the activity; those among the examples that the
     prompt offers need not be taken.
     """
+    if variables["steps"]:
+        return own_steps.motions(sense, variables)
     person, activity = known(life), sense.recognise(variables["intention"]).activity
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     options = spots(sense, activity, Surroundings(variables["fixed"]))

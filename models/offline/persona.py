@@ -1,4 +1,4 @@
-"""From a published persona to a person of ours: a self-introduction and Big-Five scores. Honest, not imaginative."""
+"""From a published persona to a fuller life: what the person said, and for what was left open something that fits."""
 
 from __future__ import annotations
 
@@ -10,16 +10,21 @@ from typing import Annotated, Any
 
 import numpy as np
 import yaml
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from core.people import TRAITS, BigFive, Frozen
-from core.replies import BigFiveReply, ProfileReply
+from core.replies import ProfileReply
+from models.offline.big_five import infer
+from models.offline.knowledge import Loading
 from models.offline.reading import clip
 from models.offline.sense import CommonSense
-from models.offline.statements import sentences
+from models.offline.statements import sentences, statements
 
 SAID_ALREADY = 0.75  # cosine from which a sentence of the conversation says nothing new
-SPREAD = 0.8  # standard deviation over people; PAPER App. B: 0.7-0.9 among real people
+KINSHIP = 6.0  # logits per unit of cosine between a statement and what the person says
+TRAIT_PULL = 1.1  # logits per point of (trait - 3) x loading 1, as for activities
+AVERSE = 0.45  # cosine to something the person dislikes from which a statement is not made
+NEVER = -50.0  # logit of a statement that is not made
 LONGEST = 6000
 
 _FACT = re.compile(r"^(?:i|my|we|our)\b|^i['’]", re.IGNORECASE)
@@ -30,76 +35,77 @@ _SMALL_TALK = re.compile(
 )
 
 
-class _Marker(Frozen):
-    says: str
-    trait: str
-    sign: Annotated[int, Field(ge=-1, le=1)]
+class _Statement(Frozen):
+    says: Annotated[str, Field(min_length=2)]
+    big_five: dict[str, Loading]
+
+    @field_validator("big_five")
+    @classmethod
+    def _known_traits(cls, loadings: dict[str, float]) -> dict[str, float]:
+        if unknown := sorted(set(loadings) - set(TRAITS)):
+            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
+        return loadings
 
 
-class _Norm(Frozen):
-    mean: float
-    sd: Annotated[float, Field(gt=0)]
+class Aspect(Frozen):
+    """A side of life that a profile should speak of; `words` in a sentence show that it does."""
+
+    name: str
+    words: Annotated[list[str], Field(min_length=1)]
+    statements: Annotated[list[_Statement], Field(min_length=2)]
+
+    def covered(self, said: Sequence[str]) -> bool:
+        """Whether a sentence speaks of this aspect."""
+        found = re.compile(rf"\b(?:{'|'.join(map(re.escape, self.words))})(?!\w)", re.IGNORECASE)
+        return any(found.search(sentence) for sentence in said)
 
 
-class _Markers(Frozen):
-    norms: dict[str, _Norm]
-    markers: list[_Marker]
+def profile(sense: CommonSense, variables: Mapping[str, Any], rng: np.random.Generator) -> ProfileReply:
+    """Answer persona/profile: the person's own sentences, what they say in the conversation, and the rest of a life.
 
-
-def profile(sense: CommonSense, variables: Mapping[str, Any]) -> ProfileReply:
-    """Answer persona/profile: the person's own sentences and what they say of themselves in the conversation.
-
-    DEVIATES: PAPER §3.2 has a language model invent a fuller life; a routine model has no imagination, and what
-    nobody said is not added.
+    DEVIATES: PAPER §3.2 has a language model imagine the life around the facts; a routine model draws a statement from
+    aspects.yaml for each aspect of which the person says nothing. Of who says nothing at all, nothing is made up.
     """
-    own = sentences(_lines(variables["profile_1"]))
-    kept = list(own)
+    kept = sentences(_lines(variables["profile_1"]))
     for sentence in _facts(_lines(variables["conversation"])):
-        known = max((sense.similarity(sentence, other) for other in kept), default=0.0)
-        if known < SAID_ALREADY:
+        if max((sense.similarity(sentence, other) for other in kept), default=0.0) < SAID_ALREADY:
             kept.append(sentence)
-    text = " ".join(_sentence(part) for part in kept)
-    return ProfileReply(profile=clip(text or "I say nothing of myself.", LONGEST))
+    if not kept:
+        return ProfileReply(profile="I say nothing of myself.")
+    kept += extension(sense, kept, rng)
+    return ProfileReply(profile=clip(" ".join(_sentence(part) for part in kept), LONGEST))
 
 
-def big_five(sense: CommonSense, variables: Mapping[str, Any]) -> BigFiveReply:
-    """Answer persona/big_five: how much nearer the profile is to one pole's statements than to the other's.
-
-    Each trait's score is centred and scaled by norms measured over 424 published personas, so that 3 is an average
-    persona and people spread as real ones do. Statements are compared by likeness of meaning; nothing is understood.
-    """
-    said = sentences(str(variables["profile"]))
-    if not said:
-        return BigFiveReply(big_five=BigFive())
-    known = shipped_markers()
-    raw = raw_scores(sense, said)
-    scores = {
-        trait: round(
-            float(np.clip(3.0 + SPREAD * (raw[trait] - known.norms[trait].mean) / known.norms[trait].sd, 1, 5)), 2
-        )
-        for trait in TRAITS
-    }
-    return BigFiveReply(big_five=BigFive(**scores))
-
-
-def raw_scores(sense: CommonSense, said: Sequence[str]) -> dict[str, float]:
-    """Return per trait the mean best cosine to the positive statements less that to the negative ones."""
-    markers = shipped_markers().markers
-    nearest = (sense.vectors(said) @ sense.vectors([marker.says for marker in markers]).T).max(axis=0)
-    return {
-        trait: float(
-            np.mean([n for n, m in zip(nearest, markers, strict=True) if m.trait == trait and m.sign > 0])
-            - np.mean([n for n, m in zip(nearest, markers, strict=True) if m.trait == trait and m.sign < 0])
-        )
-        for trait in TRAITS
-    }
+def extension(sense: CommonSense, said: Sequence[str], rng: np.random.Generator) -> list[str]:
+    """Draw a statement for each aspect that is not covered, fitting what is said and how the person seems to be."""
+    seems = infer(sense, " ".join(_sentence(part) for part in said), rng).big_five
+    opinions = statements("\n".join(said))
+    added = []
+    for aspect in shipped_aspects():
+        if aspect.covered(said):
+            continue
+        logits = np.array([_fit(sense, one, opinions.habits, opinions.aversions, seems) for one in aspect.statements])
+        weights = np.exp(logits - logits.max())
+        choice = int(rng.choice(len(weights), p=weights / weights.sum()))
+        if logits[choice] > NEVER:
+            added.append(aspect.statements[choice].says)
+    return added
 
 
 @lru_cache(maxsize=1)
-def shipped_markers() -> _Markers:
-    """Return the trait-marking statements and their norms, from traits.yaml beside this file."""
-    text = (Path(__file__).parent / "traits.yaml").read_text(encoding="utf-8")
-    return _Markers.model_validate(yaml.safe_load(text))
+def shipped_aspects() -> tuple[Aspect, ...]:
+    """Return the aspects of a life, from aspects.yaml beside this file."""
+    text = (Path(__file__).parent / "aspects.yaml").read_text(encoding="utf-8")
+    return tuple(Aspect.model_validate(one) for one in yaml.safe_load(text)["aspects"])
+
+
+def _fit(sense: CommonSense, one: _Statement, habits: Sequence[str], aversions: Sequence[str], seems: BigFive) -> float:
+    """Logit of a statement for a person; it is not made of one who dislikes what it speaks of."""
+    if any(sense.similarity(one.says, other) >= AVERSE for other in aversions):
+        return NEVER
+    near = max((sense.similarity(one.says, other) for other in habits), default=0.0)
+    pull = sum(load * (getattr(seems, trait) - 3.0) for trait, load in one.big_five.items())
+    return float(KINSHIP * near + TRAIT_PULL * pull)
 
 
 def _facts(conversation: str) -> list[str]:

@@ -13,6 +13,7 @@ from langchain_core.embeddings import Embeddings
 from langchain_core.messages import HumanMessage
 
 from core.asks import ASKS
+from core.big_five_test import ITEMS
 from core.clock import Clock
 from core.household import Percept
 from core.replies import REPLIES
@@ -179,10 +180,12 @@ _ALL: dict[str, Any] = {
     "n_tasks": 3,
     "n_intentions": 4,
     "findings": [],
+    "steps": [],
     "guesses": ["Make a homemade treat", "Take a short nap"],
     "offers": [{"thought": "useful", "text": "bring the whisk"}],
     "percept": percept(),
     "first_task": None,
+    "statements": [item.says for item in ITEMS],
     "profile_1": "I love to bake.\nI have two dogs.",
     "profile_2": "I am old.",
     "conversation": "User 1: Hi! I work in a bakery downtown.\nUser 2: I paint.",

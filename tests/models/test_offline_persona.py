@@ -1,4 +1,4 @@
-"""From published personas to people: nothing invented, and Big Five that spread."""
+"""From published personas to people: own words first, the rest of a life filled in, and Big Five that spread."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from core.big_five_test import ITEMS, score
 from core.people import TRAITS, BigFive
 from memory.embeddings import bundled
+from models.offline.big_five import shipped_norms
 from models.offline.knowledge import Household, shipped
 from models.offline.person import PrivateLife
-from models.offline.persona import shipped_markers
+from models.offline.persona import shipped_aspects
 from models.offline.sense import CommonSense
 from tests.models.offline_questions import ask
 
@@ -27,9 +29,9 @@ def _profile(one: str, conversation: str = CONVERSATION) -> str:
     return str(ask("persona/profile", **asked).profile)
 
 
-def test_a_profile_is_the_persons_own_sentences_and_facts_and_nothing_else() -> None:
+def test_a_profile_begins_with_the_persons_own_sentences_and_facts() -> None:
     text = _profile("i love to bake\nI have two dogs.\nI love to bake")
-    assert text == "I love to bake. I have two dogs. I work in a bakery downtown. My sister lives in Ohio."
+    assert text.startswith("I love to bake. I have two dogs. I work in a bakery downtown. My sister lives in Ohio. ")
 
 
 def test_a_fact_that_was_said_already_is_not_repeated() -> None:
@@ -40,27 +42,63 @@ def test_a_person_who_says_nothing_is_not_made_up() -> None:
     assert _profile("", "User 2: I paint a lot these days.") == "I say nothing of myself."
 
 
-def _big_five(profile: str) -> Any:
-    return ask("persona/big_five", profile=profile).big_five
+def test_every_aspect_of_a_life_is_said_by_the_person_or_filled_in_once() -> None:
+    own = ["I work in a bakery.", "I have two dogs."]
+    text = _profile("\n".join(own), "")
+    for aspect in shipped_aspects():
+        filled = [one.says for one in aspect.statements if one.says in text]
+        assert len(filled) == (0 if aspect.covered(own) else 1), aspect.name
 
 
-def test_statements_of_a_pole_move_the_score_towards_it() -> None:
-    markers = shipped_markers().markers
+def test_the_aspects_are_those_of_the_paper() -> None:
+    names = {aspect.name for aspect in shipped_aspects()}
+    assert {"job", "hobbies", "daily activities", "food preferences", "social life", "travel habits"} < names
+    assert len(names) == len(shipped_aspects()) == 18
+
+
+def test_what_the_person_dislikes_is_not_filled_in() -> None:
+    text = _profile("I hate it to do yoga and stretch when I get up.\nI have two dogs.", "")
+    assert "I do yoga" not in text
+
+
+def test_two_people_with_the_same_notes_need_not_have_the_same_life() -> None:
+    asked = {"profile_1": "I have two dogs.", "profile_2": "", "conversation": ""}
+    lives = {str(ask("persona/profile", seed=seed, **asked).profile) for seed in range(5)}
+    assert len(lives) == 5
+
+
+def _big_five(profile: str, seed: int = 0) -> Any:
+    return ask("persona/big_five", seed=seed, profile=profile).big_five
+
+
+def _test(profile: str, seed: int = 0) -> Any:
+    statements = [item.says for item in ITEMS]
+    return score(ask("persona/big_five_test", seed=seed, profile=profile, statements=statements).answers)
+
+
+@pytest.mark.parametrize("read", [_big_five, _test])
+def test_statements_of_a_pole_move_the_score_towards_it(read: Any) -> None:
     for trait in TRAITS:
-        for_it = " ".join(f"{m.says}." for m in markers if m.trait == trait and m.sign > 0)
-        against = " ".join(f"{m.says}." for m in markers if m.trait == trait and m.sign < 0)
-        assert getattr(_big_five(for_it), trait) > 3 > getattr(_big_five(against), trait)
+        poles = [" ".join(f"I {i.says[0].lower()}{i.says[1:]}" for i in ITEMS if i[1:] == (trait, s)) for s in (1, -1)]
+        high, low = (getattr(read(text), trait) for text in poles)
+        assert high > low, trait
 
 
-def test_an_empty_profile_is_in_the_middle_of_every_scale() -> None:
-    assert set(_big_five("").model_dump().values()) == {3.0}
+@pytest.mark.parametrize("read", [_big_five, _test])
+def test_an_empty_profile_is_in_the_middle_of_every_scale(read: Any) -> None:
+    assert set(read("").model_dump().values()) == {3.0}
 
 
-def test_the_markers_are_ten_items_a_trait_of_both_poles_but_for_the_norms_of_the_test() -> None:
-    markers = shipped_markers().markers
-    assert [sum(m.trait == trait for m in markers) for trait in TRAITS] == [10] * 5
-    assert {m.trait for m in markers if m.sign > 0} == {m.trait for m in markers if m.sign < 0} == set(TRAITS)
-    assert set(shipped_markers().norms) == set(TRAITS)
+def test_readings_differ_as_attention_does() -> None:
+    text = _profile("I love to bake\nI have two dogs.")
+    assert len({str(_big_five(text, seed)) for seed in range(5)}) > 1
+    assert _big_five(text, 1) == _big_five(text, 1)
+
+
+def test_the_items_are_ten_a_trait_of_both_poles_and_every_one_has_its_norm() -> None:
+    assert [sum(item.trait == trait for item in ITEMS) for trait in TRAITS] == [10] * 5
+    assert {item.trait for item in ITEMS if item.sign > 0} == {item.trait for item in ITEMS if item.sign < 0}
+    assert set(shipped_norms().traits) == set(TRAITS)
 
 
 @pytest.fixture(scope="module")

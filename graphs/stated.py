@@ -1,0 +1,68 @@
+"""What a real person states of an hour: the question that asks for it, and the tasks made of the answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from core.clock import Clock
+from core.hour import Found, Intention
+from core.interview import Question
+from core.replies import FreeMotionDraft, PickPlaceDraft
+from graphs.method import Numbers
+from graphs.real_person import ask_until_read, read_choice, read_intention, read_steps
+from graphs.services import HumanContext
+
+Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
+
+
+def stated_intention(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> Intention | None:
+    """The intention that a real person wrote down or gives now; None where the person is simulated."""
+    if ctx.told:
+        return Intention(text=ctx.told.intention)
+    if ctx.interview:
+        question = Question(kind="intention", **_when_and_where(ctx, clock, today))
+        return Intention(text=ask_until_read(ctx.interview, question, read_intention))
+    return None
+
+
+def stated_steps(
+    ctx: HumanContext, clock: Clock, today: Sequence[str], intention: Intention, found: Found
+) -> list[str]:
+    """The steps of this hour in a real person's words; none where the model is to find them."""
+    if ctx.told:
+        return ctx.told.tasks
+    if ctx.interview:
+        question = Question(
+            kind="tasks",
+            **_when_and_where(ctx, clock, today),
+            intention=intention.text,
+            places={name: room for name, (_, room) in found.fixed.items()},
+            things={name: room for name, (_, room) in found.movable.items()},
+            motions=found.motions,
+            n_tasks=Numbers.HUMAN_TASKS[ctx.collab],
+        )
+        return ask_until_read(ctx.interview, question, lambda answer: read_steps(answer, question))
+    return []
+
+
+def chosen(ctx: HumanContext, steps: Sequence[str], found: Found) -> list[Draft]:
+    """The tasks, where every step is a choice that can be read; otherwise none, and a model reads the words."""
+    try:
+        return [read_choice(step, ctx.collab, found.fixed, found.movable, found.motions) for step in steps]
+    except ValueError:
+        return []
+
+
+def _when_and_where(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> dict[str, object]:
+    return {
+        "person": ctx.persona.id,
+        "name": ctx.persona.name,
+        "day": clock.day,
+        "hour": clock.hour,
+        "time": clock.label,
+        "weekday": clock.weekday,
+        "collab": ctx.collab,
+        "rooms": ctx.home.rooms,
+        "today": list(today),
+    }

@@ -1,0 +1,90 @@
+"""A person's Big Five, read from a self-description: directly, and by filling in the 50-item test.
+
+Statements are compared by likeness of meaning; nothing is understood. Each reading attends to most of the sentences,
+not always the same ones, so that several readings differ as much as the text leaves open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+from pydantic import Field
+
+from core.big_five_test import ITEMS
+from core.people import TRAITS, BigFive, Frozen
+from core.replies import BigFiveReply, BigFiveTestReply
+from models.offline.sense import CommonSense
+from models.offline.statements import sentences
+
+ATTENDED = 0.8  # share of the sentences that one reading attends to
+SPREAD = 0.8  # standard deviation of direct readings over people; PAPER App. B: 0.7-0.9 among real people
+ITEM_SPREAD = 1.15  # the same of one item's answers; assumption
+_STATEMENTS = [f"I {item.says[0].lower()}{item.says[1:-1]}" for item in ITEMS]
+
+
+class Norm(Frozen):
+    """Mean and standard deviation of a figure over published personas."""
+
+    mean: float
+    sd: Annotated[float, Field(gt=0)]
+
+
+class Norms(Frozen):
+    """What is usual among published personas: per trait the raw score, per item the nearest sentence's cosine."""
+
+    traits: dict[str, Norm]
+    items: Annotated[list[Norm], Field(min_length=len(ITEMS), max_length=len(ITEMS))]
+
+
+def infer(sense: CommonSense, profile: str, rng: np.random.Generator) -> BigFiveReply:
+    """Answer persona/big_five: how much nearer the text is to one pole's statements than to the other's.
+
+    Each trait's score is centred and scaled by norms over published personas, so that 3 is an average persona.
+    """
+    near = nearest(sense, profile, rng)
+    if near is None:
+        return BigFiveReply(big_five=BigFive())
+    raw, norms = raw_scores(near), shipped_norms().traits
+    scores = {t: float(np.clip(3.0 + SPREAD * (raw[t] - norms[t].mean) / norms[t].sd, 1, 5)) for t in TRAITS}
+    return BigFiveReply(big_five=BigFive(**{trait: round(score, 2) for trait, score in scores.items()}))
+
+
+def take_test(sense: CommonSense, profile: str, rng: np.random.Generator) -> BigFiveTestReply:
+    """Answer persona/big_five_test: agree the more, the nearer the text comes to a statement than texts usually do."""
+    near = nearest(sense, profile, rng)
+    if near is None:
+        return BigFiveTestReply(answers=[3] * len(ITEMS))
+    norms = shipped_norms().items
+    agreed = [3.0 + ITEM_SPREAD * (float(n) - norm.mean) / norm.sd for n, norm in zip(near, norms, strict=True)]
+    return BigFiveTestReply(answers=[int(np.clip(np.rint(answer), 1, 5)) for answer in agreed])
+
+
+def nearest(sense: CommonSense, profile: str, rng: np.random.Generator) -> NDArray[np.float64] | None:
+    """Return per item the cosine of the nearest attended sentence; None where nothing is said."""
+    said = sentences(profile)
+    if not said:
+        return None
+    attended = [sentence for sentence in said if rng.random() < ATTENDED] or said
+    return np.asarray((sense.vectors(attended) @ sense.vectors(_STATEMENTS).T).max(axis=0), dtype=np.float64)
+
+
+def raw_scores(near: Sequence[float] | NDArray[np.float64]) -> dict[str, float]:
+    """Return per trait the mean cosine to the statements for it less that to those against it."""
+
+    def mean(trait: str, sign: int) -> float:
+        return float(np.mean([n for n, item in zip(near, ITEMS, strict=True) if item[1:] == (trait, sign)]))
+
+    return {trait: mean(trait, 1) - mean(trait, -1) for trait in TRAITS}
+
+
+@lru_cache(maxsize=1)
+def shipped_norms() -> Norms:
+    """Return the norms in traits.yaml beside this file."""
+    text = (Path(__file__).parent / "traits.yaml").read_text(encoding="utf-8")
+    return Norms.model_validate(yaml.safe_load(text))
