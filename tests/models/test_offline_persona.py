@@ -9,8 +9,9 @@ import pytest
 
 from core.big_five_test import ITEMS, score
 from core.people import TRAITS, BigFive
+from core.randomness import rng_at
 from memory.embeddings import bundled
-from models.offline.big_five import shipped_norms
+from models.offline.big_five import infer, shipped_norms, take_test
 from models.offline.knowledge import Household, shipped
 from models.offline.person import PrivateLife
 from models.offline.persona import shipped_aspects
@@ -77,14 +78,6 @@ def _test(profile: str, seed: int = 0) -> Any:
 
 
 @pytest.mark.parametrize("read", [_big_five, _test])
-def test_statements_of_a_pole_move_the_score_towards_it(read: Any) -> None:
-    for trait in TRAITS:
-        poles = [" ".join(f"I {i.says[0].lower()}{i.says[1:]}" for i in ITEMS if i[1:] == (trait, s)) for s in (1, -1)]
-        high, low = (getattr(read(text), trait) for text in poles)
-        assert high > low, trait
-
-
-@pytest.mark.parametrize("read", [_big_five, _test])
 def test_an_empty_profile_is_in_the_middle_of_every_scale(read: Any) -> None:
     assert set(read("").model_dump().values()) == {3.0}
 
@@ -107,6 +100,17 @@ def real() -> CommonSense:
     some = ("bake", "knit", "video_games", "strength", "read", "pet_play")
     activities = [shipped().activities[shipped().index[name]].model_copy(update={"follows": ()}) for name in some]
     return CommonSense(Household(looks_like=shipped().looks_like, activities=tuple(activities)), bundled())
+
+
+@pytest.mark.parametrize("trait", TRAITS)
+def test_with_the_real_encoder_statements_of_a_pole_move_both_readings_towards_it(
+    real: CommonSense, trait: str
+) -> None:
+    poles = [" ".join(f"I {i.says[0].lower()}{i.says[1:]}" for i in ITEMS if i[1:] == (trait, s)) for s in (1, -1)]
+    high, low = (getattr(infer(real, text, rng_at(0)).big_five, trait) for text in poles)
+    assert high > 3 > low
+    high, low = (getattr(score(take_test(real, text, rng_at(0)).answers), trait) for text in poles)
+    assert high > low
 
 
 @pytest.mark.parametrize(
