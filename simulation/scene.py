@@ -260,7 +260,8 @@ class Scene(Frozen):
 
     def room_at(self, x: float, y: float) -> Room:
         """The room that holds a point, or else the nearest one (ties: the first listed)."""
-        return min(self.rooms, key=lambda room: room.bounds.distance(x, y))
+        inside = next((room for room in self.rooms if room.contains(x, y)), None)
+        return inside or min(self.rooms, key=lambda room: room.bounds.distance(x, y))
 
     def object_map(self, kind: Kind) -> ObjectMap:
         """{name: (id, room)} of the initial places, sorted by name."""

@@ -46,16 +46,13 @@ def test_intentions_and_tasks_are_told_apart_each_by_its_own_texts() -> None:
 
 
 def test_accuracy_is_counted_over_days_by_hand() -> None:
-    """Ann's two days in the unseen homes read like hers; of Bob's two, one reads like Ann's: 3 of 4."""
-    days = [
-        day("ann", "x", 0, does=["aaa"]),
-        day("ann", "y", 1, does=["aaa"]),
-        day("bob", "x", 2, does=["zzz"]),
-        day("bob", "y", 3, does=["aaa"]),
-    ]
-    # learning from y, where both read alike, everybody is the first of equals: 1 of 2; learning from x: 1 of 2
+    """In the third home Bob's day reads like Ann's: 5 of 6 days are put down right, and Bob's 2 of 3."""
+    days = [day(person, scene, n, does=[word])
+            for person, words in (("ann", ["aaa", "aaa", "aaa"]), ("bob", ["zzz", "zzz", "aaa"]))
+            for n, (scene, word) in enumerate(zip("xyv", words, strict=True))]  # fmt: skip
     figure = distinctness(lives(days), LEARNER)[0]
-    assert figure.value == pytest.approx(0.5, abs=1e-12)
+    assert figure.value == pytest.approx(5 / 6, abs=1e-12)
+    assert (figure.low, figure.high) == (pytest.approx(2 / 3), 1)  # twice Bob, twice Ann
 
 
 def test_one_person_or_one_day_is_unmeasured_with_the_reason() -> None:
