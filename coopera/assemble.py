@@ -128,6 +128,13 @@ def open_services(
         )
 
 
+def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
+    """Open one of a run's homes as it was built; it is to be closed after use."""
+    layout = load_scene(scene, [config.data_dir / "scenes"])
+    match = _nearest_motion(embeddings)
+    return World(layout, robot=config.robot, frame_size=config.frame_size, match=match)
+
+
 class _Interruptible:
     """The one door, shut once the run is asked to stop, so that a slow model does not hold it up for an hour."""
 
@@ -154,14 +161,7 @@ class _Homes:
 
     def __call__(self, scene: SceneId) -> Home:
         if scene not in self._open:
-            layout = load_scene(scene, [self._config.data_dir / "scenes"])
-            world = World(
-                layout,
-                robot=self._config.robot,
-                frame_size=self._config.frame_size,
-                match=_nearest_motion(self._embeddings),
-            )
-            self._open[scene] = self._stack.enter_context(world)
+            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings))
         return self._open[scene]
 
 

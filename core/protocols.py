@@ -117,7 +117,7 @@ class Home(Protocol):
         ...
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        """Set the state to a snapshot, exactly."""
+        """Set the state to a snapshot, exactly; an empty one means the home as it was built."""
         ...
 
 

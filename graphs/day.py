@@ -69,8 +69,7 @@ def build_day_graph(
         services, plan = runtime.context, state["plan"]
         services.pupil.be_at(state["learned"])
         home = services.home(plan.scene)
-        if plan.scene in state["worlds"]:
-            home.restore(state["worlds"][plan.scene])
+        home.restore(state["worlds"].get(plan.scene, {}))
         services.ask.take_calls()
         runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
         picture = state["pictures"].get(plan.person, Picture())

@@ -27,6 +27,7 @@ from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
 from graphs.lived import Shown
 from graphs.robot import OracleInput, RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
+from simulation.state import digest
 
 
 class HourInput(TypedDict):
@@ -178,7 +179,12 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
             scene=plan.scene,
             human=human,
             robot=robot,
-            world={"outcomes": [o.model_dump() for o in state.get("outcomes", [])], "poses": world},
+            world={
+                "outcomes": [o.model_dump() for o in state.get("outcomes", [])],
+                "watched": "observation" in state,
+                "poses": world,
+                "sha256": digest(world),
+            },
             success=success,
             status="failed" if "failure" in state else "ok",
             reason=state.get("failure", ""),

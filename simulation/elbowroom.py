@@ -13,6 +13,7 @@ from simulation.shapes import Part
 
 _THICK = 0.045
 """Half the thickness of an arm, in metres."""
+_FINGERS = 0.015
 _HAND = 0.16
 """Points this near to the grasped point belong to the hand, which touches what the thing stands on."""
 _WALL = 2.4
@@ -48,19 +49,19 @@ class Elbowroom:
         x, y = arm[0, :2]
         near = np.flatnonzero(np.hypot(self._boxes[:, 0] - x, self._boxes[:, 1] - y) < 3.0)
         boxes = self._boxes[near]
-        inside = _inside(arm, boxes, _THICK)
+        hand = np.linalg.norm(arm - grasp, axis=1) < _HAND
+        inside = _inside(arm, boxes, np.where(hand, _FINGERS, _THICK)[:, None])
         own = np.array([on is not None and self.names[i] == on.name for i in near], dtype=bool)
         if own.any():
-            hand = np.linalg.norm(arm - grasp, axis=1) < _HAND
             inside[np.ix_(hand, own)] = False
-            if _inside(grasp[None], boxes[own], 0.0).any():
+            if _inside(grasp[None], boxes[own], np.zeros((1, 1))).any():
                 inside[:, own] = False
         found = np.flatnonzero(inside.any(axis=0))
         return self.names[near[found[0]]] if len(found) else None
 
 
-def _inside(points: Array, boxes: Array, margin: float) -> NDArray[np.bool_]:
-    """Which points lie in which boxes grown by a margin; shapes (n, 3) and (m, 7) to (n, m)."""
+def _inside(points: Array, boxes: Array, margin: Array) -> NDArray[np.bool_]:
+    """Which points lie in which boxes grown by each point's margin; shapes (n, 3), (m, 7) and (n, 1) to (n, m)."""
     cos, sin = np.cos(boxes[:, 6]), np.sin(boxes[:, 6])
     dx, dy = points[:, :1] - boxes[:, 0], points[:, 1:2] - boxes[:, 1]
     within = np.abs(dx * cos + dy * sin) < boxes[:, 3] + margin

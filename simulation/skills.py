@@ -38,7 +38,7 @@ from simulation.walking import walk
 
 _FAR_REACH = 1.0
 _TRIES = 24
-_POSTURES = 4
+_POSTURES = 8
 HANDING = (APART, 1.25)
 """Nearest and farthest distance from the person's middle at which the robot hands over a thing."""
 _COMFORTABLE = 0.85

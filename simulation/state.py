@@ -5,7 +5,10 @@ Metres and radians; a heading of 0 looks along +x. An object's room is never sto
 
 from __future__ import annotations
 
-from typing import Literal
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any, Literal
 
 from pydantic import Field
 
@@ -78,6 +81,12 @@ class HomeState(Frozen):
     def spot(self, agent: Agent) -> Point:
         """Where an agent stands, or would stand up to."""
         return self.person.spot if agent == "human" else self.robot.spot
+
+
+def digest(snapshot: Mapping[str, Any]) -> str:
+    """The SHA-256 of a snapshot in canonical JSON: equal for equal homes, in every process."""
+    text = json.dumps(snapshot, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def room_of_thing(scene: Scene, state: HomeState, initial: SceneObject) -> str:

@@ -65,7 +65,7 @@ class World:
         self.layout = scene
         self._library: Library = load_library()
         self._ground = Ground(scene, Navigator(scene), self._library, load_robot(robot), Elbowroom(scene), match)
-        self.state = self._initial()
+        self.state = self._start = self._initial()
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
 
@@ -233,11 +233,14 @@ class World:
         return self.state.model_dump(mode="json")
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        """Set the state to a snapshot, exactly; the recording is forgotten.
+        """Set the state to a snapshot, exactly; the recording is forgotten. An empty one: the home as it was built.
 
         Raises:
             SimulationError: If the snapshot is damaged or of another home.
         """
+        if not snapshot:
+            self.state, self._recording = self._start, None
+            return
         try:
             state = HomeState.model_validate(dict(snapshot))
         except ValidationError as err:

@@ -48,6 +48,7 @@ class FakeHome:
     def __init__(self) -> None:
         self.fixed: ObjectMap = {"desk_1": (1, "study"), "sofa_1": (2, "study"), "stove_1": (3, "kitchen")}
         self.movable: ObjectMap = {"book_1": (4, "study"), "mug_1": (5, "kitchen"), "mug_2": (6, "kitchen")}
+        self._built = dict(self.movable)
         self.performed: list[tuple[Agent, Act, bool]] = []
         self.broken: set[str] = set()
 
@@ -79,7 +80,8 @@ class FakeHome:
         return {"movable": {name: list(place) for name, place in self.movable.items()}}
 
     def restore(self, snapshot: Mapping[str, Any]) -> None:
-        self.movable = {name: (place[0], place[1]) for name, place in snapshot["movable"].items()}
+        places = snapshot["movable"] if snapshot else self._built
+        self.movable = {name: (place[0], place[1]) for name, place in places.items()}
 
 
 Answer = Callable[[dict[str, Any]], dict[str, Any]]

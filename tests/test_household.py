@@ -17,6 +17,7 @@ import pytest
 
 from coopera import Config, resume_study, run_study
 from coopera.cli import main
+from coopera.replay import replay
 from coopera.rundir import RunDir
 
 TRUTH = ("trace", "frames", "adapters", "config.yaml", "metrics.csv", "summary.json")
@@ -139,3 +140,20 @@ def test_a_run_killed_by_the_system_and_resumed_equals_one_that_was_not(lived: P
     assert done.returncode == -signal.SIGKILL
     resume_study(out)
     assert truth(out) == truth(lived)
+
+
+def test_the_acts_of_a_run_replayed_from_its_trace_end_in_the_same_worlds(lived: Path) -> None:
+    hours = list(replay(RunDir.open(lived)))
+    assert len(hours) == len(RunDir.open(lived).hours())
+    assert [hour.difference for hour in hours] == [""] * len(hours)
+
+
+def test_replay_says_where_a_trace_does_not_tell_what_happened(lived: Path, tmp_path: Path) -> None:
+    shutil.copytree(lived, tmp_path / "forged")
+    path = sorted((tmp_path / "forged" / "trace").rglob("hour-*.json"))[0]
+    hour = json.loads(path.read_text())
+    hour["world"]["outcomes"][0]["metres"] += 1
+    path.write_text(json.dumps(hour))
+    first, *others = replay(RunDir.open(tmp_path / "forged"))
+    assert first.difference.startswith("act 1 (human: ")
+    assert not any(other.difference for other in others)

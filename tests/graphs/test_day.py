@@ -224,9 +224,8 @@ class DyingAsk(ScriptedAsk):
         return super().__call__(prompt, reply, **given)
 
 
-def test_the_home_is_as_it_was_left_when_a_study_goes_on(make_services: MakeServices) -> None:
+def test_a_study_begins_with_the_home_as_it_was_built_whoever_used_it_before(make_services: MakeServices) -> None:
     home = FakeHome()
     home.movable["mug_1"] = (5, "study")
-    services = make_services(home=home)
-    final = run_study(services, n=1)
-    assert final["worlds"]["toy"]["movable"]["mug_1"] == [5, "study"]
+    final = run_study(make_services(home=home), n=1)
+    assert final["worlds"]["toy"]["movable"]["mug_1"] == [5, "kitchen"]
