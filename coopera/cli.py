@@ -7,11 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-<<<<<<< HEAD
-from coopera.commands import analyse, benchmark, humans, memory, prompts, reports, run, scenes
-=======
-from coopera.commands import humans, memory, prompts, replay, reports, run, scenes
->>>>>>> bc63943 (Replay a run's acts from its trace, hour by hour, to the same world; begin each episode with homes as they were built)
+from coopera.commands import analyse, benchmark, humans, memory, prompts, replay, reports, run, scenes
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -26,11 +22,8 @@ app.command()(run.run)
 app.command()(run.resume)
 app.command()(reports.trace)
 app.command()(reports.report)
-<<<<<<< HEAD
 app.command()(benchmark.benchmark)
-=======
 app.command()(replay.replay)
->>>>>>> bc63943 (Replay a run's acts from its trace, hour by hour, to the same world; begin each episode with homes as they were built)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")
