@@ -24,6 +24,7 @@ from graphs.learning import KINDS, Kind, Learner
 from graphs.own_robot import OwnRobot
 from graphs.person import PERSON_MODELS
 from memory import MemoryStream, Search, bundled
+from models.budget import Meter
 from models.classifiers import Inputs, make_classifier
 from models.door import open_door
 from models.transport import wait
@@ -52,6 +53,7 @@ def open_ask(
     embeddings: Embeddings | None = None,
     root: Path | None = None,
     check: Callable[[], None] = lambda: None,
+    meter: Meter | None = None,
 ) -> Ask:
     """Open the one door to the configured language models.
 
@@ -60,6 +62,7 @@ def open_ask(
         prompts: The prompt folder, where it has been read already.
         embeddings: The sentence encoder, where it has been opened already.
         root: The run directory: pictures are named relative to it, and replies are cached in it.
+        meter: Counts what is spent.
         check: Raises if the run was asked to stop; called while a request waits to be sent again.
 
     Raises:
@@ -73,6 +76,8 @@ def open_ask(
         embeddings=embeddings or open_embeddings(config),
         base_url=config.base_url,
         cache=root / "llm_cache.sqlite" if root else None,
+        shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
+        meter=meter,
         settings=config.calls,
         sleep=partial(_wait, check),
         root=root,
@@ -101,9 +106,10 @@ def open_services(
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
-        ask = _Interruptible(
-            open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check), run.check
-        )
+        meter = Meter(config.budget, run.spent())
+        stack.callback(lambda: run.note_spent(meter.spent))
+        door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
+        ask = _Interruptible(door, run.check)
         method = find_method(config.method)
         yield Services(
             ask=ask,

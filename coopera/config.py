@@ -16,7 +16,7 @@ from core.clock import FIRST_HOUR, HOURS_PER_DAY
 from core.errors import ConfigError
 from core.household import Collab
 from core.people import Frozen
-from models.settings import CallSettings
+from models.settings import Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
 
@@ -51,6 +51,10 @@ _EXPECTED = {
     "backbone": "a model such as offline:words",
     "lived": "the path of a finished run without a robot",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
+    "budget": "a mapping with calls, tokens or both",
+    "budget.calls": "a whole number from 1 up",
+    "budget.tokens": "a whole number from 1 up",
+    "cache": "the path of a file",
     "calls": "a mapping of settings such as timeout, retries and max_tokens",
     "calls.timeout": "a number of seconds above 0",
     "calls.retries": "a whole number from 0 to 20",
@@ -114,6 +118,9 @@ class Config(Frozen):
         schedule: The days of one episode, each a person and a home, in place of the setting's own order.
         backbone: The robot's language model in methods that are there to try another one.
         lived: A finished run without a robot, whose days the people live again.
+        budget: What the run may spend on models before it stops, to be resumed with more.
+        cache: File of replies that runs share, so that a rerun costs nothing and other methods meet the person's days
+            for nothing; None takes the one in the data folder. Each run keeps its own replies besides.
         data_dir: Folder of imported people and homes.
     """
 
@@ -141,6 +148,8 @@ class Config(Frozen):
     schedule: Annotated[list[tuple[Text, Text]], Field(min_length=1, max_length=366)] | None = None
     backbone: Text = "offline:words"
     lived: Path | None = None
+    budget: Budget = Budget()
+    cache: Path | None = None
     data_dir: Path = Field(default_factory=default_data_dir)
 
     @field_validator("setting", "collab", mode="before")
@@ -164,13 +173,13 @@ class Config(Frozen):
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120)
 
 
-_SECTIONS: dict[str, type[Frozen]] = {"models": Models, "calls": CallSettings}
+_SECTIONS: dict[str, type[Frozen]] = {"models": Models, "calls": CallSettings, "budget": Budget}
 
 
 def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:
     """Read a study file and lay flags over it; a flag of None was not given.
 
-    Flags are named as the fields are, `models` being a mapping of the roles that were given.
+    Flags are named as the fields are; of `models`, `calls` and `budget`, mappings of what was given.
 
     Raises:
         ConfigError: Naming the file or flag, the field and what was expected.
@@ -178,9 +187,9 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
     data = read_yaml(path, "study file") if path else {}
     given = {name: value for name, value in (flags or {}).items() if value is not None}
     merged = {**data, **given}
-    roles, file_roles = given.get("models"), data.get("models")
-    if roles and isinstance(file_roles, dict):
-        merged["models"] = {**file_roles, **roles}
+    for section in _SECTIONS:
+        if isinstance(data.get(section), dict) and section in given:
+            merged[section] = {**data[section], **given[section]}
     try:
         return Config.model_validate(merged)
     except ValidationError as err:
@@ -209,4 +218,6 @@ def _flag(names: list[str], flags: Mapping[str, Any]) -> str | None:
         roles = flags.get("models", {})
         one_for_all = len(roles) == len(Models.model_fields) and len(set(roles.values())) == 1
         return None if names[1] not in roles else "--model" if one_for_all else f"--{names[1]}-model"
+    if names[0] == "budget" and len(names) > 1:
+        return f"--budget-{names[1]}" if names[1] in flags.get("budget", {}) else None
     return f"--{names[0].replace('_', '-')}" if names[0] in flags else None

@@ -18,9 +18,10 @@ from coopera.humans import read_persona, write_persona
 from coopera.stopping import Stop
 from coopera.summary import metrics_csv, metrics_rows, summarise
 from coopera.trace_files import read_json, read_record, write_record
-from core.errors import ConfigError, CooperaError, RunError
+from core.errors import BudgetError, ConfigError, CooperaError, RunError
 from core.hour import Evening, HourRecord
 from core.people import Persona
+from models.settings import Budget, Spent
 
 SCHEMA = 1
 _PACKAGES = [
@@ -117,8 +118,8 @@ class RunDir:
         return cls(path, load_config(path / "config.yaml"), info, None)
 
     @classmethod
-    def resume(cls, path: Path) -> Self:
-        """Open a stopped, failed or killed run for writing.
+    def resume(cls, path: Path, budget: Budget | None = None) -> Self:
+        """Open a stopped, failed or killed run for writing; a budget replaces what it had.
 
         Raises:
             ConfigError: If the folder holds no run.
@@ -132,6 +133,9 @@ class RunDir:
         for half in path.rglob(".*.tmp"):  # what a killed writer left
             half.unlink(missing_ok=True)
         run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
+        if budget is not None:
+            run.config = run.config.model_copy(update={"budget": budget})
+            write_atomic(path / "config.yaml", run.config.to_yaml())
         run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
         run._write_info()
         return run
@@ -154,7 +158,9 @@ class RunDir:
         if self._lock is None:
             return
         if self.state == "running":
-            if isinstance(error, Exception):
+            if isinstance(error, BudgetError):
+                self._end("stopped", str(error))
+            elif isinstance(error, Exception):
                 what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
                 self._end("failed", what)
             else:
@@ -233,6 +239,20 @@ class RunDir:
     def summary(self) -> dict[str, Any]:
         """The figures so far, computed from the trace, which is the content of summary.json."""
         return summarise(self.config, self.hours(), self.evenings())
+
+    def spent(self) -> Spent:
+        """What models were paid for so far: as noted at the end, or, after a kill, at least what the trace shows."""
+        noted = Spent.model_validate(self.info.get("spent", {}))
+        calls = [call for hour in self.hours() for call in hour.calls]
+        calls += [call for evening in self.evenings() for call in evening.calls]
+        paid = [call for call in calls if not call.cached]
+        tokens = sum(call.tokens_in + call.tokens_out for call in paid)
+        return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens))
+
+    def note_spent(self, spent: Spent) -> None:
+        """Keep what was spent in run.json."""
+        self.info["spent"] = spent.model_dump()
+        self._write_info()
 
     # The end
 

@@ -24,6 +24,7 @@ from core.household import SceneId
 from core.people import PersonId
 from evaluation import SETTINGS, episode, pool, schedule
 from graphs import STATE_TYPES, Services, build_study_graph
+from models.settings import Budget
 from prompts import PromptLibrary
 
 Event = Mapping[str, Any]
@@ -50,13 +51,20 @@ def run_study(config: Config, *, on_event: Callable[[Event], None] | None = None
         return _carry_on(run, services, on_event)
 
 
-def resume_study(path: Path, *, on_event: Callable[[Event], None] | None = None) -> dict[str, Any]:
+def resume_study(
+    path: Path, *, on_event: Callable[[Event], None] | None = None, budget: Budget | None = None
+) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
+
+    Args:
+        path: The run directory.
+        on_event: Told of each node that ends.
+        budget: What the run may spend in all, if not what it was begun with.
 
     Raises:
         RunError: If the run is finished or still being written, or its prompts have changed since.
     """
-    with RunDir.resume(path) as run:
+    with RunDir.resume(path, budget) as run:
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name) != sha)
         if changed:

@@ -40,6 +40,10 @@ class ModelOutputError(CooperaError):
         self.reply = reply
 
 
+class BudgetError(CooperaError):
+    """What the run may spend on models is spent; it stops, and goes on when it is resumed with a larger budget."""
+
+
 class MemoryStoreError(CooperaError):
     """A memory store is damaged, locked by another process, or of another kind than asked for."""
 

@@ -1,8 +1,8 @@
 """From a model's name to a chat model: which backends there are, and what each of them can do.
 
 A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone), `openai:MODEL` (any
-OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), or `PROVIDER:MODEL` for the
-other providers of LangChain.
+OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), `replay:RUN` (what was said in
+an earlier run), or `PROVIDER:MODEL` for the other providers of LangChain.
 A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
 """
 
@@ -13,6 +13,7 @@ import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
@@ -23,6 +24,7 @@ from langchain_core.messages import AIMessage, BaseMessage
 from core.errors import ConfigError, ModelCallError
 from core.protocols import Role
 from models.cache import CachedReply
+from models.replay import Past
 from models.settings import CallSettings, Structure
 from models.transport import Line, RefusedError, Sleep, gate_to, wait
 
@@ -30,7 +32,7 @@ ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
     "offline, openai:MODEL (with --base-url for a server of your own), huggingface:REPO-OR-FOLDER, "
-    "or PROVIDER:MODEL where the langchain package of that provider is installed"
+    "replay:RUN, or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
 _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
@@ -69,16 +71,20 @@ class Backend:
         structures: Ways to hold it to a schema, best first; one that it refuses is given up for the next.
         line: The way to its server, if it has one.
         address: Where its server is, if it is not where the provider has it.
+        weights: What tells its weights from others of the same name, for the cache.
+        past: A run whose record answers in its place.
     """
 
     name: str
-    model: BaseChatModel
+    model: BaseChatModel | None
     sees: bool = False
     reads_variables: bool = False
     options: Options = _no_options
     structures: Sequence[Structure] = ("text",)
     line: Line | None = None
     address: str | None = None
+    weights: str = ""
+    past: Past | None = None
     _refused: list[Structure] = field(default_factory=list)
 
     def __str__(self) -> str:
@@ -119,6 +125,7 @@ class Backend:
         given = self.options(request, structure)
 
         def once() -> CachedReply:
+            assert self.model is not None  # a past is never asked
             return read_answer(self.model.invoke(list(request.messages), **given))
 
         return once() if self.line is None else self.line.send(once, note, one_line)
@@ -161,6 +168,9 @@ def open_backend(
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
+    if provider == "replay":
+        past = Past(Path(name))
+        return Backend(spec, None, sees=past.sees(role), past=past)
     if provider == "huggingface":
         return _huggingface(spec, name, chosen)
     if provider == "openai":
@@ -189,6 +199,7 @@ def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
         sees=model.sees,
         options=options,
         structures=("json_schema",) if constrained else ("text",),
+        weights=model.weights,
     )
 
 

@@ -44,15 +44,21 @@ def key_of(model: str, messages: Sequence[object], images: Iterable[bytes], form
 class ReplyCache:
     """A table from key to reply. Threads and processes may share the file."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, shared: Path | None = None) -> None:
         """Open or create the file.
+
+        Args:
+            path: Where replies are kept.
+            shared: A second file that other runs use too; what it knows is copied into the first.
 
         Raises:
             RunError: If the file cannot be opened or is something else.
         """
         self._path = path
+        self._shared = ReplyCache(shared) if shared is not None else None
         self._lock = threading.Lock()
         with self._guarded():
+            path.parent.mkdir(parents=True, exist_ok=True)
             self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
             try:
                 self._db.execute("PRAGMA journal_mode=WAL")
@@ -69,10 +75,21 @@ class ReplyCache:
         with self._lock, self._guarded():
             query = "SELECT reply, tokens_in, tokens_out, cut FROM replies WHERE key = ?"
             row = self._db.execute(query, (key,)).fetchone()
-        return CachedReply(row[0], row[1], row[2], bool(row[3])) if row else None
+        if row:
+            return CachedReply(row[0], row[1], row[2], bool(row[3]))
+        known = self._shared.get(key) if self._shared is not None else None
+        if known is not None:
+            self._insert([(key, known)])
+        return known
 
     def put(self, replies: Iterable[tuple[str, CachedReply]]) -> None:
         """Keep replies; what is there already stays."""
+        fresh = list(replies)
+        self._insert(fresh)
+        if self._shared is not None:
+            self._shared.put(fresh)
+
+    def _insert(self, replies: Iterable[tuple[str, CachedReply]]) -> None:
         rows = [(key, *reply) for key, reply in replies]
         with self._lock, self._guarded():
             self._db.executemany("INSERT OR IGNORE INTO replies VALUES (?, ?, ?, ?, ?)", rows)
@@ -80,10 +97,12 @@ class ReplyCache:
     def close(self) -> None:
         """Close the file."""
         self._db.close()
+        if self._shared is not None:
+            self._shared.close()
 
     @contextmanager
     def _guarded(self) -> Iterator[None]:
         try:
             yield
-        except sqlite3.Error as err:
+        except (sqlite3.Error, OSError) as err:
             raise RunError(f"{self._path}: the cache of model replies cannot be used: {err}") from err

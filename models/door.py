@@ -22,8 +22,10 @@ from core.hour import ModelCall
 from core.protocols import Prompts, Rendered, Reply, Role
 from core.randomness import Address, seed_at
 from models.backends import Backend, Request, open_backends
+from models.budget import Meter
 from models.cache import CachedReply, ReplyCache, key_of
 from models.parsing import BadReplyError, read_reply
+from models.replay import SCHEMA_FOLLOWS, Past
 from models.schemas import enforced_schema, schema_of, strays
 from models.settings import CallSettings
 from models.transport import Sleep, wait
@@ -31,7 +33,6 @@ from models.transport import Sleep, wait
 SHOWN = 4000  # characters of a bad reply that the model is shown again
 STRAYS = 5  # things out of place that a model is told of at once
 SEEDS = 2**31  # servers take seeds of 31 bits
-_ANSWER = "Answer with one JSON object and nothing else. It must fit this JSON schema:"
 _AGAIN = (
     "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
 )
@@ -46,6 +47,8 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     embeddings: Embeddings,
     base_url: str | None = None,
     cache: Path | None = None,
+    shared: Path | None = None,
+    meter: Meter | None = None,
     settings: CallSettings | None = None,
     sleep: Sleep = wait,
     root: Path | None = None,
@@ -59,6 +62,8 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         embeddings: What the offline model compares texts with.
         base_url: Where an OpenAI-compatible server listens.
         cache: SQLite file of replies by content; None keeps none. The offline model is faster than any cache.
+        shared: Another such file, which runs have in common: looked into where the first has no answer.
+        meter: Counts what is spent; without it nothing is counted.
         settings: How models are called.
         sleep: Waits for so many seconds before a request is sent again.
         root: The run directory, relative to which the record names pictures; without it, by their file names.
@@ -68,9 +73,9 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     """
     chosen = settings or CallSettings()
     backends = open_backends(specs, embeddings, base_url, chosen, sleep)
-    caches = cache is not None and not all(backend.reads_variables for backend in backends.values())
-    replies = ReplyCache(cache) if cache is not None and caches else None
-    return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, settings=chosen, root=root)
+    cacheable = any(not backend.reads_variables and backend.past is None for backend in backends.values())
+    replies = ReplyCache(cache, shared) if cache is not None and cacheable else None
+    return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, meter=meter, settings=chosen, root=root)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +125,7 @@ class Door:
     backends: Mapping[Role, Backend]
     seed: int
     cache: ReplyCache | None = None
+    meter: Meter | None = None
     settings: CallSettings = CallSettings()
     root: Path | None = None
     _calls: list[tuple[Address, ModelCall]] = field(init=False, default_factory=list)
@@ -148,13 +154,16 @@ class Door:
             ModelOutputError: If no attempt gave a valid reply.
             ModelCallError: If the model could not be reached, or the server gave no reply at all.
             PromptError: If the prompt cannot be filled.
+            BudgetError: If what may be spent is spent.
         """
         rendered = self.prompts.render(prompt, variables)
         backend = self.backends[rendered.role]
+        if backend.past is not None:
+            return self._relive(backend.past, rendered, reply, at)
         if images and not backend.sees:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
-        text = rendered.text if backend.reads_variables else f"{rendered.text}\n\n{_ANSWER}\n{schema_of(reply)}"
+        text = rendered.text if backend.reads_variables else f"{rendered.text}{SCHEMA_FOLLOWS}\n{schema_of(reply)}"
         talk = _Talk(rendered, backend, {} if backend.reads_variables else enforced_schema(reply, variables))
         started = time.perf_counter()
         try:
@@ -186,6 +195,17 @@ class Door:
         """Close the cache file, if there is one."""
         if self.cache is not None:
             self.cache.close()
+
+    def _relive(self, past: Past, rendered: Rendered, reply: type[Reply], at: Address) -> Reply:
+        """Answer as it was answered in an earlier run, well or badly."""
+        call = past.find(rendered.name, rendered.text, at)
+        with self._lock:
+            self._calls.append((at, call))
+        try:
+            return read_reply(call.reply, reply)
+        except BadReplyError as err:
+            reason = call.faults[-1].partition(": ")[2] if call.faults else str(err)
+            raise ModelOutputError(rendered.name, call.reply, reason) from err
 
     def _converse(
         self,
@@ -249,7 +269,7 @@ class Door:
         if self.cache is not None and not backend.reads_variables:
             said = [[m["role"], m["content"]] for m in talk.written]
             form = [temperature, self.settings.max_tokens, self.settings.structure, talk.schema]
-            key = key_of(backend.name, said, [p.data for p in pictures], form, seed)
+            key = key_of(f"{backend} {backend.weights}", said, [p.data for p in pictures], form, seed)
         answer = self.cache.get(key) if self.cache is not None and key is not None else None
         if answer is not None:
             talk.cached += 1
@@ -262,10 +282,14 @@ class Door:
                 schema=talk.schema,
                 name=talk.rendered.reply,
             )
+            if self.meter is not None:
+                self.meter.check()
             try:
                 answer = backend.ask(request, talk.fault)
             except ModelCallError as err:
                 raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
+            if self.meter is not None:
+                self.meter.add(answer.tokens_in + answer.tokens_out)
             if key is not None:
                 talk.fresh.append((key, answer))
         talk.tokens_in += answer.tokens_in

@@ -13,6 +13,7 @@ import io
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import torch
@@ -55,6 +56,7 @@ class _Loaded:
     sees: bool
     ends: list[int]
     grammars: Grammars | None
+    weights: str
 
     @property
     def tokenizer(self) -> Any:
@@ -100,6 +102,11 @@ class HuggingFaceChat(BaseChatModel):
     def sees(self) -> bool:
         """Whether the model looks at pictures."""
         return self._loaded.sees
+
+    @property
+    def weights(self) -> str:
+        """What tells these weights from others of the same name: a commit, or the files' sizes and times."""
+        return self._loaded.weights
 
     @property
     def constrains(self) -> bool:
@@ -234,7 +241,7 @@ def _open(path: str, device: str, dtype: str, batch: int | None) -> HuggingFaceC
     ends = _ends(path, model, tokenizer)
     if tokenizer.pad_token_id is None:
         tokenizer.pad_token = tokenizer.convert_ids_to_tokens(ends[0])
-    loaded = _Loaded(path, model, front, sees, ends, _grammars(model, tokenizer, ends))
+    loaded = _Loaded(path, model, front, sees, ends, _grammars(model, tokenizer, ends), _weights(path, config))
     return HuggingFaceChat(loaded, batch or (_GPU_BATCH if place.type == "cuda" else 1))
 
 
@@ -266,6 +273,11 @@ def _turn(message: BaseMessage, sees: bool) -> dict[str, Any]:
         elif block["type"] == "text":
             parts.append({"type": "text", "text": block["text"]})
     return {"role": role, "content": parts}
+
+
+def _weights(path: str, config: Any) -> str:
+    stats = [(file.name, file.stat()) for file in sorted(Path(path).glob("*.safetensors"))]
+    return str(config._commit_hash or [(name, stat.st_size, stat.st_mtime_ns) for name, stat in stats])
 
 
 def _ends(path: str, model: Any, tokenizer: Any) -> list[int]:

@@ -45,3 +45,17 @@ class CallSettings(Frozen):
     device: Annotated[str, Field(pattern=r"^(auto|cpu|mps|cuda(:\d+)?)$")] = "auto"
     dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
     batch: Annotated[int, Field(strict=True, ge=1, le=256)] | None = None
+
+
+class Budget(Frozen):
+    """What a run may spend before it stops, to be resumed with more; None sets no limit."""
+
+    calls: Annotated[int, Field(strict=True, ge=1)] | None = None
+    tokens: Annotated[int, Field(strict=True, ge=1)] | None = None
+
+
+class Spent(Frozen):
+    """What models were asked for, prompts and replies together, without what came from a cache."""
+
+    calls: int = 0
+    tokens: int = 0

@@ -22,7 +22,7 @@ def models(tmp_path_factory: pytest.TempPathFactory) -> Models:
     return Models(human=text, robot=eyes, judge=text)
 
 
-def live(out: Path, models: Models, hours: int, collab: int) -> RunDir:
+def live(out: Path, data_dir: Path, models: Models, hours: int, collab: int) -> RunDir:
     config = Config(
         models=models,
         hours=hours,
@@ -32,7 +32,7 @@ def live(out: Path, models: Models, hours: int, collab: int) -> RunDir:
         frame_size=(64, 48),
         calls=CallSettings(max_tokens=64),
         out=out,
-        data_dir=out.parent / "data",
+        data_dir=data_dir,
     )
     run_study(config)
     return RunDir.open(out)
@@ -50,11 +50,13 @@ def assert_all_valid(run: RunDir, hours: int) -> None:
     assert all(len(call.messages[0]["images"]) == 2 for call in looked), "a frame from each of two viewpoints"
 
 
-def test_a_tiny_random_model_lives_an_hour_and_every_reply_is_valid(tmp_path: Path, models: Models) -> None:
-    assert_all_valid(live(tmp_path / "run", models, 1, 2), 1)
+def test_a_tiny_random_model_lives_an_hour_and_every_reply_is_valid(
+    tmp_path: Path, data_dir: Path, models: Models
+) -> None:
+    assert_all_valid(live(tmp_path / "run", data_dir, models, 1, 2), 1)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("collab", [1, 2])
-def test_a_tiny_random_model_lives_a_whole_day(tmp_path: Path, models: Models, collab: int) -> None:
-    assert_all_valid(live(tmp_path / "run", models, 13, collab), 13)
+def test_a_tiny_random_model_lives_a_whole_day(tmp_path: Path, data_dir: Path, models: Models, collab: int) -> None:
+    assert_all_valid(live(tmp_path / "run", data_dir, models, 13, collab), 13)

@@ -56,13 +56,20 @@ def all_calls(run: RunDir) -> list[ModelCall]:
     return calls + [call for evening in run.evenings() for call in evening.calls]
 
 
-def live(out: Path, base_url: str, hours: int, **more: Any) -> RunDir:
+def live(out: Path, data_dir: Path, base_url: str, hours: int, **more: Any) -> RunDir:
     config = Config(
         models=Models(human="openai:tiny", robot="openai:tiny+images", judge="openai:tiny"),
         base_url=base_url,
-        calls=CallSettings(**QUICK),
-        **{"hours": hours, "days": 1, "frames": 1, "frame_size": (64, 48), "out": out, **more},
-        data_dir=out.parent / "data",
+        **{
+            "calls": CallSettings(**QUICK),
+            "hours": hours,
+            "days": 1,
+            "frames": 1,
+            "frame_size": (64, 48),
+            "out": out,
+            **more,
+        },
+        data_dir=data_dir,
     )
     run_study(config)
     return RunDir.open(out)
@@ -89,9 +96,9 @@ def assert_nothing_unreadable_became_a_no(run: RunDir) -> None:
             assert hour.success.judge.unscored == len(hour.robot.tasks if hour.robot else [])
 
 
-def test_an_hour_goes_well_though_a_third_of_all_calls_go_wrong(tmp_path: Path) -> None:
+def test_an_hour_goes_well_though_a_third_of_all_calls_go_wrong(tmp_path: Path, data_dir: Path) -> None:
     with serving("--faults", "0.3", "--hang", "1.5") as url:
-        run = live(tmp_path / "run", url, 2)
+        run = live(tmp_path / "run", data_dir, url, 2)
         kinds = done(url)
     assert [hour.hour for hour in run.hours()] == [9, 10]
     assert_every_fault_is_on_record(run, kinds)
@@ -99,11 +106,13 @@ def test_an_hour_goes_well_though_a_third_of_all_calls_go_wrong(tmp_path: Path) 
 
 
 @pytest.mark.slow
-def test_a_whole_day_goes_well_with_a_tiny_model_though_a_third_of_all_calls_go_wrong(tmp_path: Path) -> None:
+def test_a_whole_day_goes_well_with_a_tiny_model_though_a_third_of_all_calls_go_wrong(
+    tmp_path: Path, data_dir: Path
+) -> None:
     model = random_llava(tmp_path / "model", word_tokenizer(SEEING, "<image>"))
     with serving("--faults", "0.3", "--hang", "20", "--model", str(model)) as url:
         patient = CallSettings(**{**QUICK, "timeout": 15.0})
-        run = live(tmp_path / "run", url, 13, calls=patient)
+        run = live(tmp_path / "run", data_dir, url, 13, calls=patient)
         kinds = done(url)
     assert len(run.hours()) == 13
     assert_every_fault_is_on_record(run, kinds)

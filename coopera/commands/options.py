@@ -15,6 +15,9 @@ PromptFolder = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Prompt files that replace the shipped ones of the same name.")
 ]
 
+CallBudget = Annotated[int | None, typer.Option(metavar="N", help="Stop, to be resumed, after N calls to models.")]
+TokenBudget = Annotated[int | None, typer.Option(metavar="N", help="Stop, to be resumed, after N tokens.")]
+
 
 def as_list(text: str | None) -> list[str] | None:
     """Split "a,b" into its names; None stays None."""

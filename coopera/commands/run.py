@@ -9,7 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, RunPath, as_list
+from coopera.commands.options import AsJson, BaseUrl, CallBudget, Model, PromptFolder, RunPath, TokenBudget, as_list
+from core.errors import BudgetError
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
 
@@ -46,6 +47,11 @@ def run(
     ] = None,
     robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
     pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
+    budget_calls: CallBudget = None,
+    budget_tokens: TokenBudget = None,
+    estimate: Annotated[
+        bool, typer.Option("--estimate", help="Only say how many calls and tokens the run would take.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Let people live their days while a robot learns to help them."""
@@ -72,9 +78,13 @@ def run(
         "person": person,
         "robot": robot,
         "pictures": pictures,
+        "budget": _given(budget_calls, budget_tokens),
     }
-    config = resolve(load_config(study, flags))
+    config = resolve(load_config(study or _replayed(model), flags))
     assert config.out is not None  # resolve sets it
+    if estimate:
+        _show_estimate(config, as_json=as_json)
+        return
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import run_study
@@ -84,18 +94,45 @@ def run(
     _carry_out(work, config.out, _hours_of(config), as_json=as_json)
 
 
-def resume(run: RunPath, as_json: AsJson = False) -> None:
+def resume(
+    run: RunPath, budget_calls: CallBudget = None, budget_tokens: TokenBudget = None, as_json: AsJson = False
+) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
+    from coopera.config import load_config
     from coopera.rundir import RunDir
 
     found = RunDir.open(run)
+    raised = load_config(run / "config.yaml", {"budget": _given(budget_calls, budget_tokens)}).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import resume_study
 
-        return resume_study(run, on_event=on_event)
+        return resume_study(run, on_event=on_event, budget=raised)
 
     _carry_out(work, run, _hours_of(found.config), as_json=as_json, done=found.hours_done())
+
+
+def _given(calls: int | None, tokens: int | None) -> dict[str, int] | None:
+    """The limits that flags give."""
+    return {name: limit for name, limit in (("calls", calls), ("tokens", tokens)) if limit is not None} or None
+
+
+def _replayed(model: str | None) -> Path | None:
+    """The study file of the run that is to be replayed, so that it need not be described again."""
+    kind, _, folder = (model or "").partition(":")
+    return Path(folder) / "config.yaml" if kind == "replay" else None
+
+
+def _show_estimate(config: Any, *, as_json: bool) -> None:
+    from coopera.estimate import estimate, in_words
+    from coopera.tables import print_table
+
+    found = estimate(config)
+    if as_json:
+        typer.echo(json.dumps(found, sort_keys=True))
+        return
+    print_table(*in_words(found))
+    typer.echo(found["note"])
 
 
 def _hours_of(config: Any) -> int:
@@ -122,6 +159,9 @@ def _carry_out(
     except KeyboardInterrupt:
         typer.echo(_how_to_go_on(folder), err=True)
         raise typer.Exit(STOPPED) from None
+    except BudgetError:
+        typer.echo(_how_to_go_on(folder), err=True)
+        raise
     if as_json:
         typer.echo(json.dumps({**summary, "run": str(folder)}, sort_keys=True))
         return

@@ -1,0 +1,68 @@
+"""A run's recorded calls in place of its models: the same questions get the same answers, and the same record."""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict, deque
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from core.asks import ASKS
+from core.errors import ConfigError, ModelCallError
+from core.hour import ModelCall
+from core.protocols import Role
+from core.randomness import Address
+
+SCHEMA_FOLLOWS = "\n\nAnswer with one JSON object and nothing else. It must fit this JSON schema:"
+"""What the door writes between a prompt and the schema of its reply."""
+
+_Key = tuple[str, int, str, str, str]
+
+
+class Past:
+    """The calls of a run, found by person, day, node, prompt and what the prompt said."""
+
+    def __init__(self, run: Path) -> None:
+        """Read a run's trace.
+
+        Raises:
+            ConfigError: If there is none, or it is damaged.
+        """
+        self._run = run
+        self._calls: dict[_Key, deque[ModelCall]] = defaultdict(deque)
+        self._seeing: set[Role] = set()
+        files = sorted((run / "trace").glob("day-*/*.json"))
+        if not files:
+            raise ConfigError(f"the model replay:{run} cannot be opened: this folder holds no run with a trace")
+        for path in files:
+            try:
+                record = json.loads(path.read_text(encoding="utf-8"))
+                person, day = str(record["person"]), int(record["episode_day"])
+                calls = [ModelCall.model_validate(call) for call in record["calls"]]
+            except (OSError, ValueError, LookupError, TypeError, ValidationError) as err:
+                raise ConfigError(f"the model replay:{run} cannot be opened: {path} is damaged") from err
+            for call in calls:
+                said = str(call.messages[0]["content"]).partition(SCHEMA_FOLLOWS)[0]
+                self._calls[person, day, call.node, call.prompt, said].append(call)
+                if call.messages[0].get("images"):
+                    self._seeing.add(ASKS[call.prompt].role)
+
+    def sees(self, role: Role) -> bool:
+        """Whether a role's model looked at pictures."""
+        return role in self._seeing
+
+    def find(self, prompt: str, text: str, at: Address) -> ModelCall:
+        """The record of a call; of several alike, each in its turn.
+
+        Raises:
+            ModelCallError: If there was none.
+        """
+        alike = self._calls.get((at.person, at.day, at.node, prompt, text))
+        if not alike:
+            raise ModelCallError(
+                f"{prompt}: the run {self._run} never asked this (day {at.day}, {at.hour}:00, {at.node}); it can only "
+                "be replayed with the same people, homes, prompts, seed and program"
+            )
+        alike.rotate(-1)
+        return alike[-1].model_copy(update={"seconds": 0.0})

@@ -1,0 +1,103 @@
+"""What a run costs: foretold, limited, and nothing at all where it was paid before."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from coopera import Config, run_study
+from coopera.cli import main
+from coopera.config import Models
+from coopera.rundir import RunDir
+from tests.serving import done, serving
+from tests.test_household import truth
+
+SMALL: dict[str, Any] = {"days": 1, "hours": 2, "pictures": "none"}
+
+
+@pytest.fixture(scope="module")
+def lived(tmp_path_factory: pytest.TempPathFactory, data_dir: Path) -> Path:
+    out = tmp_path_factory.mktemp("costs") / "whole"
+    run_study(Config(**SMALL, out=out, data_dir=data_dir))
+    return out
+
+
+def study_like(run: Path, **more: Any) -> Path:
+    """A study file that describes a run, but for what is given."""
+    path = run.parent / "study.yaml"
+    path.write_text(json.dumps({**RunDir.open(run).config.model_dump(mode="json", exclude={"out"}), **more}))
+    return path
+
+
+def test_a_budget_stops_a_run_that_resumes_to_the_same_end(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = lived.parent / "stopped"
+    study = study_like(lived)
+    assert main(["run", str(study), "--out", str(out), "--budget-calls", "16"]) == 1
+    said = capsys.readouterr().err
+    assert "the budget of 16 calls is spent (16 calls" in said
+    assert f"Continue with: coopera resume {out}" in said
+    info = json.loads((out / "run.json").read_text())
+    assert info["state"] == "stopped"
+    assert info["spent"]["calls"] == 16
+    assert main(["resume", str(out)]) == 1, "what is spent stays spent"
+    assert main(["resume", str(out), "--budget-calls", "1000"]) == 0
+    (out / "config.yaml").write_text((lived / "config.yaml").read_text())
+    assert truth(out) == truth(lived)
+    spent = RunDir.open(out).spent()
+    assert spent.calls > json.loads((out / "summary.json").read_text())["calls"], "the broken hour was paid for too"
+
+
+@pytest.mark.parametrize("flag", ["--budget-calls", "--budget-tokens"])
+def test_a_budget_of_nothing_is_refused(flag: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", flag, "0"]) == 2
+    assert f"{flag} must be a whole number from 1 up, not 0." in capsys.readouterr().err
+
+
+def test_a_replayed_run_is_the_same_without_any_model(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = lived.parent / "replayed"
+    assert main(["run", "--model", f"replay:{lived}", "--out", str(out)]) == 0
+    now, before = truth(out), truth(lived)
+    assert {name for name in before if name.startswith("trace")} <= set(now)
+    for name in before:
+        if name not in {"config.yaml", "summary.json"}:  # these name the models
+            assert now[name] == before[name], name
+    capsys.readouterr()
+    assert main(["run", "--model", f"replay:{lived}", "--seed", "1", "--out", str(out) + "-1"]) == 1
+    assert "never asked this" in capsys.readouterr().err
+    assert main(["run", "--model", "replay:nowhere"]) == 2
+    assert main(["run", "--human-model", "replay:nowhere"]) == 2
+    assert "replay:nowhere cannot be opened: this folder holds no run" in capsys.readouterr().err
+
+
+def test_an_estimate_foretells_the_calls_of_the_run(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study = study_like(lived, models={"human": "openai:tiny"}, base_url="http://127.0.0.1:9/v1")
+    assert main(["run", str(study), "--estimate", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out.splitlines()[-1])
+    calls = [call for hour in RunDir.open(lived).hours() for call in hour.calls]
+    calls += [call for evening in RunDir.open(lived).evenings() for call in evening.calls]
+    asked = [call for call in calls if call.prompt.startswith("human/")]
+    assert found["roles"]["human"]["calls"] == found["calls"] == len(asked)
+    assert found["tokens_in"] > 100 * len(asked)
+    assert found["roles"]["robot"]["paid"] is False
+
+
+def test_a_rerun_and_another_method_pay_only_for_what_is_new(tmp_path: Path, data_dir: Path) -> None:
+    with serving() as url:
+
+        def run(name: str, **changes: Any) -> tuple[dict[str, Any], int]:
+            models = Models(human="openai:tiny", robot="openai:tiny", judge="openai:tiny")
+            options = {**SMALL, "models": models, "base_url": url, "data_dir": data_dir, **changes}
+            before = len(done(url))
+            summary = run_study(Config(**options, out=tmp_path / name))
+            return summary, len(done(url)) - before
+
+        first, paid = run("first")
+        assert paid == first["calls"]
+        assert run("again") == ({**first, "calls_cached": paid, "tokens_cached": first["tokens"]}, 0)
+        other, more = run("other", method="random")
+        lived = [call for hour in RunDir.open(tmp_path / "other").hours() for call in hour.calls]
+        assert all(call.cached for call in lived if call.node in {"propose", "decompose", "reflect_profile"})
+        assert more == other["calls"] - other["calls_cached"] < paid
