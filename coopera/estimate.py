@@ -81,6 +81,9 @@ def _tried(config: Config, hours: int) -> list[ModelCall]:
                 "days": 1,
                 "hours": hours,
                 "models": Models(),
+                "backbone": "offline:words",
+                "schedule": None,
+                "lived": None,
                 "pictures": "none",
                 "budget": Budget(),
                 "out": Path(folder) / "run",
@@ -94,7 +97,7 @@ def _tried(config: Config, hours: int) -> list[ModelCall]:
 
 def _pictures(config: Config, call: ModelCall) -> int:
     """Frames from two views, where the robot's own model may look at them."""
-    looks = call.prompt == "robot/intentions" and config.pictures == "sampled" and config.models.robot != "offline"
+    looks = call.prompt == "robot/intentions" and config.pictures == "sampled" and _paid(config.models.robot)
     return 2 * config.frames if looks else 0
 
 
@@ -102,5 +105,8 @@ def _rounded(counts: Mapping[str, float], config: Config, role: str) -> dict[str
     model = getattr(config.models, role)
     whole = {name: math.ceil(counts.get(name, 0)) for name in ("calls", "tokens_in", "tokens_out", "pictures")}
     most = whole["calls"] * config.calls.max_tokens * config.calls.attempts
-    paid = model != "offline" and not model.startswith("replay:")
-    return {"model": model, "paid": paid, **whole, "tokens_out_at_most": most}
+    return {"model": model, "paid": _paid(model), **whole, "tokens_out_at_most": most}
+
+
+def _paid(model: str) -> bool:
+    return model.partition(":")[0] not in {"offline", "replay"}

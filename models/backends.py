@@ -1,8 +1,8 @@
 """From a model's name to a chat model: which backends there are, and what each of them can do.
 
 A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone), `openai:MODEL` (any
-OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), `replay:RUN` (what was said in
-an earlier run), or `PROVIDER:MODEL` for the other providers of LangChain.
+OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), `replay:RUN` (what was said
+in an earlier run), or `PROVIDER:MODEL` for the other providers of LangChain.
 A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
 """
 

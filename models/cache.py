@@ -55,10 +55,12 @@ class ReplyCache:
             RunError: If the file cannot be opened or is something else.
         """
         self._path = path
-        self._shared = ReplyCache(shared) if shared is not None else None
+        self._shared = None
+        if shared is not None:
+            shared.parent.mkdir(parents=True, exist_ok=True)
+            self._shared = ReplyCache(shared)
         self._lock = threading.Lock()
         with self._guarded():
-            path.parent.mkdir(parents=True, exist_ok=True)
             self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
             try:
                 self._db.execute("PRAGMA journal_mode=WAL")
@@ -104,5 +106,5 @@ class ReplyCache:
     def _guarded(self) -> Iterator[None]:
         try:
             yield
-        except (sqlite3.Error, OSError) as err:
+        except sqlite3.Error as err:
             raise RunError(f"{self._path}: the cache of model replies cannot be used: {err}") from err
