@@ -206,6 +206,8 @@ def pick_place(ground: Ground, state: HomeState, agent: Agent, act: PickPlace, w
         UnableError: With the reason why it cannot be done.
     """
     thing, receptacle = ground.movable(act.object), ground.fixed(act.receptacle)
+    if agent == "robot":
+        _refuse_full_gripper(ground, state)
     plan = Plan(state.with_person(thing=None) if agent == "human" else state.with_robot(thing=None))
     if agent == "human":
         plan.motion = ground.motions["put things away on a shelf"]
@@ -223,6 +225,7 @@ def hand_over(ground: Ground, state: HomeState, act: HandOver) -> Plan:
     Raises:
         UnableError: If the robot cannot get within handing distance of the person.
     """
+    _refuse_full_gripper(ground, state)
     plan = Plan(state.with_robot(thing=act.object))
     person = state.person
     for stand in _before_person(ground, state):
@@ -238,6 +241,13 @@ def hand_over(ground: Ground, state: HomeState, act: HandOver) -> Plan:
         plan.state = plan.state.with_robot(thing=None, yaw=stand.yaw).with_person(thing=act.object)
         return plan
     raise UnableError("the robot cannot get within handing distance of the person")
+
+
+def _refuse_full_gripper(ground: Ground, state: HomeState) -> None:
+    """What the robot took by a single step (see primitives) does not go back by itself."""
+    held = state.robot.thing
+    if held is not None and ground.scene.object(held) is not None:
+        raise UnableError(f"the robot must first put down the {plain(held)}")
 
 
 def _before_person(ground: Ground, state: HomeState) -> list[Stand]:

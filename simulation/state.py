@@ -17,6 +17,8 @@ from core.people import Frozen
 from simulation.motions import Posture
 from simulation.scene import Point, Scene, SceneObject
 
+_CARRIED = 1.0
+
 
 class PersonState(Frozen):
     """The person: `spot` is the place on the floor from which they walk off, `place` where the body is.
@@ -62,7 +64,10 @@ class HomeState(Frozen):
     moved: dict[str, ThingState] = Field(default_factory=dict)
 
     def thing(self, initial: SceneObject) -> ThingState:
-        """Where a movable thing of the scene is now."""
+        """Where a movable thing of the scene is now; what somebody holds is with them, on nothing."""
+        for held, place in ((self.robot.thing, self.robot.spot), (self.person.thing, self.person.place)):
+            if held == initial.name:
+                return ThingState(position=(*place, _CARRIED), yaw=0.0, on=None)
         return self.moved.get(initial.name) or ThingState(position=initial.position, yaw=initial.yaw, on=initial.on)
 
     def with_thing(self, name: str, where: ThingState) -> HomeState:
@@ -77,6 +82,10 @@ class HomeState(Frozen):
     def with_robot(self, **change: object) -> HomeState:
         """The same home with the robot changed."""
         return self.model_copy(update={"robot": self.robot.model_copy(update=change)})
+
+    def place(self, agent: Agent) -> Point:
+        """Where an agent's body is on the floor plan."""
+        return self.person.place if agent == "human" else self.robot.spot
 
     def spot(self, agent: Agent) -> Point:
         """Where an agent stands, or would stand up to."""

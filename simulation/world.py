@@ -13,13 +13,15 @@ from PIL import Image
 from pydantic import ValidationError
 
 from core.errors import SimulationError
-from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace, plain
+from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace
+from simulation import predicates, primitives
 from simulation.activity import free_motion, stay
 from simulation.elbowroom import Elbowroom
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
 from simulation.percept import Errors, perceive
 from simulation.plans import Ground, Plan, UnableError
+from simulation.primitives import Result
 from simulation.recording import Filming, Recording
 from simulation.robot import load_robot
 from simulation.scene import Scene
@@ -159,6 +161,36 @@ class World:
         """
         return self._plan(agent, act, None)
 
+    def go_to(self, agent: Agent, target: str) -> Result:
+        """Let an agent go to a room, a piece of furniture or a thing, by name."""
+        return self._step(lambda: primitives.go_to(self._ground, self.state, agent, target))
+
+    def pick(self, agent: Agent, thing: str) -> Result:
+        """Let an agent go to a thing and take it into its hand."""
+        return self._step(lambda: primitives.pick(self._ground, self.state, agent, thing))
+
+    def place(self, agent: Agent, receptacle: str) -> Result:
+        """Let an agent carry what it took to a piece of furniture and put it down there."""
+        return self._step(lambda: primitives.place(self._ground, self.state, agent, receptacle))
+
+    def _step(self, plan: Callable[[], Plan]) -> Result:
+        try:
+            planned = plan()
+        except UnableError as unable:
+            return Result(ok=False, reason=f"{unable}.")
+        self.state = planned.state
+        return Result(ok=True, metres=round(planned.metres, 3))
+
+    def room_of(self, agent: Agent) -> str:
+        """The room in which an agent is."""
+        return self.layout.room_at(*self.state.place(agent)).name
+
+    def things_on(self, room: str) -> dict[str, str]:
+        """What lies about in a room: {thing: what it is on}, sorted; "floor" for what is on nothing."""
+        there = {name for name, (_, where) in self.objects("movable").items() if where == room}
+        things = (thing for thing in self.layout.movable if thing.name in there)
+        return {thing.name: self.state.thing(thing).on or "floor" for thing in things}
+
     def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
         recording = Filming(self._library, self._ground.robot, self.state).film(plan.steps, agent)
         recording.motion = plan.motion or self._library[self.state.person.motion]
@@ -257,30 +289,27 @@ class World:
 
     def on(self, cls: str, receptacle_cls: str) -> bool:
         """Whether some thing of a class is on (or in) some furniture of a class."""
-        for thing in self.layout.movable:
-            where = self.state.thing(thing).on
-            if thing.cls == cls and where is not None and self.class_of(where) == receptacle_cls:
-                return True
-        return False
+        return predicates.on(self.layout, self.state, cls, receptacle_cls)
 
     def holding(self, agent: Agent, cls: str) -> bool:
         """Whether an agent has a thing of a class in its hand."""
-        thing = self.state.person.thing if agent == "human" else self.state.robot.thing
-        return thing is not None and plain(self.class_of(thing)) == plain(cls)
+        return predicates.holding(self.layout, self.state, agent, cls)
 
     def near(self, agent: Agent, cls: str, within: float = 1.0) -> bool:
         """Whether an agent is within some metres of furniture of a class, in the same room."""
-        place = self.state.person.place if agent == "human" else self.state.robot.spot
-        room = self.layout.room_at(*place).name
-        return any(
-            thing.cls == cls and thing.room == room and thing.bounds.distance(*place) <= within
-            for thing in self.layout.fixed
-        )
+        return predicates.near(self.layout, self.state, agent, cls, within)
 
     def at(self, agent: Agent, room: str) -> bool:
         """Whether an agent is in a room."""
-        place = self.state.person.place if agent == "human" else self.state.robot.spot
-        return self.layout.room_at(*place).name == room
+        return predicates.at(self.layout, self.state, agent, room)
+
+    def holds(self, predicate: str) -> bool:
+        """Whether a written predicate holds, such as "on(mug, sofa)": see `simulation.predicates`.
+
+        Raises:
+            ConfigError: If it is no predicate.
+        """
+        return predicates.evaluate(self.layout, self.state, predicate)
 
 
 def _area(bounds: tuple[float, float, float, float]) -> float:

@@ -1,0 +1,112 @@
+"""A home as LangChain tools, for a tool-calling model that plans for one of its bodies.
+
+`world_tools(world, "robot")` gives tools that a chat model can be bound to (`model.bind_tools`). Each answers with one
+sentence or a small table; what cannot be done is said with its reason, so that the model can try something else.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+
+from langchain_core.tools import BaseTool, StructuredTool
+
+from core.household import Agent, FreeMotion, HandOver
+from simulation.primitives import Result
+from simulation.world import World
+
+
+def world_tools(world: World, agent: Agent = "robot") -> list[BaseTool]:
+    """The tools with which a model acts in a home.
+
+    Args:
+        world: The home; it is changed by the tools, and stays the caller's to close.
+        agent: Whose body the model has.
+    """
+
+    def look_around() -> str:
+        """See where you and the other one are, what you hold, and which objects are in your room."""
+        state, room = world.state, world.room_of(agent)
+        other: Agent = "human" if agent == "robot" else "robot"
+        seen = {
+            "you": {"room": room, "holding": _held(world, agent)},
+            other: {"room": world.room_of(other), "holding": _held(world, other), "motion": state.person.motion},
+            "furniture": [name for name, (_, where) in world.objects("fixed").items() if where == room],
+            "things": world.things_on(room),
+        }
+        return json.dumps(seen)
+
+    def list_objects(room: str = "") -> str:
+        """List all furniture and movable things by room.
+
+        Args:
+            room: Only this room; empty for the whole home.
+        """
+        if room and room not in world.rooms:
+            return f"There is no room {room!r}; there are {', '.join(world.rooms)}."
+        listed = {
+            name: {
+                "furniture": [thing for thing, (_, where) in world.objects("fixed").items() if where == name],
+                "things": world.things_on(name),
+            }
+            for name in ([room] if room else world.rooms)
+        }
+        return json.dumps(listed)
+
+    def go_to(target: str) -> str:
+        """Go to a room, a piece of furniture or a thing.
+
+        Args:
+            target: Its name, such as "kitchen" or "sofa_1".
+        """
+        return _said(world.go_to(agent, target), f"You are at the {target}.")
+
+    def pick(thing: str) -> str:
+        """Go to a movable thing and take it into your hand, which must be empty.
+
+        Args:
+            thing: Its name, such as "mug_1".
+        """
+        return _said(world.pick(agent, thing), f"You hold {thing}.")
+
+    def place(receptacle: str) -> str:
+        """Carry what you hold to a piece of furniture and put it down there.
+
+        Args:
+            receptacle: The furniture's name, such as "dining_table_1".
+        """
+        return _said(world.place(agent, receptacle), f"It is on {receptacle}.")
+
+    def hand_over(thing: str) -> str:
+        """Bring the person any small thing from the magic box.
+
+        Args:
+            thing: What it is, in words, such as "toothbrush".
+        """
+        done = world.perform("robot", HandOver(object=thing))
+        return _said(Result(done.ok, done.reason, done.metres), f"The person has the {thing}.")
+
+    def move(target: str, motion: str, in_hand: str) -> str:
+        """Do a motion at a piece of furniture with a thing in hand.
+
+        Args:
+            target: The furniture's name.
+            motion: The motion in words, such as "sit and read".
+            in_hand: The thing in words, such as "book".
+        """
+        fixed = world.layout.object(target)
+        act = FreeMotion(target_id=fixed.id if fixed else 0, target=target, in_hand=in_hand, motion=motion)
+        done = world.perform("human", act)
+        return _said(Result(done.ok, done.reason, done.metres), f"You {world.state.person.motion} at {target}.")
+
+    functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place]
+    functions.append(hand_over if agent == "robot" else move)
+    return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
+
+
+def _held(world: World, agent: Agent) -> str | None:
+    return world.state.person.thing if agent == "human" else world.state.robot.thing
+
+
+def _said(result: Result, done: str) -> str:
+    return f"{done} ({result.metres:.1f} m)" if result.ok else f"That failed: {result.reason}"
