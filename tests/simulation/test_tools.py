@@ -82,8 +82,6 @@ def test_looking_around_shows_the_room_and_only_the_room(world) -> None:
     assert seen["you"]["room"] == world.room_of("robot")
     here = {name for name, (_, room) in world.objects("fixed").items() if room == seen["you"]["room"]}
     assert set(seen["furniture"]) == here
-        name for name, (_, room) in world.objects("fixed").items() if room == seen["you"]["room"]
-    }
     everything = json.loads(call(world, "human", "list_objects"))
     assert sorted(everything) == world.rooms
     assert everything["kitchen"]["things"]["mug_1"] == "kitchen_counter_1"
