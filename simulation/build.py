@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 from simulation.catalogue import catalogue, parts_of
 from simulation.engine import pybullet
-from simulation.navigation import WALL_THICKNESS
-from simulation.scene import Room, Scene, Wall, rgb_of
+from simulation.floorplan import WALL_THICKNESS, Point, Wall
+from simulation.scene import Room, Scene, rgb_of
 from simulation.shapes import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
 
 WALL_HEIGHT = 2.4
@@ -66,7 +66,9 @@ def build(scene: Scene, client: int) -> BuiltHome:
     home = BuiltHome(client)
     walls = scene.walls()
     for room in scene.rooms:
-        home.rooms[room.name] = _room_body(client, room, walls)
+        home.rooms[room.name] = _room_body(client, room, walls if scene.stage is None else [])
+    for start in range(0, len(scene.stage or []), MOST_PARTS):
+        _stage_body(client, walls[start : start + MOST_PARTS])
     for thing in scene.objects:
         body = _body(client, parts_of(thing.cls, thing.size, thing.rgb), thing.size)
         home.bodies[thing.name], home.names[body] = body, thing.name
@@ -119,11 +121,26 @@ def _room_body(client: int, room: Room, walls: list[Wall]) -> int:
             x, y, along = piece
             size = (along, WALL_THICKNESS / 2) if wall.axis == "x" else (WALL_THICKNESS / 2, along)
             kit.box((x - cx, y - cy, 0), (*size, WALL_HEIGHT), shade(paint, 0.94 if wall.axis == "x" else 1.0))
-    visual = _visual(client, kit.parts[:MOST_PARTS])
+    return _boxes(client, kit.parts[:MOST_PARTS], (cx, cy))
+
+
+def _stage_body(client: int, walls: list[Wall]) -> int:
+    """Some walls of an imported home, as they stand."""
+    kit = Kit((1.0, 1.0, WALL_HEIGHT), WHITE)
+    for wall in walls:
+        b = wall.bounds
+        paint = shade(WHITE, 0.88 if wall.axis == "x" else 0.94)
+        kit.box(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, 0), (b.x1 - b.x0, b.y1 - b.y0, WALL_HEIGHT), paint)
+    return _boxes(client, kit.parts, (0.0, 0.0))
+
+
+def _boxes(client: int, parts: list[Part], at: Point) -> int:
+    """One body of boxes that are seen and hit as they are."""
+    visual = _visual(client, parts)
     solid = pybullet.createCollisionShapeArray(
-        shapeTypes=[pybullet.GEOM_BOX for _ in kit.parts[:MOST_PARTS]],
-        halfExtents=[list(part.half) for part in kit.parts[:MOST_PARTS]],
-        collisionFramePositions=[list(part.position) for part in kit.parts[:MOST_PARTS]],
+        shapeTypes=[pybullet.GEOM_BOX for _ in parts],
+        halfExtents=[list(part.half) for part in parts],
+        collisionFramePositions=[list(part.position) for part in parts],
         physicsClientId=client,
     )
     return int(
@@ -131,7 +148,7 @@ def _room_body(client: int, room: Room, walls: list[Wall]) -> int:
             baseMass=0,
             baseCollisionShapeIndex=solid,
             baseVisualShapeIndex=visual,
-            basePosition=[cx, cy, 0],
+            basePosition=[*at, 0],
             physicsClientId=client,
         )
     )

@@ -35,12 +35,16 @@ def check(scene: Scene) -> list[str]:
 
 
 def _rooms(scene: Scene) -> Iterator[str]:
+    if scene.stage is not None:  # a room that is no rectangle is imported as the rectangle around it
+        return
     for a, b in combinations(scene.rooms, 2):
         if a.bounds.overlaps(b.bounds, -_SLACK):
             yield f"The rooms {a.name} and {b.name} overlap."
 
 
 def _doors(scene: Scene) -> Iterator[str]:
+    if scene.stage is not None:
+        return
     without = {(wall.axis, wall.at): wall for wall in scene.model_copy(update={"doors": []}).walls()}
     for door in scene.doors:
         pair = f"The door between {door.between[0]} and {door.between[1]}"

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulation.catalogue import parts_of
-from simulation.navigation import wall_bounds
 from simulation.rotations import Array, matrix
 from simulation.scene import Scene, SceneObject
 from simulation.shapes import Part
@@ -31,7 +30,7 @@ class Elbowroom:
                 self.names.append(thing.name)
                 rows.append((*thing.to_world(*part.position), *_half(part), thing.yaw))
         for wall in scene.walls():
-            b = wall_bounds(wall)
+            b = wall.bounds
             self.names.append("wall")
             size = ((b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, _WALL / 2)
             rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, _WALL / 2, *size, 0.0))

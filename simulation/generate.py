@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Sequence
 from itertools import zip_longest
@@ -18,7 +19,7 @@ from simulation.check import check
 from simulation.furnish import Piece, RoomPlan
 from simulation.layout import USUAL_ROOMS, Layout, lay_out
 from simulation.navigation import RADIUS, REACH, Navigator
-from simulation.scene import Room, Scene, SceneObject
+from simulation.scene import ID, Room, Scene, SceneObject
 from simulation.shapes import Size
 from simulation.spots import Spot, Taken, furniture_on, is_free, spots, taken_at, taken_by
 
@@ -57,6 +58,8 @@ def generate(
         SimulationError: If no layout of so many rooms was found.
     """
     kinds = _room_kinds(rooms)
+    if not re.fullmatch(ID, id):
+        raise ConfigError(f"A home's id is lower-case letters, digits, - and _, at most 64, not {id[:80]!r}.")
     if things is None:
         things = round(THINGS_PER_ROOM * len(kinds))
     if isinstance(things, int) and not 0 <= things <= MOST_THINGS:

@@ -18,18 +18,21 @@ from scipy.sparse.csgraph import dijkstra
 
 from core.errors import SimulationError
 from simulation.catalogue import blocks
-from simulation.scene import Bounds, Point, Scene, SceneObject, Wall
+from simulation.floorplan import WALL_THICKNESS as WALL_THICKNESS
+from simulation.floorplan import Point, Wall
+from simulation.scene import Scene, SceneObject
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 CELL = 0.05
 RADIUS = 0.30  # PAPER App. A uses Habitat's agents, whose radius this is
-WALL_THICKNESS = 0.10
 REACH = 0.80
 """Farthest a thing may lie from where one stands: both bodies can then take it."""
 STOP = 0.55
 """Farthest from a piece of furniture (its rectangle on the floor) at which one acts on it."""
+_DOORWAY = 0.45
+"""Two rooms of an imported home at most this far apart from a point may have a doorway there, in metres."""
 _COMFORT = 0.45
 _FAR = 2.0
 _DISLIKE = 1.5
@@ -63,19 +66,11 @@ class Disc(NamedTuple):
     radius: float = RADIUS
 
 
-def wall_bounds(wall: Wall) -> Bounds:
-    """The rectangle a wall covers on the floor; ends are as long as the wall is thick."""
-    half = WALL_THICKNESS / 2
-    if wall.axis == "x":
-        return Bounds(wall.start, wall.at - half, wall.end, wall.at + half)
-    return Bounds(wall.at - half, wall.start, wall.at + half, wall.end)
-
-
 def obstacle_boxes(things: Iterable[SceneObject], walls: Iterable[Wall]) -> Array:
     """Return obstacles as rows (x, y, half width, half depth, yaw), shape (n, 5)."""
     rows = [(*thing.xy, thing.size[0] / 2, thing.size[1] / 2, thing.yaw) for thing in things]
     for wall in walls:
-        b = wall_bounds(wall)
+        b = wall.bounds
         rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, (b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, 0.0))
     return np.array(rows, dtype=float).reshape(-1, 5)
 
@@ -113,6 +108,8 @@ class Navigator:
         for index, room in enumerate(scene.rooms):
             inside = (grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)
             self._room[inside & (self._room < 0)] = index  # on a shared edge the first room counts, as in room_at
+        if scene.stage is not None:
+            self._fill_doorways(grid_x, grid_y)
         self._clear[self._room < 0] = 0.0
         free = self._clear >= RADIUS
         parts, count = label(free)
@@ -243,6 +240,15 @@ class Navigator:
             return None
         i, j = np.unravel_index(best, space.shape)
         return float(self._xs[i]), float(self._ys[j])
+
+    def _fill_doorways(self, grid_x: Array, grid_y: Array) -> None:
+        """Give what lies between two rooms of an imported home, whose rooms do not touch, to the nearer of them."""
+        edges = np.array([room.bounds for room in self.scene.rooms]).reshape(-1, 4, 1, 1)
+        out_x = np.maximum(np.maximum(edges[:, 0] - grid_x, grid_x - edges[:, 2]), 0.0)
+        out_y = np.maximum(np.maximum(edges[:, 1] - grid_y, grid_y - edges[:, 3]), 0.0)
+        away = np.hypot(out_x, out_y)
+        between = (self._room < 0) & ((away <= _DOORWAY).sum(axis=0) > 1)
+        self._room[between] = away.argmin(axis=0)[between]
 
     def _clearances(self, boxes: Array) -> Array:
         """Clearance of every cell, up to `_FAR`: beyond that nobody asks, and each box is looked at only nearby."""

@@ -13,60 +13,29 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple, Self, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import Field, ValidationError, model_validator
 
 from core.errors import ConfigError
 from core.household import ObjectMap, SceneId
 from core.people import Frozen
+from simulation.floorplan import TOUCH as TOUCH
+from simulation.floorplan import Bounds as Bounds
+from simulation.floorplan import Point as Point
+from simulation.floorplan import Wall as Wall
+from simulation.floorplan import cut, merge
 
 SHIPPED = Path(__file__).parent / "scenes"
 SCHEMA_VERSION = 1
 DOOR_WIDTH = 0.95
-TOUCH = 0.02
-"""Rooms whose edges lie within this distance share a wall."""
 
+ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
+"""What a home may be called."""
 Kind: TypeAlias = Literal["fixed", "movable"]
-Point: TypeAlias = tuple[float, float]
 Length = Annotated[float, Field(gt=0, le=20)]
 Place = Annotated[float, Field(ge=-100, le=100)]
 Label = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
-
-
-class Bounds(NamedTuple):
-    """An axis-aligned rectangle on the floor."""
-
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-
-    def distance(self, x: float, y: float) -> float:
-        """Distance from a point to the rectangle; 0 inside."""
-        return math.hypot(max(self.x0 - x, 0.0, x - self.x1), max(self.y0 - y, 0.0, y - self.y1))
-
-    def overlaps(self, other: Bounds, margin: float = 0.0) -> bool:
-        """Whether the two rectangles come nearer than `margin` in both axes (touching is no overlap at 0)."""
-        return (
-            self.x0 < other.x1 + margin
-            and other.x0 < self.x1 + margin
-            and self.y0 < other.y1 + margin
-            and other.y0 < self.y1 + margin
-        )
-
-    def encloses(self, other: Bounds, slack: float = 0.0) -> bool:
-        """Whether the other rectangle lies within this one, or sticks out by no more than `slack` metres."""
-        return (
-            other.x0 >= self.x0 - slack
-            and other.y0 >= self.y0 - slack
-            and other.x1 <= self.x1 + slack
-            and other.y1 <= self.y1 + slack
-        )
-
-    def grown(self, by: float) -> Bounds:
-        """The rectangle with each side moved outwards by `by`."""
-        return Bounds(self.x0 - by, self.y0 - by, self.x1 + by, self.y1 + by)
 
 
 class Room(Frozen):
@@ -107,15 +76,6 @@ class Door(Frozen):
     x: Place
     y: Place
     width: float = Field(DOOR_WIDTH, ge=0.7, le=3.0)
-
-
-class Wall(NamedTuple):
-    """A straight piece of wall: it runs along `axis` ("x" or "y") at `at` on the other axis."""
-
-    axis: Literal["x", "y"]
-    at: float
-    start: float
-    end: float
 
 
 class SceneObject(Frozen):
@@ -188,11 +148,13 @@ class Scene(Frozen):
     """A whole home. Rooms do not overlap; ids and names are unique over all objects."""
 
     version: Literal[1] = 1
-    id: SceneId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")
+    id: SceneId = Field(pattern=ID)
     seed: int | None = None
     rooms: list[Room] = Field(min_length=1)
     doors: list[Door] = []
     objects: list[SceneObject] = []
+    stage: list[Wall] | None = None
+    """Where the walls of an imported home stand, which need not be on the edges of its rooms."""
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Scene:
@@ -268,10 +230,12 @@ class Scene(Frozen):
         return {thing.name: (thing.id, thing.room) for thing in (self.fixed if kind == "fixed" else self.movable)}
 
     def walls(self) -> list[Wall]:
-        """Pieces of wall along the rooms' edges, doors left open; a shared edge is one wall.
+        """Pieces of wall along the rooms' edges, doors left open; a shared edge is one wall. Or those of the stage.
 
         Sorted by axis, place and start, so that the order does not depend on that of the rooms.
         """
+        if self.stage is not None:
+            return sorted(self.stage)
         lines: dict[tuple[Literal["x", "y"], float], list[tuple[float, float]]] = {}
         for room in self.rooms:
             for at in (room.y0, room.y1):
@@ -281,7 +245,7 @@ class Scene(Frozen):
         walls: list[Wall] = []
         for (axis, at), spans in sorted(lines.items()):
             gaps = [_gap(door, axis) for door in self.doors if self._stands_on(door, axis, at)]
-            walls += [Wall(axis, at, start, end) for start, end in _cut(_merge(spans), gaps)]
+            walls += [Wall(axis, at, start, end) for start, end in cut(merge(spans), gaps)]
         return walls
 
     def _stands_on(self, door: Door, axis: str, at: float) -> bool:
@@ -302,27 +266,6 @@ class Scene(Frozen):
 def _gap(door: Door, axis: str) -> tuple[float, float]:
     middle = door.x if axis == "x" else door.y
     return middle - door.width / 2, middle + door.width / 2
-
-
-def _merge(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    merged: list[tuple[float, float]] = []
-    for start, end in sorted(spans):
-        if merged and start <= merged[-1][1] + TOUCH:
-            merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
-        else:
-            merged.append((start, end))
-    return merged
-
-
-def _cut(spans: list[tuple[float, float]], gaps: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    for left, right in gaps:
-        spans = [
-            piece
-            for start, end in spans
-            for piece in ((start, min(end, left)), (max(start, right), end))
-            if piece[1] - piece[0] > TOUCH
-        ]
-    return spans
 
 
 def list_scenes(folders: Sequence[Path] = ()) -> list[str]:
@@ -385,6 +328,8 @@ def dump_scene(scene: Scene) -> str:
     data = scene.model_dump(mode="json", exclude_defaults=False)
     parts = []
     for key, value in data.items():
+        if key == "stage" and value is None:
+            continue
         if isinstance(value, list):
             rows = ",\n".join("    " + json.dumps(row, ensure_ascii=False) for row in value)
             parts.append(f'  "{key}": [\n{rows}\n  ]' if value else f'  "{key}": []')

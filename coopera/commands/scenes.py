@@ -1,4 +1,4 @@
-"""`coopera scenes`: the homes there are."""
+"""`coopera scenes`: the homes there are, and how to look at, check, make and bring in homes."""
 
 from __future__ import annotations
 
@@ -12,68 +12,194 @@ import typer
 from coopera.commands.options import AsJson
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
+Home = Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")]
+Png = Annotated[Path | None, typer.Option(metavar="FILE", help="Write a picture.")]
+DataFolder = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR or the user's]"),
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace homes that are there already.")]
+_COLUMNS = ("id", "rooms", "fixed", "movable")
 
 
 @app.command("list")
 def list_homes(as_json: AsJson = False) -> None:
     """List the shipped homes and the imported ones."""
+    from coopera.homes import figures
     from coopera.tables import print_table
     from simulation.scene import list_scenes
 
-    found = [_figures(_load(scene)) for scene in list_scenes([_imported()])]
+    found = [figures(_load(scene)) for scene in list_scenes([_imported()])]
+    rows = [{column: row[column] for column in _COLUMNS} for row in found]
     if as_json:
-        typer.echo(json.dumps(found))
+        typer.echo(json.dumps(rows))
         return
-    print_table(["id", "rooms", "fixed", "movable"], [[str(value) for value in row.values()] for row in found])
+    print_table(_COLUMNS, [[str(value) for value in row.values()] for row in rows])
 
 
 @app.command()
-def show(
-    scene: Annotated[str, typer.Argument(metavar="ID", help="An id from `coopera scenes list`.")],
-    as_json: AsJson = False,
-) -> None:
-    """Show one home: its rooms and what stands in each."""
+def show(scene: Home, png: Png = None, as_json: AsJson = False) -> None:
+    """Show one home: its rooms and what stands in each; with --png also from above."""
+    from coopera.homes import figures, write_picture
     from core.household import plain
 
     home = _load(scene)
+    if png is not None:
+        from simulation.overview import overview
+
+        write_picture(png, overview(home))
     rooms = {room.name: _contents(home, room.name) for room in home.rooms}
     if as_json:
-        typer.echo(json.dumps({**_figures(home), "contents": rooms}))
+        typer.echo(json.dumps({**figures(home), "contents": rooms, "png": str(png) if png else None}))
         return
-    typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**_figures(home)))
+    typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(home)))
     for room, things in rooms.items():
         typer.echo(f"\n{room}")
         for kind, names in things.items():
             counts = Counter(plain(name) for name in names)
             shown = ", ".join(name if count == 1 else f"{count} x {name}" for name, count in counts.items())
             typer.echo(f"  {kind}: {shown or 'nothing'}")
+    if png is not None:
+        typer.echo(f"\nPicture: {png}")
 
 
 @app.command()
-def check(
-    scene: Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")],
+def check(scene: Home, as_json: AsJson = False) -> None:
+    """Say whether everything in a home can be walked up to and taken, and if not, what cannot (exit code 1)."""
+    from coopera.homes import figures
+    from simulation.check import check as problems_of
+
+    home = _load(scene)
+    problems = problems_of(home)
+    if as_json:
+        typer.echo(json.dumps({**figures(home), "problems": problems}))
+    else:
+        sentence = "{id}: this home can be used ({rooms} rooms, {fixed} fixed and {movable} movable objects)."
+        for line in problems or [sentence.format(**figures(home))]:
+            typer.echo(line)
+    if problems:
+        raise typer.Exit(1)
+
+
+@app.command()
+def generate(
+    rooms: Annotated[int, typer.Option(metavar="N", help="How many rooms.")] = 7,
+    seed: Annotated[int, typer.Option(metavar="N", help="The same seed gives the same home.")] = 0,
+    id: Annotated[str | None, typer.Option(metavar="ID", help="Its id. [default: home-<rooms>-<seed>]")] = None,
+    things: Annotated[
+        int | None, typer.Option(metavar="N", help="How many movable things. [default: 8.5 for each room]")
+    ] = None,
+    out: DataFolder = None,
+    png: Png = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Say whether a home can be used, and if not, why."""
-    figures = _figures(_load(scene))
-    sentence = "{id}: this home can be used ({rooms} rooms, {fixed} fixed and {movable} movable objects).".format
-    typer.echo(json.dumps(figures) if as_json else sentence(**figures))
+    """Make a home from a seed and store it, so that its id works everywhere."""
+    from coopera.homes import figures, place_for, write, write_picture
+    from simulation.check import check as problems_of
+    from simulation.generate import generate as make
+    from simulation.scene import dump_scene
+
+    id = id or f"home-{rooms}-{seed}"
+    file = place_for(id, _scenes(out), force=force)
+    home = make(seed, rooms, id, things=things)
+    problems = problems_of(home)
+    write(file, dump_scene(home))
+    if png is not None:
+        from simulation.overview import overview
+
+        write_picture(png, overview(home))
+    if as_json:
+        typer.echo(json.dumps({**figures(home), "file": str(file), "problems": problems}))
+        return
+    typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(home)))
+    for line in problems:
+        typer.echo(line)
+    typer.echo(f"Stored: {file}")
+
+
+@app.command("import")
+def import_homes(
+    path: Annotated[
+        Path, typer.Argument(metavar="PATH", help="An HSSD folder, one *.scene_instance.json of it, or a home's JSON.")
+    ],
+    scene: Annotated[
+        list[str] | None, typer.Option(metavar="ID", help="A scene of the folder; may be repeated. [default: all]")
+    ] = None,
+    out: DataFolder = None,
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out what refers to a missing file.")
+    ] = False,
+    force: Force = False,
+    as_json: AsJson = False,
+) -> None:
+    """Bring in homes of HSSD, or one that you wrote (docs/scenes.md), and say what was left out."""
+    from coopera.homes import bring_in, figures
+
+    found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force)
+    if as_json:
+        rows = [
+            {**figures(one.scene), "file": str(one.file), "skipped": one.skipped, "problems": one.problems}
+            for one in found
+        ]
+        typer.echo(json.dumps(rows))
+        return
+    for one in found:
+        typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(one.scene)))
+        for line in one.skipped:
+            typer.echo(f"  left out: {line}")
+        for line in one.problems:
+            typer.echo(f"  problem: {line}")
+        typer.echo(f"  Stored: {one.file}")
+
+
+@app.command()
+def statistics(
+    scenes: Annotated[list[str] | None, typer.Argument(metavar="[ID]…", help="Homes. [default: the shipped]")] = None,
+    png: Png = None,
+    as_json: AsJson = False,
+) -> None:
+    """Count rooms, and objects by super-category, as the paper shows its scenes."""
+    from coopera.home_statistics import draw
+    from coopera.homes import figures
+    from coopera.tables import print_table
+    from simulation.scene import list_scenes
+
+    homes = [_load(scene) for scene in scenes or list_scenes()]
+    found = [figures(home) for home in homes]
+    if png is not None:
+        draw(homes, png)
+    if as_json:
+        typer.echo(json.dumps(found))
+        return
+    kinds = sorted({kind for row in found for kind in row["categories"]})
+    table = [[name, *(str(row[name]) for row in found)] for name in ("rooms", "square_metres", "fixed", "movable")]
+    table += [[kind, *(str(row["categories"].get(kind, 0)) for row in found)] for kind in kinds]
+    print_table(["", *(row["id"] for row in found)], [[line[0].replace("_", " "), *line[1:]] for line in table])
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of a home's file, for those who write one by hand."""
+    from simulation.scene import Scene
+
+    typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
 
 
 def _imported() -> Path:
+    return _scenes(None)
+
+
+def _scenes(folder: Path | None) -> Path:
     from coopera.config import default_data_dir
 
-    return default_data_dir() / "scenes"
+    return (folder or default_data_dir()) / "scenes"
 
 
 def _load(scene: str) -> Any:
     from simulation.scene import load_scene
 
     return load_scene(scene, [_imported()])
-
-
-def _figures(home: Any) -> dict[str, Any]:
-    return {"id": home.id, "rooms": len(home.rooms), "fixed": len(home.fixed), "movable": len(home.movable)}
 
 
 def _contents(home: Any, room: str) -> dict[str, list[str]]:

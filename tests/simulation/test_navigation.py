@@ -15,7 +15,6 @@ from simulation.navigation import (
     Navigator,
     clearance,
     obstacle_boxes,
-    wall_bounds,
 )
 from simulation.scene import Point, Scene, load_scene
 
@@ -50,7 +49,7 @@ def nearest_obstacle(scene: Scene, points: Array) -> float:
             u, v = thing.to_local(float(x), float(y))
             worst = min(worst, math.hypot(max(abs(u) - thing.size[0] / 2, 0), max(abs(v) - thing.size[1] / 2, 0)))
     for wall in scene.walls():
-        worst = min(worst, *(wall_bounds(wall).distance(float(x), float(y)) for x, y in points))
+        worst = min(worst, *(wall.bounds.distance(float(x), float(y)) for x, y in points))
     return worst
 
 
