@@ -30,7 +30,8 @@ from models.door import open_door
 from models.transport import wait
 from prompts import PromptLibrary
 from simulation import World, load_scene
-from simulation.motions import load_library
+from simulation.motion_folder import load_motions
+from simulation.motions import Library
 
 _GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
@@ -137,8 +138,9 @@ def open_services(
 def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
     """Open one of a run's homes as it was built; it is to be closed after use."""
     layout = load_scene(scene, [config.data_dir / "scenes"])
-    match = _nearest_motion(embeddings)
-    return World(layout, robot=config.robot, frame_size=config.frame_size, match=match)
+    motions = load_motions(config.motions)
+    match = _nearest_motion(embeddings, motions)
+    return World(layout, robot=config.robot, frame_size=config.frame_size, motions=motions, match=match)
 
 
 class _Interruptible:
@@ -196,7 +198,7 @@ def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddin
     return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
 
 
-def _nearest_motion(embeddings: Embeddings) -> Callable[[str], str]:
+def _nearest_motion(embeddings: Embeddings, motions: Library) -> Callable[[str], str]:
     """The library motion whose caption is most similar to a free-form text."""
-    search = Search(embeddings, load_library().captions)
+    search = Search(embeddings, motions.captions)
     return lambda text: search.top(text, 1)[0][0]

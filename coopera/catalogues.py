@@ -13,6 +13,7 @@ from coopera.config import Config
 from core.errors import ConfigError
 from core.people import Persona
 from graphs.person import PERSON_MODELS
+from simulation.motion_folder import load_motions
 from simulation.robot import ROBOTS
 
 
@@ -65,6 +66,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if not config.schedule:
         _groups("humans", people, n_people, config.setting)
         _groups("scenes", scenes, n_scenes, config.setting)
+    load_motions(config.motions)
     if config.out is not None:
         refuse_used(config.out)
     for person in people:

@@ -44,6 +44,7 @@ _EXPECTED = {
     "learning": "warm or fresh",
     "human": "simulated, me or log:FILE",
     "person": "full, no_extension or single_shot",
+    "motions": "the path of a folder of .npy or .npz clips",
     "robot": "the name of a robot's body such as fetch",
     "pictures": "sampled, none or video",
     "frames": "a whole number from 1 to 64",
@@ -110,6 +111,7 @@ class Config(Frozen):
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         human: Who plays the person.
         person: How a simulated person is made: the paper's way or one of its ablations (`graphs.person`).
+        motions: A folder of Motion-X or AMASS clips that the person can do beside the shipped motions.
         robot: The robot's body, one of `simulation.robot.ROBOTS`.
         pictures: Whether the first task of each hour is recorded as pictures.
         frames: Pictures per view and hour.
@@ -140,6 +142,7 @@ class Config(Frozen):
     learning: Literal["warm", "fresh"] = "warm"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     person: Text = "full"
+    motions: Path | None = None
     robot: Text = "fetch"
     pictures: Literal["sampled", "none", "video"] = "sampled"
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8

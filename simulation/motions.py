@@ -208,24 +208,34 @@ def along(path: Path3, share: float) -> Array:
 
 
 class Clip:
-    """A shipped motion-capture clip, played on the spot: poses of `humanoid.SIZE` numbers over time.
+    """Recorded motion, played on the spot: poses of `humanoid.SIZE` numbers over time.
 
-    A row of the file is: seconds, root place, then quaternions (w first) and hinge angles in the body's joint
-    order, with y up and z to the right.
+    Attributes:
+        starts: When each pose begins (seconds), and after them the end.
+        poses: Shape (n, 43).
+        travel: How far the recorded body went forward (metres).
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, starts: Array, poses: Array, travel: float = 0.0) -> None:
+        self.starts, self.poses, self.travel = starts, poses, travel
+        self.seconds = float(starts[-1])
+
+    @classmethod
+    def shipped(cls, name: str) -> Clip:
+        """A clip that ships with pybullet.
+
+        A row of its file is: seconds, root place, then quaternions (w first) and hinge angles in the body's joint
+        order, with y up and z to the right.
+        """
         import pybullet_data  # noqa: PLC0415  (prints nothing, but lives with pybullet)
 
         path = Path(pybullet_data.getDataPath()) / "data" / "motions" / f"humanoid3d_{name}.txt"
         rows = np.array(json.loads(path.read_text(encoding="utf-8"))["Frames"], dtype=np.float64)
-        self.starts = np.concatenate(([0.0], np.cumsum(rows[:, 0])))
-        self.seconds = float(self.starts[-1])
-        self.travel = float(rows[-1, 1] - rows[0, 1])
-        self.poses = np.array([_as_pose(row) for row in rows])
+        starts = np.concatenate(([0.0], np.cumsum(rows[:, 0])))
+        return cls(starts, np.array([_as_pose(row) for row in rows]), float(rows[-1, 1] - rows[0, 1]))
 
     def at(self, seconds: float) -> Array:
-        """The pose at a time, running round; between rows the nearer earlier one holds (rows are 60 a second or so)."""
+        """The pose at a time, running round; between rows the nearer earlier one holds (rows are 30 a second or so)."""
         where = int(np.searchsorted(self.starts, seconds % self.seconds, side="right")) - 1
         pose: Array = self.poses[min(where, len(self.poses) - 1)]
         return pose

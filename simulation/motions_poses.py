@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from core.errors import ConfigError
 from simulation.humanoid import ANKLE, MOUTH, SIDES, STANDING, Aim, Frames, Side, solve
 from simulation.motions import Clip, HandPath, Keys, Motion, Posture, along
 from simulation.rotations import Array
+from simulation.smplx import read_capture, retarget
 
 WORKTOP = 0.9
 """Height of the surface a standing person works at where there is none (metres)."""
@@ -33,15 +36,27 @@ class Setting(NamedTuple):
 
 @cache
 def clip(name: str) -> Clip:
-    """The shipped clip of that name, read once."""
-    return Clip(name)
+    """The shipped clip of that name, or that of a file with SMPL-X parameters; read once.
+
+    Raises:
+        ConfigError: If a file cannot be used.
+    """
+    path = Path(name)
+    if path.suffix not in (".npy", ".npz"):
+        return Clip.shipped(name)
+    capture = read_capture(path)
+    try:
+        poses = retarget(capture)
+    except ConfigError as err:
+        raise ConfigError(f"The motion file {path} cannot be used: {err}.") from err
+    return Clip(np.arange(len(poses) + 1) / capture.fps, poses)
 
 
 def pose_at(motion: Motion, seconds: float, setting: Setting) -> Array:
     """The pose at a moment of a motion, in the body frame."""
     keys = motion.keys
     if keys.clip is not None:
-        return clip(keys.clip).at(seconds)
+        return _recorded(clip(keys.clip), seconds, setting, motion.posture)
     share = seconds / keys.period
     base = keys.base if setting.posture in (motion.posture, "floor") else None
     aim = _base(setting.posture if base is None else base, setting.support)
@@ -58,6 +73,17 @@ def pose_at(motion: Motion, seconds: float, setting: Setting) -> Array:
     for side, path in _hands(keys).items():
         aim.hands[side] = _hand(path, share, frames, _worktop(setting))
     return solve(aim)[0]
+
+
+def _recorded(clip: Clip, seconds: float, setting: Setting, posture: Posture) -> Array:
+    """A recorded pose; who sat or lay when it was recorded does so at the height of what is there."""
+    pose = clip.at(seconds)
+    if setting.posture != posture or posture not in ("sit", "lie"):
+        return pose
+    lower = _SEATED if posture == "sit" else _LYING
+    pose = pose.copy()
+    pose[2] += setting.support + lower - float(np.median(clip.poses[:, 2]))
+    return pose
 
 
 def _hands(keys: Keys) -> dict[Side, HandPath]:

@@ -45,6 +45,7 @@ class World:
         *,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
+        motions: Library | None = None,
         match: Callable[[str], str] | None = None,
         errors: Errors | None = None,
     ) -> None:
@@ -54,6 +55,7 @@ class World:
             scene: The home.
             robot: Name of the robot's body, one of `simulation.robot.ROBOTS`.
             frame_size: Width and height of the pictures in pixels.
+            motions: What the person's body can do; the shipped library without it.
             match: Finds the caption of `motions` that a free-form text means; without it words are compared.
             errors: How often the percept errs.
 
@@ -65,7 +67,7 @@ class World:
         self.frame_size = frame_size
         self.errors = errors or Errors()
         self.layout = scene
-        self._library: Library = load_library()
+        self._library: Library = motions or load_library()
         self._ground = Ground(scene, Navigator(scene), self._library, load_robot(robot), Elbowroom(scene), match)
         self.state = self._start = self._initial()
         self._watcher: Watcher | None = None

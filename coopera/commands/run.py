@@ -45,6 +45,9 @@ def run(
     person: Annotated[
         str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
     ] = None,
+    motions: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Motion-X (.npy) or AMASS (.npz) clips the person can do, too.")
+    ] = None,
     robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
     pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
     budget_calls: CallBudget = None,
@@ -76,6 +79,7 @@ def run(
         "learning": learning,
         "human": human,
         "person": person,
+        "motions": motions,
         "robot": robot,
         "pictures": pictures,
         "budget": _given(budget_calls, budget_tokens),
