@@ -25,6 +25,7 @@ from langchain_core.embeddings import Embeddings
 from benchmarks.toy_household import Lived, Robot, draw_person, live_day
 from core.hour import Example
 from core.protocols import Classifier
+from graphs.replay import keep
 from memory.embeddings import bundled
 from models.classifiers import CLASSIFIERS, Inputs, Kind, make_classifier
 from models.classifiers.calibration import score_at
@@ -95,8 +96,10 @@ class Day(NamedTuple):
     """Per 25 candidates."""
 
 
-def live(number: int, make: Callable[[Kind], Classifier], embeddings: Embeddings, days: int) -> list[Day]:
-    """Let a robot with two classifiers of a make live with a person."""
+def live(
+    number: int, make: Callable[[Kind], Classifier], embeddings: Embeddings, days: int, mode: str = "warm"
+) -> list[Day]:
+    """Let a robot with two classifiers of a make live with a person, learning in the evenings as `Learner` does."""
     person = draw_person(0, number)
     robot = Robot(person, 0, embeddings)
     judges: dict[Kind, Classifier] = {"intention": make("intention"), "task": make("task")}
@@ -111,11 +114,14 @@ def live(number: int, make: Callable[[Kind], Classifier], embeddings: Embeddings
         told = [robot.hear_intention(hour) for hour in lived]
         robot.learn_person(lived)
         newest = {"profile": robot.profile, "big_five": robot.big_five}
-        start = time.perf_counter()
-        for kind, judge in judges.items():
-            lessons[kind] += [*(example for example, _ in asked[kind]), *(told if kind == "intention" else [])]
-            judge.train([example.model_copy(update=newest) for example in lessons[kind]], seed=day)
-        learning = time.perf_counter() - start
+        start = time.process_time()
+        for kind in judges:
+            known = [*lessons[kind], *(example for example, _ in asked[kind]), *(told if kind == "intention" else [])]
+            if mode == "fresh":
+                judges[kind] = make(kind)
+            judges[kind].train([example.model_copy(update=newest) for example in known], seed=day)
+            lessons[kind] = keep(known) if mode == "warm" else known
+        learning = time.process_time() - start
         judged = sum(map(len, asked.values()))
         results.append(Day(_f1(asked["intention"]), _f1(asked["task"]), learning, seconds / judged * 25))
     return results
@@ -126,9 +132,9 @@ def _live_hour(
 ) -> float:
     """Imagine and judge for one hour, adding to `asked`; returns the seconds that judging took."""
     guesses = robot.imagine_intentions(hour)
-    start = time.perf_counter()
+    start = time.process_time()
     p = judges["intention"].probabilities([example for _, example in guesses])
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     accepted = [value >= 0.5 for value in p]
     if not any(accepted):
         accepted[int(np.argmax(p))] = True
@@ -139,10 +145,10 @@ def _live_hour(
         for task in robot.imagine_tasks(hour, activity, example) if yes else []:
             helps = right and task.candidate.removeprefix("bring the ") in hour.things
             tasks.append(task.model_copy(update={"label": helps}))
-    start = time.perf_counter()
+    start = time.process_time()
     verdicts = judges["task"].probabilities(tasks)
     asked["task"].extend((task, value >= 0.5) for task, value in zip(tasks, verdicts, strict=True))
-    return seconds + time.perf_counter() - start
+    return seconds + time.process_time() - start
 
 
 def _f1(asked: Sequence[Judged]) -> float:
@@ -160,6 +166,7 @@ def main() -> None:
     parser.add_argument("--days", type=int, default=DAYS)
     parser.add_argument("--classifiers", nargs="+", choices=names, default=names)
     parser.add_argument("--blind", action="store_true", help="hide the robot's own order from the classifiers")
+    parser.add_argument("--learning", choices=["warm", "fresh"], default="warm", help="as in coopera run")
     parser.add_argument("--out", type=Path, help="write all figures to this JSON file")
     chosen = parser.parse_args()
     everything = {}
@@ -171,7 +178,13 @@ def main() -> None:
         print(f"{chosen.people} people, {chosen.days} days; F1 on day 1 | 2 | …, mean ± standard error over people")
         for name in chosen.classifiers:
             lives = [
-                live(number, partial(_make, name, embeddings, Inputs(rank=not chosen.blind)), embeddings, chosen.days)
+                live(
+                    number,
+                    partial(_make, name, embeddings, Inputs(rank=not chosen.blind)),
+                    embeddings,
+                    chosen.days,
+                    chosen.learning,
+                )
                 for number in numbers
             ]
             everything[name] = [[day._asdict() for day in one] for one in lives]

@@ -195,7 +195,14 @@ def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddin
         context=method.context and not time_only,
         rank=method.order and not time_only,
     )
-    return partial(make_classifier, config.classifier, kind=kind, embeddings=embeddings, inputs=inputs)
+    return partial(
+        make_classifier,
+        config.classifier,
+        kind=kind,
+        embeddings=embeddings,
+        inputs=inputs,
+        recipe=config.classifier_config,
+    )
 
 
 def _nearest_motion(embeddings: Embeddings, motions: Library) -> Callable[[str], str]:

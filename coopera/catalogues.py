@@ -13,6 +13,7 @@ from coopera.config import Config
 from core.errors import ConfigError
 from core.people import Persona
 from graphs.person import PERSON_MODELS
+from models.classifiers.instruction import read_recipe
 from simulation.motion_folder import load_motions
 from simulation.robot import ROBOTS
 
@@ -148,5 +149,9 @@ def _refuse_what_comes_later(config: Config) -> None:
         raise ConfigError("pictures: video comes later; choose sampled or none.")
     if config.human != "simulated":
         raise ConfigError(f"human: {config.human} comes later; choose simulated.")
+    if config.classifier_config is not None:
+        if config.classifier != "lora-instruct":
+            raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")
+        read_recipe(config.classifier_config)
     if config.prompts is not None and not config.prompts.is_dir():
         raise ConfigError(f"prompts: {config.prompts} must be a folder of prompt files, and there is no such folder.")

@@ -40,7 +40,8 @@ _EXPECTED = {
     "models.judge": "a model such as offline",
     "base_url": "an address such as http://localhost:8000/v1",
     "prompts": "the path of a folder",
-    "classifier": "kernel or lora",
+    "classifier": "kernel, lora or lora-instruct",
+    "classifier_config": "the path of a recipe file",
     "learning": "warm or fresh",
     "human": "simulated, me or log:FILE",
     "person": "full, no_extension or single_shot",
@@ -107,6 +108,7 @@ class Config(Frozen):
         base_url: Address of an OpenAI-compatible server, where a model needs one.
         prompts: A folder whose files replace shipped prompts of the same name.
         classifier: Kind of the robot's yes/no classifiers.
+        classifier_config: Recipe of `lora-instruct`, by default the paper's (models/classifiers/lora_instruct.yaml).
         learning: Whether an evening goes on from the one before, with the day's examples and a fixed number of earlier
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         human: Who plays the person.
@@ -138,7 +140,8 @@ class Config(Frozen):
     models: Models = Models()
     base_url: Annotated[str, Field(pattern=r"^https?://\S+$")] | None = None
     prompts: Path | None = None
-    classifier: Literal["kernel", "lora"] = "kernel"
+    classifier: Literal["kernel", "lora", "lora-instruct"] = "kernel"
+    classifier_config: Path | None = None
     learning: Literal["warm", "fresh"] = "warm"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     person: Text = "full"

@@ -36,7 +36,12 @@ def run(
     judge_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the judge.")] = None,
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
-    classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    classifier: Annotated[
+        str | None, typer.Option(metavar="NAME", help="kernel, lora or lora-instruct. [default: kernel]")
+    ] = None,
+    classifier_config: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Recipe of lora-instruct, such as another base.")
+    ] = None,
     learning: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="warm or fresh (anew on everything). [default: warm]"),
@@ -76,6 +81,7 @@ def run(
         "base_url": base_url,
         "prompts": prompts,
         "classifier": classifier,
+        "classifier_config": classifier_config,
         "learning": learning,
         "human": human,
         "person": person,

@@ -12,6 +12,8 @@ from core.errors import ConfigError
 from models.classifiers.text import Inputs, Kind
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from langchain_core.embeddings import Embeddings
 
     from core.protocols import Classifier
@@ -20,12 +22,15 @@ __all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
 
 CLASSIFIERS: dict[str, str] = {
     "kernel": "ridge regression on a product kernel over frozen sentence embeddings; learns in a fraction of a second",
+    "lora-instruct": "LoRA adapters on a causal language model told to answer Yes or No, as in the paper; for GPUs",
     "lora": "LoRA adapters on the bundled sentence encoder with a classification head; learns in minutes",
 }
 """Every classifier's name and what it is."""
 
 
-def make_classifier(name: str, *, kind: Kind, embeddings: Embeddings, inputs: Inputs | None = None) -> Classifier:
+def make_classifier(
+    name: str, *, kind: Kind, embeddings: Embeddings, inputs: Inputs | None = None, recipe: Path | None = None
+) -> Classifier:
     """Return a new, untrained classifier.
 
     Args:
@@ -33,9 +38,10 @@ def make_classifier(name: str, *, kind: Kind, embeddings: Embeddings, inputs: In
         kind: What it judges: "intention" or "task".
         embeddings: Sentence embeddings; must give a text the same vector every time.
         inputs: What the method lets it see; by default everything.
+        recipe: File with the recipe of `lora-instruct`; by default the paper's.
 
     Raises:
-        ConfigError: If there is no classifier of that name.
+        ConfigError: If there is no classifier of that name, or its recipe is wrong.
     """
     inputs = inputs or Inputs()
     if name == "kernel":
@@ -46,4 +52,9 @@ def make_classifier(name: str, *, kind: Kind, embeddings: Embeddings, inputs: In
         from models.classifiers.lora import LoraClassifier  # noqa: PLC0415 - torch is heavier
 
         return LoraClassifier(kind=kind, inputs=inputs)
+    if name == "lora-instruct":
+        from models.classifiers.instruction import SHIPPED, read_recipe  # noqa: PLC0415
+        from models.classifiers.lora_instruct import LoraInstructClassifier  # noqa: PLC0415 - torch is heavier
+
+        return LoraInstructClassifier(kind=kind, inputs=inputs, recipe=read_recipe(recipe or SHIPPED))
     raise ConfigError(f"there is no classifier {name!r}; known: {', '.join(CLASSIFIERS)}")

@@ -25,6 +25,7 @@ class Recipe:
         layers: How many of the top layers get adapters. Those below are frozen, and run once per example.
         epochs: Times that each example is looked at in the first phase (three quarters of them) and, at a tenth of the
             learning rate, in the second (all of them).
+        later_epochs: The same on an evening that goes on from another.
         most: Examples learned from in an evening: the bound on its time.
         tokens: Longest input.
     """
@@ -37,6 +38,7 @@ class Recipe:
     head_factor: float = 3.0  # DEVIATES: the head is new (the paper reads the model's own "Yes"), it must learn faster
     batch: int = 8  # DEVIATES: 1 with accumulation 4; a larger batch is what makes a CPU evening short
     epochs: tuple[int, int] = (6, 2)  # DEVIATES: 5; a day has few labels
+    later_epochs: tuple[int, int] = (2, 1)
     layers: int = 3  # DEVIATES: all; the lower half then need not be run again for each pass
     most: int = 200
     tokens: int = 64

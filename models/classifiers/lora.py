@@ -65,18 +65,18 @@ class LoraClassifier:
         if self._learned is None or not examples:
             return [0.5] * len(examples)
         pairs = [sentence_pair(self._inputs.show(example)) for example in examples]
-        with _one_thread():
+        with one_thread():
             net = self._loaded()
             logits = _logits(net, self._below(net, pairs)) - self._shift
         return [round(1.0 / (1.0 + math.exp(-max(-30.0, min(30.0, float(z))))), _DECIMALS) for z in logits]
 
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
-        """Learn anew from all labelled examples so far; of too many, the newest day's and a sample of the others.
+        """Learn from labelled examples, going on from what was learned before.
 
         With fewer than one example of each label the classifier stays as it was.
 
         Args:
-            examples: All feedback so far, in any order; unlabelled ones are left out.
+            examples: In any order; of too many, the newest day's and a sample of the others are learned from.
             seed: Decides first weights, order, dropout, and the sample.
 
         Returns:
@@ -90,24 +90,26 @@ class LoraClassifier:
         if not taught.teaches:
             return counts
         generator = np.random.default_rng(seed)
-        taught = _replayed(taught, self._recipe.most, generator)
+        taught = replayed(taught, self._recipe.most, generator)
         labels = np.array(taught.labels)
-        with _one_thread(), torch.random.fork_rng(devices=[]):
+        most, last = self._recipe.epochs if self._learned is None else self._recipe.later_epochs
+        with one_thread(), torch.random.fork_rng(devices=[]):
             torch.manual_seed(seed % 2**63)
             net = self._build()
+            if self._learned is not None:
+                net.set_state(self._learned)
             seen = self._below(net, [sentence_pair(example) for example in taught.examples])
-            held_out = _every_fourth_hour(taught)
+            held_out = every_fourth_hour(taught)
             if len(set(labels[~held_out])) < 2:
                 held_out[:] = False
             lessons = [(hidden, bool(label)) for hidden, label in zip(seen, taught.labels, strict=True)]
             first = [pair for pair, out in zip(lessons, held_out, strict=True) if not out]
-            self._fit(net, first, generator, epochs=self._recipe.epochs[0], speed=1.0)
+            self._fit(net, first, generator, epochs=most, speed=1.0)
             asked = np.array([example.rank is not None for example in taught.examples])
             shift = _threshold(_logits(net, seen), labels, [held_out & asked, held_out])
-            loss = self._fit(net, lessons, generator, epochs=self._recipe.epochs[1], speed=0.1)
+            loss = self._fit(net, lessons, generator, epochs=last, speed=0.1)
         self._net, self._learned, self._shift = net, net.state(), shift
-        passes = len(first) * self._recipe.epochs[0] + len(lessons) * self._recipe.epochs[1]
-        return counts | {"passes": float(passes), "loss": loss}
+        return counts | {"passes": float(len(first) * most + len(lessons) * last), "loss": loss}
 
     def _fit(
         self,
@@ -271,10 +273,11 @@ def _logits(net: AdaptedEncoder, seen: Sequence[_Seen]) -> npt.NDArray[np.float6
     return logits
 
 
-def _every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
-    """Mark the examples of each fourth hour, shape (n,)."""
-    order = {hour: rank for rank, hour in enumerate(sorted(set(taught.hours)))}
-    return np.array([order[hour] % 4 == 3 for hour in taught.hours])
+def every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
+    """Mark the examples of each fourth hour, other hours each day and the same each evening, shape (n,)."""
+    days, hours = np.divmod(np.array(taught.hours), 24)
+    marked: npt.NDArray[np.bool_] = (days + hours) % 4 == 3
+    return marked
 
 
 def _threshold(
@@ -287,7 +290,7 @@ def _threshold(
     return score_at(logits[rows], share * float(labels[rows].mean()))
 
 
-def _replayed(taught: Lesson, most: int, generator: np.random.Generator) -> Lesson:
+def replayed(taught: Lesson, most: int, generator: np.random.Generator) -> Lesson:
     """Keep at most `most` examples: up to a third positives, the newest day's first, then a sample."""
     n = len(taught.labels)
     if n <= most:
@@ -306,7 +309,7 @@ def _replayed(taught: Lesson, most: int, generator: np.random.Generator) -> Less
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Compute on one thread, so that sums have one order and a run leaves the other cores alone."""
     before = torch.get_num_threads()
     torch.set_num_threads(1)

@@ -1,0 +1,54 @@
+"""A random model of Mistral's architecture, small enough for a laptop, with a tokeniser made from the instructions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import torch
+import yaml
+from tokenizers import Tokenizer, decoders, pre_tokenizers, trainers
+from tokenizers.models import BPE
+from transformers import MistralConfig, MistralForCausalLM, PreTrainedTokenizerFast
+
+from core.hour import Example
+from core.people import BigFive, PersonId
+from models.classifiers.instruction import SHIPPED, instruction
+
+
+def make_model(folder: Path, *, hidden: int = 32, layers: int = 2, seed: int = 0) -> Path:
+    """Write the model and its tokeniser; equal arguments give the same one."""
+    folder.mkdir(parents=True, exist_ok=True)
+    bare = Tokenizer(BPE())
+    bare.pre_tokenizer = pre_tokenizers.ByteLevel(add_prefix_space=False)
+    bare.decoder = decoders.ByteLevel()
+    alphabet = pre_tokenizers.ByteLevel.alphabet()
+    trainer = trainers.BpeTrainer(
+        vocab_size=600, special_tokens=["<s>", "</s>"], initial_alphabet=alphabet, show_progress=False
+    )
+    shown = Example(person=PersonId("a"), day=0, hour=9, candidate="drink tea", big_five=BigFive(), rank=0)
+    bare.train_from_iterator([instruction(shown)] * 3, trainer)
+    words = PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
+    words.save_pretrained(folder)
+    config = MistralConfig(
+        vocab_size=len(words),
+        hidden_size=hidden,
+        intermediate_size=2 * hidden,
+        num_hidden_layers=layers,
+        num_attention_heads=4,
+        num_key_value_heads=2,
+        max_position_embeddings=2048,
+        initializer_range=0.2,
+        bos_token_id=0,
+        eos_token_id=1,
+    )
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(seed)
+        MistralForCausalLM(config).save_pretrained(folder)
+    return folder
+
+
+def make_recipe(path: Path, base: Path, **changes: object) -> Path:
+    """Write the shipped recipe with another base and whatever else differs."""
+    shipped = yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+    path.write_text(yaml.safe_dump({**shipped, "base": str(base), "devices": "cpu", **changes}), encoding="utf-8")
+    return path
