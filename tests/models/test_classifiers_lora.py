@@ -104,11 +104,15 @@ def test_training_leaves_the_global_generator_and_threads_as_they_were(base: Pat
     assert torch.get_num_threads() == threads
 
 
-def test_what_is_learned_twice_starts_anew_each_time(base: Path, trained: LoraClassifier) -> None:
-    judge = lora(base)
+def test_an_evening_goes_on_from_the_one_before_with_fewer_passes(base: Path, tmp_path: Path) -> None:
+    judge, other = lora(base), lora(base)
     judge.train(feedback(2), seed=3)
-    judge.train(feedback(), seed=1)
-    assert judge.probabilities(QUESTIONS) == trained.probabilities(QUESTIONS)
+    judge.save(tmp_path)
+    other.load(tmp_path)
+    measured = [one.train(feedback(), seed=1) for one in (judge, other)]
+    assert measured[0] == measured[1]
+    assert measured[0]["passes"] == 2 * 54 + 72
+    assert judge.probabilities(QUESTIONS) == other.probabilities(QUESTIONS) != lora(base).probabilities(QUESTIONS)
 
 
 def test_an_evening_looks_at_no_more_examples_than_the_recipe_allows(base: Path) -> None:
