@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import analyse, benchmark, humans, memory, prompts, replay, reports, run, scenes
+from coopera.commands import analyse, benchmark, humans, memory, prompts, replay, reports, run, scenes, sharing
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -24,6 +24,8 @@ app.command()(reports.trace)
 app.command()(reports.report)
 app.command()(benchmark.benchmark)
 app.command()(replay.replay)
+app.command()(sharing.leaderboard)
+app.command()(sharing.export)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")

@@ -5,12 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
 from coopera.benchmark import Benchmark, gather
 from coopera.files import canonical_json, read_text, reason, write_atomic
 from coopera.trace_files import read_json
 from core.errors import ConfigError, RunError
-from evaluation.results import Card, Row, check_card, from_csv, to_csv
+from evaluation.figures import all_figures
+from evaluation.results import Card, Row, check_card, from_csv, to_csv, unpaired
+from evaluation.tables import Table, all_tables
 
+TEMPLATES = Path(__file__).parent / "templates"
 CARD, TABLE, PARQUET = "results.json", "hours.csv", "hours.parquet"
 
 
@@ -21,15 +27,69 @@ def write_results(bench: Benchmark) -> dict[str, Any]:
         RunError: If nothing is done, or the folder cannot be written.
     """
     rows, card, seconds = gather(bench)
+    if odd := unpaired(rows):
+        raise RunError(f"{bench.root}: methods met different days in {len(odd)} hours, first in {odd[0]}.")
     folder = bench.root / "results"
     try:
         write_atomic(folder / TABLE, to_csv(rows))
         write_atomic(folder / CARD, canonical_json(card.model_dump()))
         write_atomic(folder / "timings.csv", _timings(seconds))
         _write_parquet(folder)
+        page = write_views(folder, card, rows, left=len(bench.left), total=len(bench.jobs))
     except OSError as err:
         raise RunError(f"{folder}: the results cannot be written ({reason(err)}).") from err
-    return {"page": str(folder), "rows": len(rows)}
+    return {"page": str(page), "rows": len(rows)}
+
+
+def write_views(folder: Path, card: Card, rows: list[Row], *, left: int = 0, total: int = 0) -> Path:
+    """Write tables (Markdown and LaTeX), figures (SVG) and the page that holds all of them; returns the page's path.
+
+    Raises:
+        OSError: If the folder cannot be written.
+    """
+    tables, figures = all_tables(rows, card.methods), all_figures(rows, card.methods)
+    head = f"# Results of {card.name}\n\n{_coverage(card, rows, left, total)}\n\n"
+    drawn = "".join(f"![{name}](figures/{name}.svg)\n\n" for name in figures)
+    write_atomic(folder / "tables.md", head + drawn + "\n".join(table.markdown() for table in tables))
+    write_atomic(folder / "tables.tex", "\n".join(table.latex() for table in tables))
+    for name, svg in figures.items():
+        write_atomic(folder / "figures" / f"{name}.svg", svg)
+    page = folder / "index.html"
+    write_atomic(page, _page(card, _coverage(card, rows, left, total), tables, figures))
+    return page
+
+
+def _coverage(card: Card, rows: list[Row], left: int, total: int) -> str:
+    """In words, what these results are of."""
+    people, scenes = {row.person for row in rows}, {row.scene for row in rows}
+    days = {(row.setting, row.collab, row.seed, row.episode, row.day) for row in rows}
+    parts = [
+        f"{len(card.methods)} methods on the same {len(days)} person-days ({len(people)} people, homes: {len(scenes)},",
+        f"settings: {', '.join(card.settings)}, seeds: {len(card.seeds)}):",
+        f"{card.rows} hours, {card.failed_hours} of them failed and in no figure.",
+    ]
+    if left:
+        parts.append(
+            f"Not complete: {left} of {total} runs are still to be done, so methods may differ in what they met."
+        )
+    if card.offline:
+        parts.append("The offline routine model played a role: these figures say nothing about language models.")
+    return " ".join(parts)
+
+
+def _page(card: Card, coverage: str, tables: list[Table], figures: dict[str, str]) -> str:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    # our own SVG, in which matplotlib has escaped every text; the XML prologue has no place within a page
+    drawn = {name: Markup(svg[svg.index("<svg") :]) for name, svg in figures.items()}
+    return environment.get_template("benchmark.html.j2").render(
+        card=card, coverage=coverage, tables=tables, figures=drawn
+    )
 
 
 def read_results(folder: Path) -> tuple[Card, list[Row]]:

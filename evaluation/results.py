@@ -35,7 +35,7 @@ class Row(Frozen):
 
     method: str
     setting: str
-    collab: Literal[1, 2]
+    collab: int = Field(ge=1, le=2)
     seed: int = Field(ge=0)
     episode: int = Field(ge=0)
     day: int = Field(ge=0)
