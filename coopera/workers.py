@@ -131,7 +131,9 @@ def work_through(
                 yield from queue.close(job, error)
     finally:
         for one in staff:
-            one.process.terminate()
+            one.pipe.close()  # which ends a worker that waits
+            if one.job is not None:
+                one.process.terminate()
         for one in staff:
             one.process.join()
 

@@ -157,7 +157,9 @@ def type2_answers() -> dict[str, Answer]:
         },
         "robot/intentions": lambda v: {"intentions": [{"intention": text} for text in offers]},
         "robot/tasks_type2": lambda v: {
-            "tasks": [{"thought": "it helps", "act": {"object": thing}} for thing in offers[v["intention"]]]
+            "tasks": [
+                {"thought": "it helps", "act": {"object": thing}} for thing in offers.get(v["intention"], ["spoon"])
+            ]
         },
         "robot/traits": lambda v: {"big_five": BigFive(openness=4).model_dump(), "profile": "Cooks a lot."},
         "judge/tasks": lambda v: {"verdicts": [{"yes": True}] * len(v["offers"])},

@@ -8,6 +8,7 @@ import pytest
 from evaluation import METHODS, Measure
 from graphs import Services
 from graphs.learning import KINDS, Learner
+from graphs.own_robot import OwnRobot
 from graphs.person import PERSON_MODELS
 from memory import MemoryStream
 from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
@@ -47,6 +48,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
             stream=stream,
             embeddings=embeddings,
             learner=Learner(dict.fromkeys(KINDS, TableClassifier), recorder),
+            own=OwnRobot(own, recorder) if (own := METHODS[method].own) else None,
             recorder=recorder,
             score=Measure(ask, embeddings),
             seed=0,

@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import pytest
+
+from evaluation.comparing import Unit, clustered_mean, compare, detectable, holm, sign_flip
+
+
+def unit(person: str, value: float, scene: str = "maple", seed: int = 0) -> Unit:
+    return Unit(person, scene, seed, value)
+
+
+def test_three_people_who_all_gain_give_the_smallest_p_there_is() -> None:
+    """Of the 2^3 assignments of signs only + + + and - - - are as extreme: p = 2 / 8."""
+    assert sign_flip([0.1, 0.2, 0.3]) == pytest.approx(0.25, abs=1e-12)
+
+
+def test_what_cannot_be_tested_has_p_one() -> None:
+    assert sign_flip([0.4]) == 1
+    assert sign_flip([]) == 1
+    assert sign_flip([0.0, 0.0, 0.0]) == 1
+
+
+def test_many_people_are_tested_by_random_signs_and_the_same_each_time() -> None:
+    assert sign_flip([0.1] * 20) == sign_flip([0.1] * 20) < 0.001
+
+
+def test_holm_multiplies_the_smallest_most_and_never_reorders() -> None:
+    """0.01 x 3 = 0.03; 0.03 x 2 = 0.06; 0.04 x 1 = 0.04, but not less than the one before: 0.06."""
+    assert holm([0.04, 0.01, 0.03]) == pytest.approx([0.06, 0.03, 0.06], abs=1e-12)
+    assert holm([0.9, 0.8]) == [1, 1]
+    assert holm([]) == []
+
+
+def test_one_person_in_one_home_has_no_spread() -> None:
+    assert clustered_mean([unit("amara", 0.4), unit("amara", 0.6)]) == pytest.approx((0.5, 0.5, 0.5))
+
+
+def test_days_of_one_person_do_not_narrow_the_interval() -> None:
+    few = [unit("amara", 0.2), unit("bruno", 0.8), unit("chen", 0.5)]
+    many = [one for one in few for _ in range(50)]
+    narrow, wide = clustered_mean(many), clustered_mean(few)
+    assert narrow.high - narrow.low == pytest.approx(wide.high - wide.low, abs=0.02)
+
+
+def test_methods_are_compared_on_the_days_that_both_lived() -> None:
+    """amara: 0.5 - 0.2, bruno: 0.4 - 0.3; chen lived with the other robot only. Mean (0.3 + 0.1) / 2, p = 2 / 2^2."""
+    ours = {("a",): unit("amara", 0.2), ("b",): unit("bruno", 0.3)}
+    other = {("a",): unit("amara", 0.5), ("b",): unit("bruno", 0.4), ("c",): unit("chen", 1.0)}
+    [found] = compare(ours, {"other": other})
+    assert (found.difference.mean, found.people) == (pytest.approx(0.2, abs=1e-12), 2)
+    assert (found.p, found.p_holm) == (pytest.approx(0.5), pytest.approx(0.5))
+    assert compare(ours, {"stranger": {("z",): unit("zoe", 1.0)}}) == []
+
+
+def test_the_detectable_difference_is_that_of_the_normal_approximation() -> None:
+    """(1.9600 + 0.8416) x SD 0.1 / sqrt 4 = 0.1401; of two people nothing is said."""
+    assert detectable([0.0, 0.2, 0.0, 0.2]) == pytest.approx(2.80159 * 0.11547 / 2, abs=1e-4)
+    assert detectable([0.1, 0.2]) is None

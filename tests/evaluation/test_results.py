@@ -1,0 +1,138 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from core.errors import ConfigError
+from evaluation.analysis import agreement, comparisons, curve, effort, generalisation, last_day, score
+from evaluation.figures import all_figures
+from evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
+from evaluation.tables import all_tables
+
+
+def row(method: str = "ours", person: str = "amara", day: int = 0, hour: int = 9, **over: Any) -> Row:
+    counts = {
+        f"{m}_{c}": n for m in ("predicate", "judge", "people") for c, n in zip(COUNTS, (1, 1, 0, 2, 0), strict=True)
+    }
+    given = {"remaining": 4, "helped": 1, "done": 2, "useless": 1, "metres": 5.0, "saved_metres": 2.5}
+    data: dict[str, Any] = {
+        **{"method": method, "setting": "1", "collab": 2, "seed": 0, "episode": 0, "day": day, "round": day},
+        **{"last": day == 1, "hour": hour, "person": person, "scene": "maple", "status": "ok", "activity": "rest"},
+        "human": f"{person}{day}{hour}",
+        **counts,
+        **given,
+    }
+    return Row(**{**data, **over})
+
+
+COUNTS = ("tp", "fp", "fn", "tn", "unscored")
+
+
+def failed(**over: Any) -> Row:
+    nothing = {name: None for name in Row.model_fields if name.startswith(("predicate", "judge", "people"))}
+    return row(status="failed", **nothing, remaining=None, helped=None, done=None, useless=None, metres=None,
+               saved_metres=None, **over)  # fmt: skip
+
+
+def card(rows: list[Row], **over: Any) -> dict[str, Any]:
+    table = to_csv(rows)
+    made = Card(
+        format=FORMAT, coopera="0", name="x", offline=True, models={}, methods=["ours"], settings=["1"], seeds=[0],
+        rows=len(rows), failed_hours=0, sha256=sha256(table), grid={},
+    )  # fmt: skip
+    return {**made.model_dump(), **over}
+
+
+def test_a_table_is_read_as_it_was_written_failed_hours_too() -> None:
+    rows = [failed(hour=11), row(hour=10), row("random", hour=10), row(hour=9)]
+    assert from_csv(to_csv(rows), "hours.csv") == sorted(rows, key=lambda one: one.key)
+
+
+def test_results_of_another_version_are_refused_by_name() -> None:
+    with pytest.raises(
+        ConfigError, match=r"results.json: the results are of format 2, and this coopera reads format 1"
+    ):
+        check_card(card([row()], format=2), to_csv([row()]), "results.json")
+    with pytest.raises(ConfigError, match="format None"):
+        check_card([], "", "results.json")
+
+
+def test_a_table_that_was_changed_afterwards_is_refused() -> None:
+    better = [row(predicate_tp=9)]
+    with pytest.raises(ConfigError, match="SHA-256"):
+        check_card(card([row()]), to_csv(better), "results.json")
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "sentence"),
+    [
+        ("predicate_tp", "predicate_top", "columns"),
+        (",9,amara", ",99,amara", "line 2: hour cannot be '99'"),
+        (",ok,", ",fine,", "line 2: status cannot be 'fine'"),
+    ],
+)
+def test_a_damaged_table_is_refused_with_line_and_column(before: str, after: str, sentence: str) -> None:
+    with pytest.raises(ConfigError, match=sentence):
+        from_csv(to_csv([row()]).replace(before, after, 1), "hours.csv")
+
+
+def test_an_hour_that_stands_twice_is_refused() -> None:
+    with pytest.raises(ConfigError, match="1 hours stand there twice"):
+        from_csv(to_csv([row(), row()]), "hours.csv")
+
+
+def test_methods_that_met_different_days_are_found() -> None:
+    assert unpaired([row(), row("random")]) == []
+    assert unpaired([row(), row("random", human="another")]) == ["setting 1 type 2 seed 0 episode 0 day 0 hour 9"]
+
+
+def test_scores_pool_hours_and_leave_failed_ones_out() -> None:
+    """tp 1 fp 1 twice: 4 / (4 + 2); helped 2 of 8."""
+    rows = [row(hour=9), row(hour=10), failed(hour=11)]
+    assert score(rows, "predicate") == pytest.approx(2 / 3)
+    assert score(rows, "help") == 0.25
+    assert score([failed()], "predicate") is None
+    assert score([failed()], "help") is None
+
+
+def test_only_a_persons_last_day_counts_in_the_main_table() -> None:
+    rows = [row(day=0, predicate_tp=0), row(day=1)]
+    assert last_day(rows)["ours"].interval.mean == pytest.approx(2 / 3)
+    assert curve(rows, lambda one: one.day)["ours"] == {0: 0.0, 1: pytest.approx(2 / 3)}
+
+
+def test_methods_are_compared_with_the_reference_on_the_same_days() -> None:
+    rows = [row(day=1), row("random", day=1, predicate_fp=3), row("random", person="bruno", day=1)]
+    [found] = comparisons(rows, "ours")
+    assert (found.method, found.people) == ("random", 1)
+    assert found.difference.mean == pytest.approx(2 / 5 - 2 / 3)
+
+
+def test_generalisation_takes_the_last_day_of_the_episode_alone() -> None:
+    rows = [row(m, day=d, setting="2", predicate_fp=f) for m, d, f in
+            (("ours", 0, 9), ("ours", 1, 0), ("untrained", 0, 9), ("untrained", 1, 2))]  # fmt: skip
+    found = generalisation(rows, "2", "ours", "untrained")
+    assert found is not None
+    assert [cell.interval.mean for cell in found] == pytest.approx([0.5, 1.0])
+    assert generalisation(rows, "3+1", "ours", "untrained") is None
+
+
+def test_effort_is_per_scored_hour() -> None:
+    assert effort([row(hour=9), row(hour=10), failed(hour=11)])["ours"] == (1.0, 2.5, 1.0)
+
+
+def test_agreement_is_the_l1_of_hourly_f1() -> None:
+    """Predicate 2/3 in both hours; the person 1 in one of them: (1/3 + 0) / 2."""
+    rows = [row(hour=9, people_fp=0), row(hour=10)]
+    assert agreement(rows, "predicate") == pytest.approx(1 / 6)
+
+
+def test_tables_and_figures_are_drawn_of_whatever_there_is() -> None:
+    rows = [row(m, person=p, day=d) for m in ("ours", "random") for p in ("amara", "bruno") for d in (0, 1)]
+    tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
+    assert "| ours | 0.667 | 0.505 |" in tables["paper"].markdown()
+    assert r"\label{tab:comparisons}" in tables["comparisons"].latex()
+    assert r"95 \%" in tables["last_day_predicate"].latex()
+    assert all_figures(rows, ["ours", "random"]) == all_figures(rows, ["ours", "random"])
+    assert "generalisation" not in tables
