@@ -130,12 +130,17 @@ def work_through(
                     error = f"its process died {TRIES} times (exit code {one.process.exitcode})"
                 yield from queue.close(job, error)
     finally:
-        for one in staff:
-            one.pipe.close()  # which ends a worker that waits
-            if one.job is not None:
-                one.process.terminate()
-        for one in staff:
-            one.process.join()
+        _dismiss(staff)
+
+
+def _dismiss(staff: Sequence[_Worker]) -> None:
+    """End all workers: the closing of its pipe ends one that waits, a signal one that is at work."""
+    for one in staff:
+        one.pipe.close()
+        if one.job is not None:
+            one.process.terminate()
+    for one in staff:
+        one.process.join()
 
 
 def _hire(context: Any, work: Work) -> _Worker:
