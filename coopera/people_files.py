@@ -97,7 +97,7 @@ def read_recorded(paths: Sequence[Path], people: Sequence[PersonId]) -> dict[Per
 
 
 def write_results(folder: Path, figures: Sequence[Figure], about: Mapping[str, Any]) -> None:
-    """Write people.json and people.csv.
+    """Write people.json, people.csv and people.md.
 
     Raises:
         ConfigError: If the folder cannot be written.
@@ -109,6 +109,25 @@ def write_results(folder: Path, figures: Sequence[Figure], about: Mapping[str, A
     writer.writerows(figure.model_dump() for figure in figures)
     save(folder / "people.json", canonical_json(data))
     save(folder / "people.csv", text.getvalue())
+    head, *rows = table(figures)
+    lines = [head, ["---"] * len(head), *rows]
+    save(folder / "people.md", "".join(f"| {' | '.join(cells)} |\n" for cells in lines))
+
+
+def table(figures: Sequence[Figure]) -> list[list[str]]:
+    """The figures as people read them: a row of headings, then one row each."""
+
+    def number(value: float | None) -> str:
+        return "–" if value is None else f"{value:.3f}"
+
+    rows = [["check", "measure", "person", "ours", "95 % interval", "control", "paper", "n", "note"]]
+    for one in figures:
+        interval = "" if one.low is None else f"{number(one.low)} to {number(one.high)}"
+        control = "" if one.control is None else f"{number(one.control)} ({one.control_is})"
+        n = f"{one.n} {one.unit}" if one.n else ""
+        numbers = [number(one.value), interval, control, number(one.paper), n]
+        rows.append([one.check, one.measure, one.variant.replace("_", " "), *numbers, one.note])
+    return rows
 
 
 def save(path: Path, text: str) -> None:

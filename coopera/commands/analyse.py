@@ -42,7 +42,7 @@ def analyse_humans(
 ) -> None:
     """Check whether the people in some runs are distinct, diverse, coherent, consistent in time and lifelike.
 
-    Writes people.json, people.csv and people.png, and material for the two user studies.
+    Writes people.json, people.csv, people.md and people.png, and material for the two user studies.
     """
     from coopera.people_files import read_lives, read_recorded
 
@@ -148,32 +148,12 @@ def _tell(
         data = {**(about or {}), "figures": [figure.model_dump() for figure in figures]}
         typer.echo(json.dumps(data | ({"out": str(out)} if out else {}), sort_keys=True))
         return
+    from coopera.people_files import table
     from coopera.tables import print_table
 
-    print_table(
-        ["check", "measure", "person", "ours", "95 % interval", "control", "paper", "n", "note"], _rows(figures)
-    )
+    columns, *rows = table(figures)
+    print_table(columns, rows)
     if out:
-        typer.echo(f"Results: {out}/people.json, people.csv, people.png")
+        typer.echo(f"Results: {out}/people.json, people.csv, people.md, people.png")
         where = f"{out}/study.html for participants, {out}/study-key.json to score their answers"
         typer.echo(f"User studies: {where if studies else 'none, they take three people in one home'}")
-
-
-def _rows(figures: Sequence[Figure]) -> list[list[str]]:
-    def number(value: float | None) -> str:
-        return "–" if value is None else f"{value:.3f}"
-
-    return [
-        [
-            one.check,
-            one.measure,
-            one.variant,
-            number(one.value),
-            "" if one.low is None else f"{number(one.low)} to {number(one.high)}",
-            "" if one.control is None else f"{number(one.control)} ({one.control_is})",
-            number(one.paper),
-            f"{one.n} {one.unit}" if one.n else "",
-            one.note,
-        ]
-        for one in figures
-    ]

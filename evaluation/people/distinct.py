@@ -57,7 +57,7 @@ def distinctness(lives: Lives, learner: Learner, *, seed: int = 0) -> list[Figur
                 unit="days",
                 control=accuracy(list(by_chance.values())) if by_chance else None,
                 control_is="people shuffled",
-                note=f"{len(units)}-way, chance {1 / len(lives.people):.3f}, unseen {held_out.unseen}",
+                note=f"{len(lives.people)}-way, chance {1 / len(lives.people):.3f}, unseen {held_out.unseen}",
             )
         )
     return figures

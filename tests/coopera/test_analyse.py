@@ -46,6 +46,7 @@ def test_runs_become_figures_files_a_picture_and_a_study_that_is_scored(
     assert [run["seed"] for run in stored["runs"]] == [0, 1]
     rows = list(csv.DictReader(Path("found/people.csv").read_text().splitlines()))
     assert len(rows) == len(figures)
+    assert Path("found/people.md").read_text().count("\n") == len(figures) + 2
     assert Path("found/people.png").read_bytes().startswith(b"\x89PNG")
     page = Path("found/study.html").read_text()
     assert "amara" not in page  # nobody's id, and nothing that is loaded from elsewhere
