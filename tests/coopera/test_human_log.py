@@ -55,7 +55,7 @@ def test_a_jsonl_log_is_the_same_log(tmp_path: Path) -> None:
         ("{\n", "a.jsonl", "line 1: this is not valid JSON"),
         ("[1]\n", "a.jsonl", "expected an object"),
         ('{"day": 0, "hour": 9}\n', "a.jsonl", "field intention is missing"),
-        ('{"day": 0, "hour": 9, "intention": "Rest", "tasks": [""]}\n', "a.jsonl", "tasks must be texts"),
+        ('{"day": 0, "hour": 9, "intention": "Rest", "tasks": [""]}\n', "a.jsonl", "tasks must be at most 8 texts"),
     ],
 )
 def test_a_wrong_log_is_refused_in_one_sentence(tmp_path: Path, text: str, name: str, said: str) -> None:
