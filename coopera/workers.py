@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import multiprocessing
+import os
 import signal
 import sqlite3
 import time
@@ -145,15 +146,17 @@ def _dismiss(staff: Sequence[_Worker]) -> None:
 
 def _hire(context: Any, work: Work) -> _Worker:
     here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there, work), daemon=True)
+    process = context.Process(target=_serve, args=(there, work, os.getpid()), daemon=True)
     process.start()
     there.close()
     return _Worker(process, here)
 
 
-def _serve(pipe: Connection, work: Work) -> None:
+def _serve(pipe: Connection, work: Work, parent: int) -> None:
     """The life of a worker: take a job, do it, say how it went."""
     ctypes.CDLL(None).prctl(_PARENT_DEATH, signal.SIGKILL)
+    if os.getppid() != parent:  # it died before this process could ask to die with it, and may have left a job
+        return
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends the workers
     while True:
         try:
