@@ -18,7 +18,7 @@ _INSTANCE = ".scene_instance.json"
 
 
 class Arrival(NamedTuple):
-    """An imported home: where it lies now, what was left out, and what `check` says of it."""
+    """An imported home: where it lies now, what was left out, and what `prove` says of it."""
 
     scene: Scene
     file: Path
@@ -94,13 +94,13 @@ def bring_in(
     Raises:
         ConfigError: If something is wrong with it; names file and field.
     """
-    from simulation.check import check  # noqa: PLC0415  (slow to import)
+    from simulation.proof import prove  # noqa: PLC0415  (slow to import)
 
     if not path.exists():
         raise ConfigError(f"{path}: there is no such file or folder.")
     if path.is_file() and not path.name.endswith(_INSTANCE):
         home = load_scene(path)
-        return [_arrive(home, [], check(home), folder, force=force)]
+        return [_arrive(home, [], prove(home), folder, force=force)]
     from simulation.hssd import import_scene  # noqa: PLC0415
     from simulation.hssd_files import Folder  # noqa: PLC0415
 

@@ -19,12 +19,12 @@ import numpy as np
 from core.errors import ConfigError
 from core.household import SceneId
 from simulation.categories import DYNAMIC, STATIC
-from simulation.check import check
 from simulation.floorplan import Wall
 from simulation.glb import Array, read_glb, rotation_matrix
 from simulation.hssd_files import Folder, Instance, Region, Template
 from simulation.hssd_names import class_of, colour_of, slug
 from simulation.hssd_walls import walls_of
+from simulation.proof import prove
 from simulation.scene import Room, Scene, SceneObject
 
 TO_OURS: Array = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
@@ -46,7 +46,7 @@ class Skipped(NamedTuple):
 
 
 class Imported(NamedTuple):
-    """A home, what was left out of it, and what `check` says of it."""
+    """A home, what was left out of it, and what `prove` says of it."""
 
     scene: Scene
     skipped: list[Skipped]
@@ -88,7 +88,7 @@ def import_scene(folder: Folder, id: str, *, skip_missing: bool = False) -> Impo
     scene = Scene(id=SceneId(scene_id(id)), rooms=rooms, objects=[], stage=_stage(folder, id, floor, skipped))
     scene = scene.model_copy(update={"objects": _name(scene, found)})
     scene = Scene.model_validate(scene.model_dump())
-    return Imported(scene, skipped, check(scene))
+    return Imported(scene, skipped, prove(scene))
 
 
 def scene_id(name: str) -> str:

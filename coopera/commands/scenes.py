@@ -67,7 +67,7 @@ def show(scene: Home, png: Png = None, as_json: AsJson = False) -> None:
 def check(scene: Home, as_json: AsJson = False) -> None:
     """Say whether everything in a home can be walked up to and taken, and if not, what cannot (exit code 1)."""
     from coopera.homes import figures
-    from simulation.check import check as problems_of
+    from simulation.proof import prove as problems_of
 
     home = _load(scene)
     problems = problems_of(home)
@@ -96,8 +96,8 @@ def generate(
 ) -> None:
     """Make a home from a seed and store it, so that its id works everywhere."""
     from coopera.homes import figures, place_for, write, write_picture
-    from simulation.check import check as problems_of
     from simulation.generate import generate as make
+    from simulation.proof import prove as problems_of
     from simulation.scene import dump_scene
 
     id = id or f"home-{rooms}-{seed}"

@@ -6,8 +6,8 @@ import pytest
 
 from simulation.catalogue import catalogue
 from simulation.categories import DYNAMIC, STATIC
-from simulation.check import check
 from simulation.generate import generate
+from simulation.proof import prove
 from simulation.scene import Scene, list_scenes, load_scene
 
 HOMES = ("maple", "oak", "pine", "rowan", "willow")
@@ -41,7 +41,7 @@ def test_the_homes_hold_every_super_category_every_class_and_twenty_objects_of_t
 
 @pytest.mark.parametrize("home", HOMES)
 def test_a_shipped_home_has_no_problems(home: str) -> None:
-    assert check(load_scene(home)) == []
+    assert prove(load_scene(home)) == []
 
 
 @pytest.mark.parametrize("home", HOMES)
