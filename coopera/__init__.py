@@ -13,15 +13,17 @@ if TYPE_CHECKING:
     from coopera.config import Config
     from coopera.conformance import check_method
     from coopera.rundir import RunDir
+    from coopera.studies import run_studies
     from coopera.study import resume_study, run_study
 
-__all__ = ["Config", "RunDir", "check_method", "resume_study", "run_study"]
+__all__ = ["Config", "RunDir", "check_method", "resume_study", "run_studies", "run_study"]
 __version__ = "0.1.0"
 
 _HOME = {
     "Config": "coopera.config",
     "check_method": "coopera.conformance",
     "RunDir": "coopera.rundir",
+    "run_studies": "coopera.studies",
     "resume_study": "coopera.study",
     "run_study": "coopera.study",
 }

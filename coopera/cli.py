@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import analyse, benchmark, humans, memory, prompts, replay, reports, run, scenes, sharing
+from coopera.commands import analyse, benchmark, humans, memory, models, prompts, replay, reports, run, scenes, sharing
 from core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -29,6 +29,7 @@ app.command()(sharing.export)
 app.add_typer(humans.app, name="humans")
 app.add_typer(scenes.app, name="scenes")
 app.add_typer(prompts.app, name="prompts")
+app.add_typer(models.app, name="models")
 app.add_typer(memory.app, name="memory")
 app.add_typer(analyse.app, name="analyse")
 

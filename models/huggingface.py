@@ -277,7 +277,9 @@ def _turn(message: BaseMessage, sees: bool) -> dict[str, Any]:
 
 def _weights(path: str, config: Any) -> str:
     stats = [(file.name, file.stat()) for file in sorted(Path(path).glob("*.safetensors"))]
-    return str(config._commit_hash or [(name, stat.st_size, stat.st_mtime_ns) for name, stat in stats])
+    return str(
+        getattr(config, "_commit_hash", None) or [(name, stat.st_size, stat.st_mtime_ns) for name, stat in stats]
+    )
 
 
 def _ends(path: str, model: Any, tokenizer: Any) -> list[int]:

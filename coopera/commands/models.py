@@ -1,0 +1,53 @@
+"""`coopera models`: whether a language model can do what is asked of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from coopera.commands.options import AsJson, BaseUrl
+
+app = typer.Typer(help="The language models that play the person, the robot and the judge.", no_args_is_help=True)
+
+
+@app.callback()
+def models() -> None:
+    """The language models that play the person, the robot and the judge."""
+
+
+@app.command()
+def check(
+    spec: Annotated[
+        str, typer.Argument(metavar="SPEC", help="Such as offline, openai:MODEL or huggingface:REPO-OR-FOLDER.")
+    ],
+    base_url: BaseUrl = None,
+    study: Annotated[
+        Path | None, typer.Option(metavar="STUDY.yaml", help="A study file whose `calls` settings to use.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Make real calls to a model and report what works: structured replies, names of objects, pictures.
+
+    Keys are taken from the environment (OPENAI_API_KEY, …) and are neither shown nor kept.
+    """
+    from coopera.assemble import open_embeddings
+    from coopera.config import load_config
+    from coopera.model_check import check_model, in_words
+
+    config = load_config(study, {"base_url": base_url})
+    backend, tried = check_model(
+        spec, base_url=config.base_url, settings=config.calls, embeddings=open_embeddings(config)
+    )
+    works = all(one.ok for one in tried)
+    if as_json:
+        told = {"model": spec, "base_url": config.base_url, "structure": backend.structure, "ok": works}
+        typer.echo(json.dumps({**told, "checks": [one.data() for one in tried]}, ensure_ascii=False))
+    else:
+        typer.echo(str(backend))
+        for one in tried:
+            typer.echo(in_words(backend, one))
+    if not works:
+        raise typer.Exit(1)
