@@ -13,6 +13,7 @@ from langchain_core.embeddings import Embeddings
 
 from coopera.config import Config
 from coopera.lived import open_lived
+from coopera.real_people import Told
 from coopera.rundir import RunDir
 from core.hour import ModelCall
 from core.household import SceneId
@@ -23,6 +24,7 @@ from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
 from graphs.own_robot import OwnRobot
 from graphs.person import PERSON_MODELS
+from graphs.services import nothing_was_told
 from memory import MemoryStream, Search, bundled
 from models.budget import Meter
 from models.classifiers import Inputs, make_classifier
@@ -95,7 +97,11 @@ def _wait(check: Callable[[], None], seconds: float) -> None:
 
 @contextmanager
 def open_services(
-    config: Config, run: RunDir, people: Mapping[str, Persona], prompts: PromptLibrary | None = None
+    config: Config,
+    run: RunDir,
+    people: Mapping[str, Persona],
+    prompts: PromptLibrary | None = None,
+    told: Told | None = None,
 ) -> Iterator[Services]:
     """Open everything that a run works with, and close it at the end.
 
@@ -104,6 +110,7 @@ def open_services(
         run: The run directory, which may be asked to stop.
         people: Those who may take part, by id.
         prompts: The prompt folder, where it has been read already.
+        told: What a real person wrote down of the hours.
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
@@ -132,6 +139,9 @@ def open_services(
             frames=config.frames if config.pictures == "sampled" else 0,
             person=PERSON_MODELS[config.person],
             lived=open_lived(config),
+            told=told or nothing_was_told,
+            in_the_loop=config.human == "me",
+            graded=config.feedback == "graded",
         )
 
 

@@ -147,8 +147,6 @@ def _refuse_what_comes_later(config: Config) -> None:
     """Refuse choices that are named in the design but not built yet."""
     if config.pictures == "video":
         raise ConfigError("pictures: video comes later; choose sampled or none.")
-    if config.human != "simulated":
-        raise ConfigError(f"human: {config.human} comes later; choose simulated.")
     if config.classifier_config is not None:
         if config.classifier != "lora-instruct":
             raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")

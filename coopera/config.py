@@ -44,6 +44,7 @@ _EXPECTED = {
     "classifier_config": "the path of a recipe file",
     "learning": "warm or fresh",
     "human": "simulated, me or log:FILE",
+    "feedback": "yes_no or graded",
     "person": "full, no_extension or single_shot",
     "motions": "the path of a folder of .npy or .npz clips",
     "robot": "the name of a robot's body such as fetch",
@@ -111,7 +112,9 @@ class Config(Frozen):
         classifier_config: Recipe of `lora-instruct`, by default the paper's (models/classifiers/lora_instruct.yaml).
         learning: Whether an evening goes on from the one before, with the day's examples and a fixed number of earlier
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
-        human: Who plays the person.
+        human: Who plays the person: the simulation, a real person's log (`coopera.real_people`), or a real person who
+            is asked, on the terminal or wherever `run_study` is told to ask.
+        feedback: What the person answers in the evening: yes or no (the paper's way), or a grade from 1 to 5.
         person: How a simulated person is made: the paper's way or one of its ablations (`graphs.person`).
         motions: A folder of Motion-X or AMASS clips that the person can do beside the shipped motions.
         robot: The robot's body, one of `simulation.robot.ROBOTS`.
@@ -144,6 +147,7 @@ class Config(Frozen):
     classifier_config: Path | None = None
     learning: Literal["warm", "fresh"] = "warm"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
+    feedback: Literal["yes_no", "graded"] = "yes_no"
     person: Text = "full"
     motions: Path | None = None
     robot: Text = "fetch"

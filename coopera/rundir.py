@@ -18,7 +18,7 @@ from coopera.humans import read_persona, write_persona
 from coopera.stopping import Stop
 from coopera.summary import metrics_csv, metrics_rows, summarise
 from coopera.trace_files import read_json, read_record, write_record
-from core.errors import BudgetError, ConfigError, CooperaError, RunError
+from core.errors import BudgetError, ConfigError, CooperaError, RunError, WaitingError
 from core.hour import Evening, HourRecord
 from core.people import Persona
 from models.settings import Budget, Spent
@@ -158,7 +158,7 @@ class RunDir:
         if self._lock is None:
             return
         if self.state == "running":
-            if isinstance(error, BudgetError):
+            if isinstance(error, (BudgetError, WaitingError)):
                 self._end("stopped", str(error))
             elif isinstance(error, Exception):
                 what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"

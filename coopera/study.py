@@ -6,39 +6,61 @@ import sqlite3
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
+from langgraph.graph.state import CompiledStateGraph
 
 from coopera import humans
 from coopera.assemble import model_specs, open_services
 from coopera.catalogues import resolve
 from coopera.config import Config
+from coopera.files import canonical_json, write_atomic
+from coopera.real_people import open_told
 from coopera.report import write_report
 from coopera.rundir import RunDir
-from core.errors import RunError
+from core.errors import RunError, WaitingError
 from core.hour import Counts, DayPlan
 from core.household import SceneId
+from core.interview import Answer, Question
 from core.people import PersonId
 from evaluation import SETTINGS, episode, pool, schedule
 from graphs import STATE_TYPES, Services, build_study_graph
+from graphs.study import Waiting, waiting
 from models.settings import Budget
 from prompts import PromptLibrary
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
 
+AskPerson: TypeAlias = Callable[[Question], Answer]
+QUESTION = "question.json"
+"""File of a run that waits for a person: the question (`core.interview.Question`)."""
+
 _THREAD: RunnableConfig = {"configurable": {"thread_id": "study"}}
 
 
-def run_study(config: Config, *, on_event: Callable[[Event], None] | None = None) -> dict[str, Any]:
+def nobody(question: Question) -> Answer:
+    """Answer nothing: the run waits.
+
+    Raises:
+        WaitingError: Always.
+    """
+    raise WaitingError(f"The run waits for {question.name}: day {question.day + 1}, {question.time}.")
+
+
+def run_study(
+    config: Config, *, on_event: Callable[[Event], None] | None = None, ask_person: AskPerson = nobody
+) -> dict[str, Any]:
     """Run a study from its first hour to its report.
 
     Args:
         config: What to run; what it leaves open is filled in.
         on_event: Told of each node that ends.
+        ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
+            `resume_study` asks the same question again.
 
     Returns:
         The content of summary.json.
@@ -48,17 +70,22 @@ def run_study(config: Config, *, on_event: Callable[[Event], None] | None = None
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
     with new_run(config) as (run, services):
-        return _carry_on(run, services, on_event)
+        return _carry_on(run, services, on_event, ask_person)
 
 
 def resume_study(
-    path: Path, *, on_event: Callable[[Event], None] | None = None, budget: Budget | None = None
+    path: Path,
+    *,
+    on_event: Callable[[Event], None] | None = None,
+    ask_person: AskPerson = nobody,
+    budget: Budget | None = None,
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
     Args:
         path: The run directory.
         on_event: Told of each node that ends.
+        ask_person: As for `run_study`.
         budget: What the run may spend in all, if not what it was begun with.
 
     Raises:
@@ -69,8 +96,9 @@ def resume_study(
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name) != sha)
         if changed:
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
-        with open_services(run.config, run, run.people(), prompts) as services:
-            return _carry_on(run, services, on_event)
+        told = open_told(run.config, plan_days(run.config))
+        with open_services(run.config, run, run.people(), prompts, told) as services:
+            return _carry_on(run, services, on_event, ask_person)
 
 
 @contextmanager
@@ -83,10 +111,11 @@ def new_run(config: Config) -> Iterator[tuple[RunDir, Services]]:
     config = resolve(config)
     prompts = PromptLibrary(config.prompts)
     people = [humans.find(person, config.data_dir) for person in config.humans or []]
+    told = open_told(config, plan_days(config))
     specs = {str(role): spec for role, spec in model_specs(config).items()}
     with (
         RunDir.create(config, people=people, prompts=prompts.hashes(), models=specs) as run,
-        open_services(config, run, run.people(), prompts) as services,
+        open_services(config, run, run.people(), prompts, told) as services,
     ):
         yield run, services
 
@@ -105,35 +134,48 @@ def plan_days(config: Config) -> list[DayPlan]:
     )
 
 
-def _carry_on(run: RunDir, services: Services, on_event: Callable[[Event], None] | None) -> dict[str, Any]:
+def _carry_on(
+    run: RunDir, services: Services, on_event: Callable[[Event], None] | None, ask_person: AskPerson
+) -> dict[str, Any]:
     with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
         saver = SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
+        graph = build_study_graph(saver)
+        given: Any = None if graph.get_state(_THREAD).values else {"schedule": plan_days(run.config)}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
-        _stream(services, saver, plan_days(run.config), scored, on_event)
+        if (question := waiting(graph, _THREAD)) is None:
+            question = _stream(graph, services, given, scored, on_event)
+        while question is not None:
+            given = question.answered(_ask(run, question.question, ask_person))
+            question = _stream(graph, services, given, scored, on_event)
     summary = run.finish()
     write_report(run)
     return summary
 
 
+def _ask(run: RunDir, question: Question, ask_person: AskPerson) -> Answer:
+    """Put a question to the person; until it is answered it stands in the run's folder, for whoever shows it."""
+    waiting = run.root / QUESTION
+    write_atomic(waiting, canonical_json(question.model_dump(mode="json")))
+    answer = ask_person(question)
+    waiting.unlink(missing_ok=True)
+    return answer
+
+
 def _stream(
+    graph: CompiledStateGraph[Any, Services, Any, Any],
     services: Services,
-    saver: SqliteSaver,
-    days: list[DayPlan],
+    given: Any,
     scored: list[Counts],
     on_event: Callable[[Event], None] | None,
-) -> None:
-    graph = build_study_graph(saver)
-    begun = bool(graph.get_state(_THREAD).values)
+) -> Waiting | None:
+    """Let the study go on until its end, or until a question to a real person, which is then returned."""
     stream = graph.stream(
-        None if begun else {"schedule": days},
-        _THREAD,
-        context=services,
-        stream_mode=["updates", "custom"],
-        subgraphs=True,
-        durability="async",
+        given, _THREAD, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
     )
     now: dict[str, Any] = {"day": 0, "hour": None}
     for _, mode, data in cast(Iterator[tuple[Any, str, dict[str, Any]]], stream):
+        if mode == "updates" and "__interrupt__" in data:
+            continue
         if mode == "custom":
             now = {"day": data["day"], "hour": data["hour"]}
             if data["success"]:
@@ -142,3 +184,4 @@ def _stream(
             nodes = [data["node"]] if mode == "custom" else list(data)
             for node in nodes:
                 on_event({**now, "node": node, "success": pool(scored).f1})
+    return waiting(graph, _THREAD)

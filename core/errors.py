@@ -56,5 +56,9 @@ class LearningError(CooperaError):
     """A classifier could not learn from an evening; what it knew before is kept, and the run goes on."""
 
 
+class WaitingError(CooperaError):
+    """A run waits for a real person's answer; it is stopped, not failed, and resuming it asks again."""
+
+
 class RunError(CooperaError):
     """A run directory cannot be written, continued or read."""

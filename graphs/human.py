@@ -29,7 +29,7 @@ from graphs.checks import findings, repair
 from graphs.method import Numbers
 from graphs.recall import as_memory, as_variables, recall_both
 from graphs.services import HumanContext
-from graphs.stated import Draft, chosen, stated_intention, stated_steps
+from graphs.stated import Draft, chosen, fill, stated_intention, stated_steps
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflectionReply]] = {
@@ -145,8 +145,10 @@ def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, An
     """
     ctx, found = runtime.context, state["found"]
     steps = stated_steps(ctx, state["clock"], _today(state), state["intention"], found)
-    if steps and (drafts := chosen(ctx, steps, found)):
-        return {"tasks": number(drafts, state["clock"]), "stated": True}
+    drafts = chosen(ctx, steps, found)
+    own_words = [step for step, draft in zip(steps, drafts, strict=True) if draft is None]
+    if steps and not own_words:
+        return {"tasks": number(fill(drafts, [], ""), state["clock"]), "stated": True}
     things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
     reply = ctx.ask(
         f"human/tasks_type{ctx.collab}",
@@ -157,11 +159,12 @@ def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, An
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
-            "n_tasks": len(steps) or Numbers.HUMAN_TASKS[ctx.collab],
-            "steps": steps,
+            "n_tasks": len(own_words) or Numbers.HUMAN_TASKS[ctx.collab],
+            "steps": own_words,
         },
     )
-    return {"tasks": number(reply.tasks, state["clock"]), "stated": bool(steps)}
+    tasks = fill(drafts, reply.tasks, f"human/tasks_type{ctx.collab}") if steps else reply.tasks
+    return {"tasks": number(tasks, state["clock"]), "stated": bool(steps)}
 
 
 def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from core.clock import Clock
+from core.errors import ModelOutputError
 from core.hour import Found, Intention
 from core.interview import Question
 from core.replies import FreeMotionDraft, PickPlaceDraft
@@ -46,12 +47,30 @@ def stated_steps(
     return []
 
 
-def chosen(ctx: HumanContext, steps: Sequence[str], found: Found) -> list[Draft]:
-    """The tasks, where every step is a choice that can be read; otherwise none, and a model reads the words."""
+def chosen(ctx: HumanContext, steps: Sequence[str], found: Found) -> list[Draft | None]:
+    """The task of each step that is a choice of what there is; None for one in a person's own words."""
+    return [_choice(ctx, step, found) for step in steps]
+
+
+def fill(drafts: Sequence[Draft | None], read: Sequence[Draft], prompt: str) -> list[Draft]:
+    """Put what a model read of a person's own words in its places among the choices.
+
+    Raises:
+        ModelOutputError: If the model did not make one task of each step.
+    """
+    gaps = sum(draft is None for draft in drafts)
+    if len(read) != gaps:
+        said = str([draft.act.describe() for draft in read])
+        raise ModelOutputError(prompt, said, f"it has {len(read)} tasks for {gaps} steps of a person")
+    rest = iter(read)
+    return [draft or next(rest) for draft in drafts]
+
+
+def _choice(ctx: HumanContext, step: str, found: Found) -> Draft | None:
     try:
-        return [read_choice(step, ctx.collab, found.fixed, found.movable, found.motions) for step in steps]
+        return read_choice(step, ctx.collab, found.fixed, found.movable, found.motions)
     except ValueError:
-        return []
+        return None
 
 
 def _when_and_where(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> dict[str, object]:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
+from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
+from langgraph.types import Command, StateSnapshot
 from typing_extensions import TypedDict
 
 from core.clock import Clock
 from core.hour import DayPlan, FeedbackItem
 from core.household import SceneId
+from core.interview import Answer, Question
 from core.people import BigFive, PersonId, Picture
 from graphs.day import build_day_graph
 from graphs.services import Services
@@ -52,6 +55,32 @@ def build_study_graph(
     graph.add_edge("next_day", "day")
     graph.add_conditional_edges("day", has_days, {"next_day": "next_day", "done": END})
     return graph.compile(checkpointer=checkpointer, name="study")
+
+
+class Waiting(NamedTuple):
+    """A question that interrupted a study, and the id by which its answer is handed in."""
+
+    id: str
+    question: Question
+
+    def answered(self, answer: Answer) -> Command[Any]:
+        """What to invoke the study with, to go on from the question."""
+        return Command(resume={self.id: answer})
+
+
+def waiting(
+    graph: CompiledStateGraph[StudyState, Services, StudyInput, StudyState], thread: RunnableConfig
+) -> Waiting | None:
+    """The question that a study waits with, or None.
+
+    Answers must be handed in by id: one that is not stays behind in the checkpoint, and LangGraph 1.2.22 would take it
+    for the answer to the next question when the study goes on in another process.
+    """
+    state = graph.get_state(thread, subgraphs=True)
+    while state.tasks and isinstance(state.tasks[0].state, StateSnapshot):
+        state = state.tasks[0].state
+    found = [one for task in state.tasks for one in task.interrupts]
+    return Waiting(found[0].id, Question.model_validate(found[0].value)) if found else None
 
 
 def next_day(state: StudyState, runtime: Runtime[Services]) -> dict[str, Any]:

@@ -46,7 +46,13 @@ def run(
         str | None,
         typer.Option(metavar="NAME", help="warm or fresh (anew on everything). [default: warm]"),
     ] = None,
-    human: Annotated[str | None, typer.Option(help="Who plays the person. [default: simulated]")] = None,
+    human: Annotated[
+        str | None, typer.Option(help="simulated, log:FILE (a real person's log) or me. [default: simulated]")
+    ] = None,
+    feedback: Annotated[str | None, typer.Option(help="yes_no or graded (1 to 5). [default: yes_no]")] = None,
+    lived: Annotated[
+        Path | None, typer.Option(metavar="RUN", help="A finished run of --method none, whose days are lived again.")
+    ] = None,
     person: Annotated[
         str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
     ] = None,
@@ -86,6 +92,8 @@ def run(
         "human": human,
         "person": person,
         "motions": motions,
+        "feedback": feedback,
+        "lived": lived,
         "robot": robot,
         "pictures": pictures,
         "budget": _given(budget_calls, budget_tokens),
@@ -98,10 +106,11 @@ def run(
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import run_study
+        from coopera.terminal import Terminal
 
-        return run_study(config, on_event=on_event)
+        return run_study(config, on_event=on_event, ask_person=Terminal())
 
-    _carry_out(work, config.out, _hours_of(config), as_json=as_json)
+    _carry_out(work, config.out, config, as_json=as_json)
 
 
 def resume(
@@ -116,10 +125,11 @@ def resume(
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import resume_study
+        from coopera.terminal import Terminal
 
-        return resume_study(run, on_event=on_event, budget=raised)
+        return resume_study(run, on_event=on_event, budget=raised, ask_person=Terminal())
 
-    _carry_out(work, run, _hours_of(found.config), as_json=as_json, done=found.hours_done())
+    _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
 def _given(calls: int | None, tokens: int | None) -> dict[str, int] | None:
@@ -155,17 +165,25 @@ def _hours_of(config: Any) -> int:
 def _carry_out(
     work: Callable[[Callable[[Event], None]], dict[str, Any]],
     folder: Path,
-    hours: int,
+    config: Any,
     *,
     as_json: bool,
     done: Collection[tuple[int, int]] = (),
 ) -> None:
     """Do the work with progress on standard error, then show what came of it."""
+    from rich.console import Console
+
     from coopera.progress import Progress, days_table
+    from core.errors import WaitingError
 
     try:
-        with Progress(hours, done=done) as progress:
+        # a live line and a person's typing would get in each other's way
+        console = Console(stderr=True, highlight=False, force_terminal=False) if config.human == "me" else None
+        with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
+    except WaitingError as err:
+        typer.echo(f"{err} Continue with: coopera resume {folder}", err=True)
+        raise typer.Exit(STOPPED) from None
     except KeyboardInterrupt:
         typer.echo(_how_to_go_on(folder), err=True)
         raise typer.Exit(STOPPED) from None

@@ -54,7 +54,8 @@ def motions(sense: CommonSense, variables: Mapping[str, Any]) -> FreeMotionReply
         held = _WITH.search(step)
         names = sorted(set(sense.mentioned(step, known)), key=lambda thing: (-len(thing), thing))
         thing = names[0] if names else held["thing"] if held else _likely(sense, step, activity.thing_names)
-        drafts.append(FreeMotionDraft(thought=clip(f"I {step}.", 300), act=free_motion(spot, thing, clip(step, 200))))
+        act = free_motion(spot, thing, clip(_movement(step, plain(spot.name), thing), 200))
+        drafts.append(FreeMotionDraft(thought=clip(f"I {step}.", 300), act=act))
     return FreeMotionReply(tasks=drafts)
 
 
@@ -69,6 +70,15 @@ def _mentioned(words: str, pieces: Sequence[Piece]) -> Piece | None:
     said = f" {key(words)} "
     found = [piece for piece in pieces if f" {key(plain(piece.name))} " in said]
     return min(found, key=lambda piece: (-len(plain(piece.name)), piece.name), default=None)
+
+
+def _movement(step: str, place: str, thing: str) -> str:
+    """Return a step without the place and the thing that its task names anyway."""
+    the = r"(?:the\s+|my\s+|a\s+|an\s+|some\s+)?"
+    at = rf"(?:at|on|in|by|near)\s+{the}{re.escape(place)}"
+    held = rf"with\s+{the}{re.escape(thing)}(?:\s+in\s+(?:my\s+)?hand)?"
+    tail = rf"\s+(?:{at}|{held})\b"
+    return re.sub(tail, "", step, flags=re.IGNORECASE).strip(" .,") or step
 
 
 def _likely(sense: CommonSense, step: str, things: Sequence[str]) -> str:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -29,6 +30,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
         folder: Path = tmp_path,
         frames: int = 0,
         person: str = "full",
+        **changed: Any,
     ) -> Services:
         home = home or FakeHome()
         recorder = FolderRecorder(folder)
@@ -54,6 +56,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
             seed=0,
             frames=frames,
             person=PERSON_MODELS[person],
+            **changed,
         )
 
     yield make
