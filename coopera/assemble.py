@@ -132,6 +132,7 @@ def open_services(
                 config.seed,
                 config.learning,
             ),
+            told_who=config.who == "known",
             own=OwnRobot(method.own, run, config.seed) if method.own else None,
             recorder=run,
             score=Measure(ask, embeddings),

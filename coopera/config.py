@@ -43,6 +43,7 @@ _EXPECTED = {
     "classifier": "kernel, lora or lora-instruct",
     "classifier_config": "the path of a recipe file",
     "learning": "warm or fresh",
+    "who": "known or unknown",
     "human": "simulated, me or log:FILE",
     "feedback": "yes_no or graded",
     "person": "full, no_extension or single_shot",
@@ -112,6 +113,8 @@ class Config(Frozen):
         classifier_config: Recipe of `lora-instruct`, by default the paper's (models/classifiers/lora_instruct.yaml).
         learning: Whether an evening goes on from the one before, with the day's examples and a fixed number of earlier
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
+        who: Whether the robot is told whom it is with; "unknown" tells it on the first day with somebody, and has it
+            guess from behaviour on later days.
         human: Who plays the person: the simulation, a real person's log (`coopera.real_people`), or a real person who
             is asked, on the terminal or wherever `run_study` is told to ask.
         feedback: What the person answers in the evening: yes or no (the paper's way), or a grade from 1 to 5.
@@ -146,6 +149,7 @@ class Config(Frozen):
     classifier: Literal["kernel", "lora", "lora-instruct"] = "kernel"
     classifier_config: Path | None = None
     learning: Literal["warm", "fresh"] = "warm"
+    who: Literal["known", "unknown"] = "known"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     feedback: Literal["yes_no", "graded"] = "yes_no"
     person: Text = "full"

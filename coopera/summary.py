@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -80,8 +81,22 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
             if record.status == "failed"
         ],
         "unscored": sum(entry["predicate"]["unscored"] for entry in entries),
+        "fallbacks": fallbacks(hours),
+        "identified": _identified(hours),
         "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
     }
+
+
+def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
+    """How often the robot fell back, by what it says up to the colon or the first name in quotes."""
+    said = [text for hour in hours if hour.robot for text in hour.robot.fallbacks]
+    return dict(sorted(Counter(text.split(":")[0].split(' "')[0] for text in said).items()))
+
+
+def _identified(hours: Iterable[HourRecord]) -> dict[str, int]:
+    """In how many hours the robot had to guess whom it was with, and in how many it was right."""
+    guessed = [(hour.robot.with_whom, hour.person) for hour in hours if hour.robot and hour.robot.with_whom]
+    return {"hours": len(guessed), "right": sum(one == other for one, other in guessed)}
 
 
 def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> dict[str, Any]:

@@ -135,6 +135,8 @@ class RobotHour(Frozen):
     outcomes: list[Outcome] = []
     fallbacks: list[str] = []
     """Which defined fallbacks were used, e.g. "no intention accepted"."""
+    with_whom: PersonId | None = None
+    """Whom the robot took the person for, where nobody said so."""
 
 
 class Proposal(Frozen):

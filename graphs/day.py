@@ -74,7 +74,10 @@ def build_day_graph(
         runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
         picture = state["pictures"].get(plan.person, Picture())
         services = _with_person(services)
-        done = hours.invoke({"plan": plan, "position": state["position"], "picture": picture}, context=services)
+        done = hours.invoke(
+            {"plan": plan, "position": state["position"], "picture": picture, "pictures": state["pictures"]},
+            context=services,
+        )
         return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
 
     graph = StateGraph(DayState, context_schema=Services, input_schema=DayInput)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Annotated, Any, Protocol, cast
+from typing import Annotated, Any, NotRequired, Protocol, cast
 
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
@@ -20,10 +20,11 @@ from core.clock import Clock
 from core.errors import ModelOutputError
 from core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
 from core.household import Outcome
-from core.people import Picture
+from core.people import PersonId, Picture
 from core.protocols import Home
 from core.randomness import Address
 from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
+from graphs.identity import identify, sight
 from graphs.lived import Shown
 from graphs.robot import OracleInput, RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
@@ -36,6 +37,7 @@ class HourInput(TypedDict):
     plan: DayPlan
     position: int
     picture: Picture
+    pictures: NotRequired[dict[PersonId, Picture]]
 
 
 class HourState(HourInput, total=False):
@@ -78,13 +80,18 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
 
     def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        ctx = robot_context(runtime.context, state["plan"])
+        plan, guessed = state["plan"], _with_whom(state, runtime.context)
+        ctx = robot_context(runtime.context, plan, guessed)
         ctx.guesses.forget_from(_clock(state).now)
-        given = RobotInput(clock=_clock(state), observation=state["observation"], picture=state["picture"])
+        picture = (
+            state["picture"] if ctx.person == plan.person else state.get("pictures", {}).get(ctx.person, Picture())
+        )
+        given = RobotInput(clock=_clock(state), observation=state["observation"], picture=picture)
         helper = robot if ctx.own is None else own
         if ctx.method.intentions == "told":
             helper, given = oracle, OracleInput(**given, told=state["human"].intention.text)
-        return {"robot": robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))}
+        helped = robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))
+        return {"robot": helped.model_copy(update={"with_whom": guessed})}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
     nodes: dict[str, Node] = {
@@ -211,20 +218,43 @@ def human_context(services: Services, plan: DayPlan) -> HumanContext:
     )
 
 
-def robot_context(services: Services, plan: DayPlan) -> RobotContext:
-    """The robot's services for a day: what it may know."""
+def robot_context(services: Services, plan: DayPlan, guessed: PersonId | None = None) -> RobotContext:
+    """The robot's services for a day: what it may know of the person, or of the one that it takes them for."""
+    person = guessed or plan.person
     return RobotContext(
         ask=services.ask,
-        person=plan.person,
+        person=person,
         collab=plan.collab,
         method=services.method,
         home=services.home(plan.scene),
-        history=services.memories("history", plan.episode, plan.person),
-        guesses=services.memories("guesses", plan.episode, plan.person),
+        history=services.memories("history", plan.episode, person),
+        guesses=services.memories("guesses", plan.episode, person),
         learner=services.learner,
         own=services.own.robot if services.own else None,
         images=services.recorder.root,
     )
+
+
+def _with_whom(state: HourState, services: Services) -> PersonId | None:
+    """Guess the person from what was seen today; None where the robot is told, as on the first day with somebody."""
+    plan, clock = state["plan"], _clock(state)
+    if services.told_who:
+        return None
+    dawn = plan.episode_day * 24
+    known = {}
+    for person in sorted(services.people):
+        memories = services.memories("history", plan.episode, person)
+        if memories.intentions.recall("the day", max(dawn - 1, 0), 1):
+            known[person] = memories
+    if plan.person not in known:
+        return None
+    before = [
+        sight(Clock(day=plan.episode_day, hour=hour.hour), hour.robot.observation)
+        for hour in services.recorder.read_day(plan.day)
+        if hour.robot is not None and hour.hour < clock.hour
+    ]
+    likely = identify([*before, sight(clock, state["observation"])], known)
+    return max(likely, key=lambda person: likely[person])
 
 
 def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: RobotHour) -> None:
@@ -234,7 +264,9 @@ def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: Robo
     guess = max(accepted, key=lambda c: c.probability or 0.0)
     tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
     seen = [robot.observation.first_task] if robot.observation.first_task else []
-    services.memories("guesses", plan.episode, plan.person).add(guess.text, [*seen, *tasks], clock.now)
+    services.memories("guesses", plan.episode, robot.with_whom or plan.person).add(
+        guess.text, [*seen, *tasks], clock.now
+    )
 
 
 def _effect(home: Home, outcome: Outcome) -> tuple[str, ...]:

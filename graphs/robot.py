@@ -280,7 +280,8 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
 def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Keep the likely tasks of the superset. Reads `imagined`; writes `tasks`.
 
-    A task imagined for several intentions counts once, for the most likely of them.
+    A task imagined for several intentions counts once, for the most likely of them. Where there is none at all the
+    robot does nothing this hour, and that is said.
     """
     ctx = runtime.context
     superset: dict[str, TaskCandidate] = {}
@@ -289,11 +290,12 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
             superset.setdefault(task.act.describe(), task)
     asked = [example(state, ctx.person, intention=t.intention, task=t.act.describe()) for t in superset.values()]
     probabilities = _verdicts(ctx, "task", asked)
+    fallbacks = [] if superset else ["no valid task was imagined: the robot only watches"]
     tasks = [
         task.model_copy(update={"probability": p, "accepted": p >= 0.5})
         for task, p in zip(superset.values(), probabilities, strict=True)
     ]
-    return {"tasks": tasks}
+    return {"tasks": tasks, "fallbacks": fallbacks}
 
 
 def act(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:

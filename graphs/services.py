@@ -142,6 +142,8 @@ class Services:
     """Whether the evening's feedback is grades from 1 to 5 instead of yes or no."""
     interview: Interview | None = None
     """How the node that runs now asks the person; set by the day graph."""
+    told_who: bool = True
+    """Whether the robot is told whom it is with, or guesses it (`graphs.identity`)."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
 

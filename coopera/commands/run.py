@@ -46,6 +46,9 @@ def run(
         str | None,
         typer.Option(metavar="NAME", help="warm or fresh (anew on everything). [default: warm]"),
     ] = None,
+    who: Annotated[
+        str | None, typer.Option(help="known, or unknown: the robot guesses whom it is with. [default: known]")
+    ] = None,
     human: Annotated[
         str | None, typer.Option(help="simulated, log:FILE (a real person's log) or me. [default: simulated]")
     ] = None,
@@ -89,6 +92,7 @@ def run(
         "classifier": classifier,
         "classifier_config": classifier_config,
         "learning": learning,
+        "who": who,
         "human": human,
         "person": person,
         "motions": motions,

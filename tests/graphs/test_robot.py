@@ -98,6 +98,18 @@ def test_an_unreadable_task_reply_costs_that_intention_alone_and_is_said(make_se
     assert sentence.startswith('no tasks for "Read quietly"')
 
 
+def test_where_no_task_can_be_imagined_it_only_watches_and_that_is_said(make_services: MakeServices) -> None:
+    answers = type2_answers()
+
+    def garbled(_: dict[str, Any]) -> dict[str, Any]:
+        raise ModelOutputError("robot/tasks_type2", "???", "not JSON")
+
+    answers["robot/tasks_type2"] = garbled
+    hour = watch(robot(make_services, ask=ScriptedAsk(answers)))
+    assert hour.tasks == hour.outcomes == []
+    assert "no valid task was imagined: the robot only watches" in hour.fallbacks
+
+
 def test_an_unreadable_superset_of_intentions_ends_the_hour(make_services: MakeServices) -> None:
     answers = type2_answers()
 

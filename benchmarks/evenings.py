@@ -1,0 +1,133 @@
+"""What an evening and a verdict cost: seconds of learning by day, and verdicts beside the authors' sampling.
+
+    python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
+
+Evenings are those of one person of the toy household: what the robot imagined in the day, and what is kept of earlier
+days (`graphs.replay`), so that day 50 is known without living 50 days. Seconds are of the processor, of one thread.
+`lora-instruct` runs on a random model of Mistral's architecture (--hidden, --layers): its seconds are those of that
+size; its ratio to sampling is between two ways of asking the same model, with random weights that seldom end a text
+early, which is the sampling's worst case.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import tempfile
+import time
+from pathlib import Path
+
+import torch
+from langchain_core.embeddings import Embeddings
+
+from benchmarks.tiny_mistral import make_model, make_recipe
+from benchmarks.toy_household import Robot, draw_person, live_day
+from core.hour import Example
+from graphs.replay import keep
+from memory.embeddings import bundled
+from models.classifiers import CLASSIFIERS, Kind, make_classifier
+from models.classifiers.causal import open_base
+from models.classifiers.instruction import instruction, read_recipe
+
+PERSON = 1000
+SAMPLES, TOKENS = 3, 100  # the authors' code: so many texts of so many tokens for each verdict
+
+
+def imagined(days: int, embeddings: Embeddings) -> dict[Kind, list[list[Example]]]:
+    """What a robot imagines and is told on each of some days."""
+    person = draw_person(0, PERSON)
+    robot = Robot(person, 0, embeddings)
+    found: dict[Kind, list[list[Example]]] = {"intention": [], "task": []}
+    for day in range(days):
+        lived = live_day(person, 0, day)
+        intentions, tasks = [], []
+        for hour in lived:
+            for activity, guess in robot.imagine_intentions(hour):
+                right = activity == hour.activity
+                intentions.append(guess.model_copy(update={"label": right}))
+                if right or guess.rank == 0:
+                    for task in robot.imagine_tasks(hour, activity, guess):
+                        helps = right and task.candidate.removeprefix("bring the ") in hour.things
+                        tasks.append(task.model_copy(update={"label": helps}))
+        found["intention"].append(intentions)
+        found["task"].append(tasks)
+        robot.learn_person(lived)
+    return found
+
+
+def evening(name: str, day: int, lived: dict[Kind, list[list[Example]]], embeddings: Embeddings, recipe: Path) -> float:
+    """Processor seconds of learning in the evening of a day (from 1), going on from the evening before."""
+    seconds = 0.0
+    for kind, days in lived.items():
+        judge = make_classifier(name, kind=kind, embeddings=embeddings, recipe=recipe)
+        kept = keep(example for before in days[: day - 1] for example in before)
+        if kept:
+            judge.train(kept, seed=0)  # an evening before, so that this one goes on
+        start = time.process_time()
+        judge.train([*kept, *days[day - 1]], seed=day)
+        seconds += time.process_time() - start
+    return seconds
+
+
+def verdicts(lived: dict[Kind, list[list[Example]]], recipe: Path, timed: int) -> str:
+    """25 verdicts by one forward pass, and by sampling as the authors' code does, at the same model."""
+    base = open_base(read_recipe(recipe).model_dump_json())
+    texts = [instruction(example) for example in lived["intention"][0][:25]]
+    torch.set_num_threads(1)
+    base.model.eval()
+    with torch.no_grad():
+        start = time.process_time()
+        base.scores(texts)
+        ours = time.process_time() - start
+        start = time.process_time()
+        read = 0
+        for text in texts[:timed]:
+            given = base.tokenizer(text, return_tensors="pt")
+            read += int(given["input_ids"].shape[1])
+            base.model.generate(
+                input_ids=given["input_ids"],
+                attention_mask=given["attention_mask"],
+                do_sample=True,
+                num_return_sequences=SAMPLES,
+                max_new_tokens=TOKENS,
+                min_new_tokens=TOKENS,
+                pad_token_id=0,
+            )
+        theirs = (time.process_time() - start) / timed * len(texts)
+    written = SAMPLES * TOKENS * len(texts)
+    return (
+        f"25 verdicts: {ours:.2f} s by one forward pass ({len(texts)} x {read / timed:.0f} tokens read, none written), "
+        f"{theirs:.1f} s by sampling ({written} tokens written; {timed} timed): {theirs / ours:.0f} times"
+    )
+
+
+def main() -> None:
+    """Print the evenings as a table, then the cost of verdicts."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--classifiers", nargs="+", choices=list(CLASSIFIERS), default=list(CLASSIFIERS))
+    parser.add_argument("--days", nargs="+", type=int, default=[1, 5, 20, 50])
+    parser.add_argument("--hidden", type=int, default=64, help="width of the random causal model")
+    parser.add_argument("--layers", type=int, default=2, help="layers of the random causal model")
+    parser.add_argument("--timed", type=int, default=5, help="verdicts timed by sampling, of 25")
+    chosen = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        embeddings = bundled(Path(folder) / "embeddings.sqlite")
+        lived = imagined(max(chosen.days), embeddings)
+        base = make_model(Path(folder) / "base", hidden=chosen.hidden, layers=chosen.layers)
+        recipe = make_recipe(Path(folder) / "recipe.yaml", base, learning_rate=1e-3, batch=8, accumulation=1)
+        print("| classifier | " + " | ".join(f"day {day}" for day in chosen.days) + " | last / second | peak MB |")
+        print("|---|" + "---|" * (len(chosen.days) + 2))
+        for name in chosen.classifiers:
+            make_classifier(name, kind="task", embeddings=embeddings, recipe=recipe).train(lived["task"][0], seed=0)
+            seconds = [evening(name, day, lived, embeddings, recipe) for day in chosen.days]
+            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+            cells = " | ".join(f"{one:.2f} s" for one in seconds)
+            print(
+                f"| {name} | {cells} | {seconds[-1] / seconds[min(1, len(seconds) - 1)]:.2f} | {peak:.0f} |", flush=True
+            )
+        print(verdicts(lived, recipe, chosen.timed))
+        embeddings.close()
+
+
+if __name__ == "__main__":
+    main()

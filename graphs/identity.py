@@ -1,0 +1,54 @@
+"""Whom is the robot with, where nobody says? It guesses from behaviour, among the people it has been introduced to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from core.clock import Clock
+from core.hour import Observation
+from core.people import PersonId
+from graphs.services import Memories
+
+NEAREST = 10
+"""Memories of each person that a sight is compared with."""
+HOURS = 2.0
+SHARPNESS = 8.0
+_NEVER = 1e-6  # keeps one odd hour from ruling a person out
+
+
+class Sight(NamedTuple):
+    """When something was seen today, and what."""
+
+    clock: Clock
+    text: str
+
+
+def sight(clock: Clock, seen: Observation) -> Sight:
+    """What of an observation can be compared with what people told: the first task, or the percept's sentence."""
+    return Sight(clock, seen.first_task or (seen.percept.caption() if seen.percept else ""))
+
+
+def identify(sights: Sequence[Sight], known: Mapping[PersonId, Memories]) -> dict[PersonId, float]:
+    """Return P(person) for each person known, from all that was seen today; the same person all day, equal priors.
+
+    The likelihood of a sight under a person's records is a kernel density over the tasks that this person told of:
+    how like the sight they are (cosine), and how near to this hour of the day they were done.
+    """
+    logs = {person: sum(_log_likelihood(one, memories) for one in sights) for person, memories in known.items()}
+    highest = max(logs.values(), default=0.0)
+    weights = {person: math.exp(log - highest) for person, log in logs.items()}
+    total = sum(weights.values())
+    return {person: weight / total for person, weight in weights.items()}
+
+
+def _log_likelihood(seen: Sight, memories: Memories) -> float:
+    if not seen.text:
+        return 0.0
+    nearest = memories.tasks.recall(seen.text, seen.clock.now, NEAREST)
+    density = sum(
+        math.exp(SHARPNESS * (one.relevance - 1) - ((one.hour % 24 - seen.clock.hour) / HOURS) ** 2 / 2)
+        for one in nearest
+    )
+    return math.log(density / NEAREST + _NEVER)
