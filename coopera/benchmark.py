@@ -37,7 +37,12 @@ class RunJob:
     folder: Path
     config: Config
     labels: dict[str, Any]
-    """method, setting, collab, seed and episode of its rows; `activities` is worked out by the worker."""
+    """method, setting, collab, seed and episode of its rows."""
+
+    @property
+    def life(self) -> str:
+        """The life that it is, or that its method meets."""
+        return self.name.partition("/")[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,10 +152,16 @@ def do_run(job: RunJob) -> None:
 
 
 def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
-    """The rows of all runs that are done, their card, and the robot's seconds per hour by method."""
+    """The rows of what is done, their card, and the robot's seconds per hour by method.
+
+    Lives that only some methods have met so far are left out, so that all methods are seen on the same days; where no
+    life is whole yet, all rows there are.
+    """
     rows: list[Row] = []
     seconds: dict[str, list[float]] = {}
-    for job in bench.jobs:
+    begun = {job.life for job in bench.left}
+    whole = [job for job in bench.jobs if job.life not in begun] or bench.jobs
+    for job in whole:
         if job.after is not None and _is_done(job):
             data = read_json(job.folder / ROWS)
             rows += [Row.model_validate(row) for row in data["rows"]]

@@ -70,7 +70,8 @@ def _coverage(card: Card, rows: list[Row], left: int, total: int) -> str:
     ]
     if left:
         parts.append(
-            f"Not complete: {left} of {total} runs are still to be done, so methods may differ in what they met."
+            f"Not complete: {left} of {total} runs are still to be done; lives that not all methods have met are "
+            "left out where there are whole ones."
         )
     if card.offline:
         parts.append("The offline routine model played a role: these figures say nothing about language models.")
