@@ -1,0 +1,67 @@
+"""What it costs to hold a model of this process to a reply's schema: the same tiny model, free and held, in turns.
+
+    python -m benchmarks.constrained [--rounds 5]
+
+The model is a random Llama of some thousand weights, whose network costs next to nothing, so the share is far above
+what a real model pays. The vocabulary is small too (about 1,700 tokens); a mask's time grows with it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+import torch
+from transformers import LlamaConfig, LlamaForCausalLM
+
+from core.asks import ASKS
+from core.replies import REPLIES
+from models.constrained import Grammars
+from models.huggingface import open_model
+from models.schemas import enforced_schema
+from prompts.examples import examples
+from tests.tiny import LLAMA, word_tokenizer
+
+PROMPTS = ("human/intention", "human/tasks_type1", "robot/tasks_type2", "judge/tasks")
+
+
+def main() -> None:
+    """Print milliseconds per token, free and held, and the time to compile a schema."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=5)
+    rounds: int = parser.parse_args().rounds
+    torch.set_num_threads(1)
+    words = word_tokenizer()
+    started = time.perf_counter()
+    grammars = Grammars(words, len(words), [1])
+    print(f"reading a tokenizer of {len(words):,} tokens, once: {time.perf_counter() - started:.2f} s")
+    with tempfile.TemporaryDirectory() as folder:
+        words.save_pretrained(folder)
+        LlamaForCausalLM(LlamaConfig(vocab_size=len(words), **LLAMA)).save_pretrained(folder)
+        model = open_model(str(Path(folder)))
+        for name in PROMPTS:
+            schema = enforced_schema(REPLIES[ASKS[name].reply], examples(name)[0])
+            started = time.perf_counter()
+            grammars.matcher(schema)
+            compiled = time.perf_counter() - started
+            free, held = [], []
+            for seed in range(rounds):
+                free.append(_per_token(model, seed, None))
+                held.append(_per_token(model, seed, schema))
+            ms = [1000 * statistics.median(times) for times in (free, held)]
+            said = f"free {ms[0]:.2f}, held {ms[1]:.2f} ms a token ({ms[1] / ms[0]:.2f} times)"
+            print(f"{name}: {said}; compiling its schema {1000 * compiled:.1f} ms")
+
+
+def _per_token(model: Any, seed: int, schema: dict[str, Any] | None) -> float:
+    started = time.process_time()
+    reply = model.invoke("Hello.", temperature=1.0, seed=seed, max_tokens=96, schema=schema)
+    return (time.process_time() - started) / reply.usage_metadata["output_tokens"]
+
+
+if __name__ == "__main__":
+    main()
