@@ -137,7 +137,8 @@ def open_services(
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
-            frames=config.frames if config.pictures == "sampled" else 0,
+            frames=config.frames if config.pictures != "none" else 0,
+            video=config.pictures == "video",
             person=PERSON_MODELS[config.person],
             lived=open_lived(config),
             told=told or nothing_was_told,
@@ -151,7 +152,14 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
     layout = load_scene(scene, [config.data_dir / "scenes"])
     motions = load_motions(config.motions)
     match = _nearest_motion(embeddings, motions)
-    return World(layout, robot=config.robot, frame_size=config.frame_size, motions=motions, match=match)
+    return World(
+        layout,
+        robot=config.robot,
+        frame_size=config.frame_size,
+        renderer=config.renderer,
+        motions=motions,
+        match=match,
+    )
 
 
 class _Interruptible:

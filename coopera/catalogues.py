@@ -16,6 +16,7 @@ from graphs.person import PERSON_MODELS
 from models.classifiers.instruction import read_recipe
 from simulation.motion_folder import load_motions
 from simulation.robot import ROBOTS
+from simulation.video import need_video
 
 
 class Catalogues(NamedTuple):
@@ -146,7 +147,7 @@ def next_folder(runs: Path) -> Path:
 def _refuse_what_comes_later(config: Config) -> None:
     """Refuse choices that are named in the design but not built yet."""
     if config.pictures == "video":
-        raise ConfigError("pictures: video comes later; choose sampled or none.")
+        need_video()
     if config.classifier_config is not None:
         if config.classifier != "lora-instruct":
             raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import yaml
-from pydantic import Field, ValidationError, field_validator
+from pydantic import Field, ValidationError, field_validator, model_validator
 
 from coopera.files import read_yaml
 from core.clock import FIRST_HOUR, HOURS_PER_DAY
@@ -24,6 +24,7 @@ Text = Annotated[str, Field(min_length=1)]
 Ids = Annotated[list[Text], Field(min_length=1)]
 Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
 
+SMALL, LARGE = (320, 240), (1024, 768)
 _EXPECTED = {
     "setting": "1, 2, 3 or 4",
     "collab": "1 or 2",
@@ -54,6 +55,7 @@ _EXPECTED = {
     "schedule": "a list of days, each [person, scene]",
     "backbone": "a model such as offline:words",
     "lived": "the path of a finished run without a robot",
+    "renderer": "tiny or egl",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
     "budget": "a mapping with calls, tokens or both",
     "budget.calls": "a whole number from 1 up",
@@ -123,7 +125,8 @@ class Config(Frozen):
         robot: The robot's body, one of `simulation.robot.ROBOTS`.
         pictures: Whether the first task of each hour is recorded as pictures.
         frames: Pictures per view and hour.
-        frame_size: Width and height of a picture in pixels.
+        frame_size: Width and height of a picture in pixels; 1024x768 where the robot's model is not the offline one.
+        renderer: What draws the pictures.
         calls: How models are called (`models.settings.CallSettings`).
         schedule: The days of one episode, each a person and a home, in place of the setting's own order.
         backbone: The robot's language model in methods that are there to try another one.
@@ -157,7 +160,8 @@ class Config(Frozen):
     robot: Text = "fetch"
     pictures: Literal["sampled", "none", "video"] = "sampled"
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
-    frame_size: tuple[Pixels, Pixels] = (320, 240)
+    frame_size: tuple[Pixels, Pixels] = SMALL
+    renderer: Literal["tiny", "egl"] = "tiny"
     calls: CallSettings = CallSettings()
     schedule: Annotated[list[tuple[Text, Text]], Field(min_length=1, max_length=366)] | None = None
     backbone: Text = "offline:words"
@@ -165,6 +169,16 @@ class Config(Frozen):
     budget: Budget = Budget()
     cache: Path | None = None
     data_dir: Path = Field(default_factory=default_data_dir)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pictures_fit_the_eye(cls, data: Any) -> Any:
+        """A robot whose model looks at pictures gets large ones (PAPER App. A: 1024x768), if nothing else is asked."""
+        if isinstance(data, dict) and data.get("frame_size") is None:
+            models = data.get("models")
+            robot = models.get("robot") if isinstance(models, dict) else getattr(models, "robot", None)
+            return {**data, "frame_size": SMALL if robot in (None, "offline") else LARGE}
+        return data
 
     @field_validator("setting", "collab", mode="before")
     @classmethod

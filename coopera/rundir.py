@@ -186,6 +186,11 @@ class RunDir:
         folder.mkdir(parents=True)
         return folder
 
+    def video_file(self, day: int, hour: int) -> Path:
+        """The file video/day-DD/hour-HH.mp4."""
+        self._stop.check()
+        return self.root / "video" / f"day-{day:02d}" / f"hour-{hour:02d}.mp4"
+
     def write_hour(self, record: HourRecord) -> None:
         """Write trace/day-DD/hour-HH.json."""
         self._stop.check()

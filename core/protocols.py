@@ -112,6 +112,10 @@ class Home(Protocol):
         """
         ...
 
+    def film(self, path: Path) -> Path:
+        """Write the recording as a video file."""
+        ...
+
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB."""
         ...
@@ -159,6 +163,10 @@ class Recorder(Protocol):
 
     def frames_folder(self, day: int, hour: int) -> Path:
         """An empty folder for an hour's frames."""
+        ...
+
+    def video_file(self, day: int, hour: int) -> Path:
+        """Where an hour's video goes."""
         ...
 
     def write_hour(self, record: HourRecord) -> None:

@@ -128,6 +128,8 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     if services.frames:
         folder = services.recorder.frames_folder(plan.day, clock.hour)
         frames = [services.relative(path) for path in home.frames(services.frames, folder)]
+    if services.video:
+        home.film(services.recorder.video_file(plan.day, clock.hour))
     blind = not services.ask.sees("robot")
     percept = home.percept(services.rng(Address(plan.person, clock.day, clock.hour, "percept"))) if blind else None
     text = first.act.describe() if plan.collab == 1 else None

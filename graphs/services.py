@@ -130,6 +130,8 @@ class Services:
     seed: int
     frames: int
     """Sampled moments per hour and viewpoint; 0 renders nothing."""
+    video: bool = False
+    """Whether the first task of each hour is filmed, too."""
     person: PersonModel = FULL
     """How people are simulated."""
     lived: Lived | None = None

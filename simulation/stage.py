@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.household import Agent
-from simulation.engine import load_urdf, pybullet  # isort: split
+from simulation.engine import Renderer, load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from simulation.build import build  # after the engine: whoever imports pybullet first makes it print
 from simulation.humanoid import JOINTS, SLICES, Frames, forward
@@ -48,10 +49,11 @@ class Camera(NamedTuple):
 class Stage:
     """All bodies of a home in one pybullet client; `close` it after use."""
 
-    def __init__(self, scene: Scene, body: RobotBody) -> None:
+    def __init__(self, scene: Scene, body: RobotBody, renderer: Renderer = "tiny") -> None:
         """Build the home, the person and the robot: about 0.1 s."""
         self.scene, self.body = scene, body
         self.client: int = pybullet.connect(pybullet.DIRECT)
+        self.renderer = start_renderer(renderer, self.client)
         self.home = build(scene, self.client)
         self.person = load_urdf(BODIES / "person.urdf", self.client)
         self.robot = load_urdf(body.urdf, self.client)
@@ -66,7 +68,8 @@ class Stage:
     def close(self) -> None:
         """Give the client back; a second time does nothing."""
         if self.client >= 0:
-            pybullet.disconnect(self.client)
+            with quiet():
+                pybullet.disconnect(self.client)
             self.client = -1
 
     def _joints(self, body: int, names: Sequence[str]) -> list[int]:
@@ -169,7 +172,7 @@ class Stage:
         return np.array(hits, dtype=np.int64)
 
     def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
-        """Render with the software renderer, without shadows.
+        """Render without shadows.
 
         Returns:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
@@ -177,16 +180,17 @@ class Stage:
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
         lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, _NEAR, _FAR)
-        _, _, colours, _, mask = pybullet.getCameraImage(
-            width,
-            height,
-            view,
-            lens,
-            shadow=0,
-            lightDirection=(2.0, -3.0, 6.0),
-            renderer=pybullet.ER_TINY_RENDERER,
-            physicsClientId=self.client,
-        )
+        with nullcontext() if self.renderer == pybullet.ER_TINY_RENDERER else quiet():
+            _, _, colours, _, mask = pybullet.getCameraImage(
+                width,
+                height,
+                view,
+                lens,
+                shadow=0,
+                lightDirection=(2.0, -3.0, 6.0),
+                renderer=self.renderer,
+                physicsClientId=self.client,
+            )
         image: Image = np.asarray(colours, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
         return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
 

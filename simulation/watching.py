@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from simulation.cameras import Focus, robot_camera, view_camera, watching_place
+from simulation.engine import Renderer
 from simulation.plans import Ground, Placed, Plan, Turn, UnableError, discs
 from simulation.recording import Moment, Recording, robot_still
 from simulation.scene import Point
@@ -17,10 +19,10 @@ from simulation.walking import walk
 class Watcher:
     """Owns the stage of a home; made at the first recording."""
 
-    def __init__(self, ground: Ground) -> None:
+    def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
         """Start pybullet and build the home in it."""
         self.ground = ground
-        self.stage = Stage(ground.scene, ground.robot)
+        self.stage = Stage(ground.scene, ground.robot, renderer)
 
     def close(self) -> None:
         """Give pybullet back."""
@@ -74,6 +76,19 @@ class Watcher:
             pictures["robot"].append(self.stage.picture(robot_camera(self.stage.body, moment.robot), size)[0])
             pictures["human"].append(self.stage.picture(views[index], size)[0])
         return pictures
+
+    def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
+        """Yield each n-th tick with both views side by side, the robot's on the left."""
+        views: dict[int, Camera] = {}
+        for tick in range(0, recording.ticks, every):
+            index, within = recording.find(tick)
+            shot = recording.shots[index]
+            if index not in views:
+                views[index] = self._view(recording, shot.at(shot.deed))
+            moment = shot.at(within)
+            self.stage.show(recording.state, moment)
+            eyes = (robot_camera(self.stage.body, moment.robot), views[index])
+            yield np.concatenate([self.stage.picture(camera, size)[0] for camera in eyes], axis=1)
 
     def _view(self, recording: Recording, moment: Moment) -> Camera:
         self.stage.show(recording.state, moment)

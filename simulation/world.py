@@ -17,16 +17,18 @@ from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, Pi
 from simulation import predicates, primitives
 from simulation.activity import free_motion, stay
 from simulation.elbowroom import Elbowroom
+from simulation.engine import Renderer
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
 from simulation.percept import Errors, perceive
 from simulation.plans import Ground, Plan, UnableError
 from simulation.primitives import Result
-from simulation.recording import Filming, Recording
+from simulation.recording import TICKS, Filming, Recording
 from simulation.robot import load_robot
 from simulation.scene import Scene
 from simulation.skills import hand_over, pick_place
 from simulation.state import HomeState, PersonState, RobotState, room_of_thing
+from simulation.video import FPS, write_video
 from simulation.watching import Watcher
 
 _WEBP_QUALITY = 82
@@ -45,6 +47,7 @@ class World:
         *,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
+        renderer: Renderer = "tiny",
         motions: Library | None = None,
         match: Callable[[str], str] | None = None,
         errors: Errors | None = None,
@@ -55,6 +58,7 @@ class World:
             scene: The home.
             robot: Name of the robot's body, one of `simulation.robot.ROBOTS`.
             frame_size: Width and height of the pictures in pixels.
+            renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
             match: Finds the caption of `motions` that a free-form text means; without it words are compared.
             errors: How often the percept errs.
@@ -65,6 +69,7 @@ class World:
         """
         self.scene = scene.id
         self.frame_size = frame_size
+        self.renderer = renderer
         self.errors = errors or Errors()
         self.layout = scene
         self._library: Library = motions or load_library()
@@ -214,7 +219,7 @@ class World:
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
-            self._watcher = Watcher(self._ground)
+            self._watcher = Watcher(self._ground, self.renderer)
         return self._watcher
 
     def percept(self, rng: np.random.Generator) -> Percept:
@@ -256,6 +261,16 @@ class World:
         except OSError as err:
             raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
         return paths
+
+    def film(self, path: Path) -> Path:
+        """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.
+
+        Raises:
+            SimulationError: If nothing has been recorded, or the file cannot be written.
+            ConfigError: If the extra `video` is not installed.
+        """
+        recording, every = self._recorded(), TICKS // FPS
+        return write_video(Path(path), self._watching().video(recording, self.frame_size, every))
 
     def _recorded(self) -> Recording:
         if self._recording is None or not self._recording.shots:

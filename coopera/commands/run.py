@@ -62,8 +62,9 @@ def run(
     motions: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Motion-X (.npy) or AMASS (.npz) clips the person can do, too.")
     ] = None,
+    renderer: Annotated[str | None, typer.Option(help="tiny or egl, which draws large pictures faster.")] = None,
     robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
-    pictures: Annotated[str | None, typer.Option(help="sampled or none. [default: sampled]")] = None,
+    pictures: Annotated[str | None, typer.Option(help="sampled, none or video. [default: sampled]")] = None,
     budget_calls: CallBudget = None,
     budget_tokens: TokenBudget = None,
     estimate: Annotated[
@@ -98,6 +99,7 @@ def run(
         "motions": motions,
         "feedback": feedback,
         "lived": lived,
+        "renderer": renderer,
         "robot": robot,
         "pictures": pictures,
         "budget": _given(budget_calls, budget_tokens),

@@ -2,17 +2,23 @@ from __future__ import annotations
 
 import hashlib
 import math
+import subprocess
+import sys
+from ctypes.util import find_library
+from pathlib import Path
 
+import av
 import numpy as np
 import pytest
 from PIL import Image
 
-from core.errors import SimulationError
+from core.errors import ConfigError, SimulationError
 from core.household import FreeMotion
 from simulation.cameras import robot_camera
 from simulation.catalogue import catalogue
 from simulation.scene import load_scene
 from simulation.things import LOOKS_LIKE, shape_of
+from simulation.video import need_video
 from simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
@@ -151,3 +157,57 @@ def test_a_thing_from_the_magic_box_looks_like_the_class_that_its_text_names(tex
 def test_every_look_alike_is_a_known_class() -> None:
     assert set(LOOKS_LIKE.values()) <= set(catalogue().movable)
     assert not set(LOOKS_LIKE) & set(catalogue().movable)
+
+
+def test_a_recording_becomes_a_video_of_both_views_that_is_the_same_each_time(home, tmp_path) -> None:
+    home.perform("human", put("book_1", "dining_table_1"), record=True)
+    first, second = home.film(tmp_path / "day-00" / "hour-09.mp4"), home.film(tmp_path / "again.mp4")
+    assert first.read_bytes() == second.read_bytes()
+    with av.open(str(first)) as container:
+        stream = container.streams.video[0]
+        frames = [frame.to_ndarray(format="rgb24") for frame in container.decode(stream)]
+    assert stream.codec_context.name == "h264"
+    assert len(frames) == math.ceil(home._recording.ticks / 3)
+    assert frames[0].shape == (72, 2 * 96, 3)
+    assert np.abs(frames[0].astype(int) - frames[-1]).mean() > 1  # something moves
+
+
+def test_video_without_its_encoder_says_what_to_install(monkeypatch) -> None:
+    monkeypatch.setattr("simulation.video.find_spec", lambda name: None)
+    with pytest.raises(ConfigError, match=r"pip install .* '.\[video\]'"):
+        need_video()
+
+
+def test_a_renderer_that_is_not_to_be_had_is_refused_in_a_sentence(monkeypatch) -> None:
+    monkeypatch.setattr("simulation.engine.find_library", lambda name: None)
+    with (
+        World(flat(), renderer="egl") as world,
+        pytest.raises(ConfigError, match=r"egl is not to be had on this machine .* choose tiny"),
+    ):
+        world.perform("human", put("book_1", "dining_table_1"), record=True)
+
+
+_EGL = """
+import sys
+sys.path.insert(0, {root!r})
+from pathlib import Path
+from core.errors import ConfigError
+from simulation.world import World
+from tests.simulation.flat import flat, put
+with World(flat(), frame_size=(96, 72), renderer="egl") as world:
+    try:
+        world.perform("human", put("book_1", "dining_table_1"), record=True)
+        print(len(world.frames(2, Path({folder!r}))))
+    except ConfigError:
+        print("none here")
+"""
+
+
+def test_egl_draws_where_it_is_to_be_had(tmp_path) -> None:
+    program = _EGL.format(root=str(Path(__file__).parents[2]), folder=str(tmp_path))
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    if find_library("EGL") is None:
+        assert done.stdout == "none here\n"
+        return
+    assert done.stdout == "4\n"  # the plugin itself writes nothing that one sees
+    assert all(np.asarray(Image.open(path)).std() > 10 for path in tmp_path.glob("*.webp"))
