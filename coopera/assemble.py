@@ -137,7 +137,7 @@ def open_services(
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
-            frames=config.frames if config.pictures != "none" else 0,
+            frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person],
             lived=open_lived(config),
