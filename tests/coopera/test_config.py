@@ -135,7 +135,6 @@ def test_a_mistake_in_a_flag_names_the_flag(tmp_path: Path, flags: dict[str, Any
         ({"setting": 3, "humans": ["amara", "bruno"]}, "humans: setting 3 takes 3 or a multiple of it, not 2"),
         ({"robot": "tank"}, "robot: there is no robot 'tank' (known are fetch, husky_panda)."),
         ({"motions": Path("/nowhere")}, "motions: /nowhere must be a folder with .npy or .npz clips"),
-        ({"human": "me"}, "human: me comes later"),
         ({"prompts": Path("/nowhere")}, "prompts: /nowhere must be a folder of prompt files"),
     ],
 )
