@@ -40,7 +40,7 @@ def draw(homes: Sequence[Scene], path: Path) -> None:
     for place, home in enumerate(homes):
         right.text(place - 0.2, len(home.fixed) + 1, str(len(home.fixed)), ha="center", fontsize=8)
         right.text(place + 0.2, len(home.movable) + 1, str(len(home.movable)), ha="center", fontsize=8)
-    right.set_xticks(list(places), ids)
+    right.set_xticks(list(places), ids, fontsize=8)
     right.set_title("Objects and rooms by home")
     for axes in (left, right):
         axes.spines[["top", "right"]].set_visible(False)

@@ -239,15 +239,16 @@ def feather_duster(kit: Kit) -> None:
 
 
 def fish_bowl(kit: Kit) -> None:
-    """Draw a round bowl of water with a goldfish that looks over the rim."""
+    """Draw a round bowl of water with a goldfish in it."""
     r, h = min(kit.w, kit.d) / 2, kit.h
     kit.tube((0, 0, 0), r * 0.6, h * 0.06, STEEL)
     for low, part in ((0.06, 0.86), (0.24, 1.0), (0.42, 1.0), (0.6, 0.9)):
         kit.tube((0, 0, h * low), r * part, h * 0.18, (0.5, 0.78, 0.92))
     kit.tube((0, 0, h * 0.78), r * 0.82, h * 0.04, (0.86, 0.94, 0.98))
-    kit.ball((-r * 0.1, 0, h * 0.86), r * 0.3)
-    kit.box((r * 0.35, 0, h * 0.76), (r * 0.35, r * 0.08, h * 0.22), shade(kit.colour, 1.3))
-    kit.ball((-r * 0.32, -r * 0.16, h * 0.9), r * 0.07, BLACK)
+    for side in (-1, 1):  # seen through the glass from the front and from the back
+        kit.ball((0, side * r * 0.82, h * 0.46), r * 0.3)
+        kit.box((r * 0.34, side * r * 0.84, h * 0.36), (r * 0.22, r * 0.2, h * 0.2), shade(kit.colour, 0.75))
+        kit.ball((-r * 0.2, side * r * 1.04, h * 0.5), r * 0.07, BLACK)
     kit.rod((-r * 0.5, r * 0.4, h * 0.8), r * 0.07, h * 0.3, GREEN)
 
 

@@ -38,16 +38,21 @@ def list_homes(as_json: AsJson = False) -> None:
 
 
 @app.command()
-def show(scene: Home, png: Png = None, as_json: AsJson = False) -> None:
-    """Show one home: its rooms and what stands in each; with --png also from above."""
+def show(
+    scene: Home,
+    png: Png = None,
+    room: Annotated[str | None, typer.Option(metavar="NAME", help="Draw this room from inside.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show one home: its rooms and what stands in each; with --png also from above, or a --room from inside."""
     from coopera.homes import figures, write_picture
     from core.household import plain
 
     home = _load(scene)
     if png is not None:
-        from simulation.overview import overview
+        from simulation.overview import inside, overview
 
-        write_picture(png, overview(home))
+        write_picture(png, inside(home, room) if room else overview(home))
     rooms = {room.name: _contents(home, room.name) for room in home.rooms}
     if as_json:
         typer.echo(json.dumps({**figures(home), "contents": rooms, "png": str(png) if png else None}))
