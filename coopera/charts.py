@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from markupsafe import Markup
@@ -90,6 +90,32 @@ def traits(true: BigFive | None, inferred: BigFive | None, before: BigFive | Non
     return Markup('<svg class="traits" viewBox="0 0 {} {}" role="img" aria-label="Big Five">{}</svg>').format(
         width, foot + 8, Markup("").join(marks)
     )
+
+
+def calibration(
+    bins: Mapping[str, Sequence[tuple[float, float, int]]], *, width: int = 520, height: int = 300
+) -> Markup:
+    """Reliability: what was said (across) against what was right (up), a dot per bin, larger the more verdicts.
+
+    Args:
+        bins: CSS class -> (mean probability, share of right, how many) of each bin that has any.
+        width: In SVG units.
+        height: In SVG units.
+    """
+    frame = _Frame(width, height, 5)
+
+    def across(share: float) -> float:
+        return frame.x(0) + share * (frame.x(4) - frame.x(0))
+
+    marks = [_axes(frame, ["0", ".25", ".5", ".75", "1"])]
+    ideal = '<line class="grid" stroke-dasharray="3 4" x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}"/>'
+    marks.append(Markup(ideal).format(across(0), across(1), frame.y(0), frame.y(1)))
+    for kind, points in bins.items():
+        for said, right, count in points:
+            dot = '<circle class="dot {}" cx="{:.1f}" cy="{:.1f}" r="{:.1f}"><title>{}</title></circle>'
+            title = f"{kind}: said {said:.2f}, right {right:.2f}, {count} verdicts"
+            marks.append(Markup(dot).format(kind, across(said), frame.y(right), 3 + min(count, 400) ** 0.5 / 4, title))
+    return _svg(frame, marks, "Calibration: probability said against share right")
 
 
 class _Frame:

@@ -10,7 +10,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from coopera import charts
+from coopera import charts, learned
 from coopera.files import write_atomic
 from coopera.pictures import Album, embed
 from coopera.progress import figure
@@ -103,6 +103,7 @@ def render(run: RunDir, album: Album) -> str:
     records = run.hours()
     people = run.people()
     days = _days(run, records, album, people)
+    evenings = {evening.day: evening for evening in run.evenings()}
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -123,6 +124,8 @@ def render(run: RunDir, album: Album) -> str:
         curve=_curve(days),
         ends=_ends(records),
         by_hour=_by_hour(records, run.config.day_hours),
+        calibration=_calibration(records, evenings),
+        activities=learned.activities(records, evenings),
         album=album,
         offline=_offline_roles(run.info.get("models", {})),
         style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
@@ -237,6 +240,23 @@ def _by_hour(records: Sequence[HourRecord], hours: Sequence[int]) -> Markup:
     """Success by hour of day, pooled over all days."""
     values = [pooled((record for record in records if record.hour == hour), "predicate").f1 for hour in hours]
     return charts.bars(values, [hour_label(hour).replace(" ", "") for hour in hours])
+
+
+def _calibration(records: Sequence[HourRecord], evenings: Mapping[int, Evening]) -> Markup | None:
+    """How far P(yes) of intentions (as judge) and tasks (as predicate) can be trusted; None where there is none.
+
+    The first day's verdicts of an untrained classifier, all 0.5, are left out.
+    """
+    pairs = {"predicate": learned.task_pairs(records), "judge": learned.intention_pairs(records, evenings)}
+    bins = {
+        kind: [
+            (one.said, one.right, one.count)
+            for one in learned.calibration((p, right) for p, right in found if p != 0.5)
+            if one.said is not None and one.right is not None
+        ]
+        for kind, found in pairs.items()
+    }
+    return charts.calibration(bins) if any(bins.values()) else None
 
 
 def _offline_roles(models: Mapping[str, str]) -> list[str]:
