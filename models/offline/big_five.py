@@ -50,18 +50,24 @@ def infer(sense: CommonSense, profile: str, rng: np.random.Generator) -> BigFive
     near = nearest(sense, profile, rng)
     if near is None:
         return BigFiveReply(big_five=BigFive())
-    raw, norms = raw_scores(near), shipped_norms().traits
-    scores = {t: float(np.clip(3.0 + SPREAD * (raw[t] - norms[t].mean) / norms[t].sd, 1, 5)) for t in TRAITS}
-    return BigFiveReply(big_five=BigFive(**{trait: round(score, 2) for trait, score in scores.items()}))
+    scores = {trait: round(float(np.clip(score, 1, 5)), 2) for trait, score in _impression(near).items()}
+    return BigFiveReply(big_five=BigFive(**scores))
 
 
 def take_test(sense: CommonSense, profile: str, rng: np.random.Generator) -> BigFiveTestReply:
-    """Answer persona/big_five_test: agree the more, the nearer the text comes to a statement than texts usually do."""
+    """Answer persona/big_five_test, as people do: by what one takes oneself for, and by the statement itself.
+
+    The latter counts the more, the nearer the text comes to the statement than texts usually do.
+    """
     near = nearest(sense, profile, rng)
     if near is None:
         return BigFiveTestReply(answers=[3] * len(ITEMS))
-    norms = shipped_norms().items
-    agreed = [3.0 + ITEM_SPREAD * (float(n) - norm.mean) / norm.sd for n, norm in zip(near, norms, strict=True)]
+    kind = _impression(near)
+    own = (ITEM_SPREAD**2 - SPREAD**2) ** 0.5
+    agreed = [
+        3.0 + item.sign * (kind[item.trait] - 3.0) + own * (float(n) - norm.mean) / norm.sd
+        for n, norm, item in zip(near, shipped_norms().items, ITEMS, strict=True)
+    ]
     return BigFiveTestReply(answers=[int(np.clip(np.rint(answer), 1, 5)) for answer in agreed])
 
 
@@ -81,6 +87,12 @@ def raw_scores(near: Sequence[float] | NDArray[np.float64]) -> dict[str, float]:
         return float(np.mean([n for n, item in zip(near, ITEMS, strict=True) if item[1:] == (trait, sign)]))
 
     return {trait: mean(trait, 1) - mean(trait, -1) for trait in TRAITS}
+
+
+def _impression(near: NDArray[np.float64]) -> dict[str, float]:
+    """Return each trait's score, centred on 3 and scaled by the norms."""
+    raw, norms = raw_scores(near), shipped_norms().traits
+    return {trait: 3.0 + SPREAD * (raw[trait] - norms[trait].mean) / norms[trait].sd for trait in TRAITS}
 
 
 @lru_cache(maxsize=1)

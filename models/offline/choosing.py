@@ -62,7 +62,7 @@ def favourite_spot(
     rng: np.random.Generator,
 ) -> Piece:
     """Choose where to move: the person's favourite spots, mostly in the room where the activity began."""
-    if main is not None and rng.random() < STAY:
+    if main is not None and rng.random() < STAY and main in options.get(main.cls, ()):
         return main
     by_class = dict(zip(activity.fixed, person.spot_weights(activity), strict=True))
     pieces = [piece for some in options.values() for piece in some]

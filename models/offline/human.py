@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.people import Frozen
+from core.randomness import rng_at
 from core.replies import DayReply, IntentionReply
 from models.offline import big_five, human_tasks, persona, verdicts
 from models.offline.knowledge import Activity, Floats
@@ -58,6 +59,7 @@ class Human:
 
     def _intention(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> IntentionReply:
         life, hour = self._life(variables), int(variables["hour"])
+        rng = _in_these_rooms(rng, variables["rooms"])
         today = memories(variables["today"], hour)
         wish = life.pull + life.own_hours[:, hour] + self._flow(today)
         activity = self._draw(wish, self._allowed(today, variables["rooms"]), rng, temperature)
@@ -74,6 +76,7 @@ class Human:
         What stands in the plan is not planned again, unless it is repeatable and three hours old.
         """
         life = self._life(variables)
+        rng = _in_these_rooms(rng, variables["rooms"])
         planned: list[tuple[int, str]] = []
         replies: list[IntentionReply] = []
         for hour in map(hour_of, variables["hours"]):
@@ -136,6 +139,11 @@ class Human:
             if activity.id in before.follows:
                 return f'It comes naturally after "{memory.text}" at {_clock(memory.hour)}.'
         return f'I have done "{today[-1].text}" at {_clock(today[-1].hour)} and want to do something else now.'
+
+
+def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random.Generator:
+    """Draw anew in another home, as a language model does that reads of other rooms; the person stays the same."""
+    return rng_at(int(rng.integers(2**62)), *rooms)
 
 
 def _tasks_before(recalled: Sequence[Any]) -> str:

@@ -72,9 +72,10 @@ def free_motions(
     main: Piece | None = None
     for turn, index in enumerate(sorted(weighted_order(weights, rng)[:count])):
         thing = names[index]
-        spot = favourite_spot(person, activity, options, main, rng)
-        main = main or spot
         motion = person.motion(activity, thing, rng)
+        fitting = {cls: pieces for cls, pieces in options.items() if sense.household.suits(motion, cls)} or options
+        spot = favourite_spot(person, activity, fitting, main, rng)
+        main = main or spot
         drafts.append(
             FreeMotionDraft(
                 thought=clip(f"{IN_TURN[min(turn, 4)]}, I {motion} at the {plain(spot.name)} with the {thing}.", 300),

@@ -75,7 +75,13 @@ class Household(Frozen):
     """All activities, in the file's order: the index of an activity is its place in every array."""
 
     looks_like: Annotated[dict[Text, Text], Field(min_length=1)]
+    firm_ground: tuple[Text, ...] = ()
+    soft: tuple[Text, ...] = ()
     activities: Annotated[tuple[Activity, ...], Field(min_length=2)]
+
+    def suits(self, motion: str, furniture: str) -> bool:
+        """Whether a motion can sensibly be made at a class of furniture: nobody chops vegetables on a sofa."""
+        return motion not in self.firm_ground or furniture not in self.soft
 
     @cached_property
     def index(self) -> dict[str, int]:

@@ -29,16 +29,16 @@ FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of
 TOUCHES = 0.3  # share of the activities whose intention a person words with a touch of their own
 
 _TOUCHES = {
-    ("openness", 1): ("in a way never tried before", "with room for new ideas"),
-    ("openness", -1): ("just the usual way", "as it has always been done"),
-    ("conscientiousness", 1): ("properly and on time", "with attention to detail"),
-    ("conscientiousness", -1): ("without any hurry", "and see how far it goes"),
+    ("openness", 1): ("in a new way today", "and try something new with it"),
+    ("openness", -1): ("just the usual way", "the way I always do"),
+    ("conscientiousness", 1): ("properly", "with care"),
+    ("conscientiousness", -1): ("without any hurry", "as far as I get"),
     ("extroversion", 1): ("full of energy", "in high spirits"),
     ("extroversion", -1): ("in peace and quiet", "undisturbed"),
-    ("agreeableness", 1): ("with a warm heart", "with others in mind"),
-    ("agreeableness", -1): ("on no one's terms but my own", "whatever anybody thinks of it"),
-    ("neuroticism", 1): ("to calm the nerves", "to keep the worries away"),
-    ("neuroticism", -1): ("nice and easy", "without a care"),
+    ("agreeableness", 1): ("so that others like it too", "thinking of the others"),
+    ("agreeableness", -1): ("my own way", "without asking anybody"),
+    ("neuroticism", 1): ("to calm down", "to think of something else"),
+    ("neuroticism", -1): ("nice and easy", "at ease"),
 }
 
 

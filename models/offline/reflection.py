@@ -33,7 +33,7 @@ from models.offline.placing import (
     placement,
     spots,
 )
-from models.offline.reading import Memory, Piece, Surroundings, clip, memories
+from models.offline.reading import Memory, Piece, Surroundings, class_of, clip, memories
 from models.offline.sense import CommonSense
 
 KIN = 0.45  # cosine from which a thing that the household file does not name still fits an activity
@@ -100,7 +100,7 @@ def profile_type2(
             spot = by_name(next(iter(options.values())), activity.id)
             item.problems.append(f"the {plain(item.act.target)} is not the place for it")
             item.act = item.act.model_copy(update={"target": spot.name, "target_id": spot.id})
-    _vary_motions(items, activity, rng)
+    _vary_motions(items, activity, rng, sense)
     verdicts = _in_order(items, activity)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     return _moving_reply(items, _why(person, activity, variables, before), verdicts)
@@ -241,11 +241,14 @@ def _other_thing(
         item.thought = f"Better: I {item.act.describe()}."
 
 
-def _vary_motions(items: Sequence[_Item[FreeMotion]], activity: Activity, rng: np.random.Generator) -> None:
+def _vary_motions(
+    items: Sequence[_Item[FreeMotion]], activity: Activity, rng: np.random.Generator, sense: CommonSense
+) -> None:
     """Where one motion would be made over and over, make another of the activity's motions instead."""
     for item in items:
         made = [other.act.motion for other in items]
-        others = [motion for motion in activity.all_motions if motion not in made]
+        suits, place = sense.household.suits, class_of(item.act.target)
+        others = [motion for motion in activity.all_motions if motion not in made and suits(motion, place)]
         if made.count(item.act.motion) > MONOTONE and others:
             motion = others[int(rng.integers(len(others)))]
             item.problems.append(f"too often the same: {item.act.motion}")

@@ -63,6 +63,8 @@ def ask(prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: An
 
 
 def ask_model(chat: OfflineChatModel, prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: Any) -> Any:
+    if "steps" in ASKS[prompt].variables:
+        variables.setdefault("steps", [])
     assert set(variables) == set(ASKS[prompt].variables)
     asked = {"prompt": prompt, "variables": json.loads(json.dumps(variables)), "seed": seed, "temperature": temperature}
     reply = chat.invoke([HumanMessage("(the rendered prompt)", additional_kwargs={"coopera": asked})])
