@@ -41,6 +41,9 @@ OBJECTS: Any = st.fixed_dictionaries(
 )
 
 
+NINE: Any = {"clock": Clock(day=0, hour=9), "hours": [9]}
+
+
 class AnyAsk:
     """Reads each drawn reply as the door does; one that cannot be read is the door's error."""
 
@@ -84,7 +87,7 @@ def test_tasks_that_leave_can_be_tried_or_the_hour_fails_with_a_reason(
     def live(data: Any) -> None:
         ctx = human_context(make_services(ask=AnyAsk(data.draw), home=home), plan)
         try:
-            hour = human_hour(graph.invoke({"clock": Clock(day=0, hour=9), "hours": [9]}, context=ctx))  # type: ignore[arg-type]
+            hour = human_hour(graph.invoke(NINE, context=ctx))
         except ModelOutputError:  # the hour's graph records it as failed, with the reason
             return
         left.append(hour)
