@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Generator, Sequence
 from typing import Any
 
@@ -29,6 +30,7 @@ def work_on_ray(
     except ImportError:
         raise ConfigError("--ray needs the package ray: pip install -c constraints.txt -e '.[ray]'") from None
     local = address == "local"
+    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # nothing is reported to anybody unless the user wants it
     try:
         ray.init(
             address=None if local else address,
