@@ -18,7 +18,7 @@ import numpy as np
 
 from core.errors import ConfigError
 from core.household import SceneId
-from simulation.categories import DYNAMIC, STATIC
+from simulation.categories import DYNAMIC
 from simulation.floorplan import Wall
 from simulation.glb import Array, read_glb, rotation_matrix
 from simulation.hssd_files import Folder, Instance, Region, Template
@@ -251,8 +251,3 @@ def _stage(folder: Folder, id: str, floor: float, skipped: list[Skipped]) -> lis
     if slanted:
         skipped.append(Skipped("stage_instance", f"{slanted} pieces of wall run neither along x nor along y"))
     return walls
-
-
-def unknown_categories(scene: Scene) -> list[str]:
-    """Super-categories of a home that are none of HSSD's."""
-    return sorted({thing.category for thing in scene.objects} - {*DYNAMIC, *STATIC})
