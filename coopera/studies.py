@@ -34,7 +34,7 @@ def run_studies(
 
     Raises:
         ConfigError: If a configuration is wrong, or two have the same folder; nothing has then been begun.
-        KeyboardInterrupt: If Ctrl-C was pressed; the runs are stopped and can be resumed.
+        KeyboardInterrupt: If Ctrl-C was pressed; each run ends with its next node, as failed, and can be resumed.
     """
     resolved = [resolve(config) for config in configs]
     folders = [config.out for config in configs]
