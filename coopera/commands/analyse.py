@@ -78,7 +78,7 @@ def analyse_humans(
         "runs": [source._asdict() for source in found.sources],
     }
     write_results(out, figures, about)
-    days = sum(source.days for source in found.sources)
+    days = sum(len(lives.days) for lives in found.variants.values())
     draw(figures, out / "people.png", f"{found.model}; {days} days, run seeds {seeds}; {learner.name}; {command}")
     first = without(next(iter(found.variants.values())), nobody)
     made = make_study(first, seed=seed)
