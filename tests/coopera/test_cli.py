@@ -3,7 +3,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -39,8 +38,8 @@ def files_in(folder: Path) -> list[str]:
         (["run", "--scenes", "castle"], "scenes: there is no home 'castle'"),
         (["run", "--method", "magic"], "method: there is no method 'magic'"),
         (["run", "--setting", "3", "--humans", "amara,bruno"], "humans: setting 3 takes 3 or a multiple of it, not 2"),
-        (["run", "--classifier", "oracle"], "--classifier must be kernel or lora, not 'oracle'."),
-        (["run", "--pictures", "video"], "pictures: video comes later"),
+        (["run", "--classifier", "oracle"], "--classifier must be kernel, lora or lora-instruct, not 'oracle'."),
+        (["run", "--pictures", "film"], "--pictures must be sampled, none or video, not 'film'."),
         (["run", "--prompts", "missing"], "prompts: missing must be a folder of prompt files"),
         (["run", "missing.yaml"], "missing.yaml: there is no such study file."),
         (["run", "misspelt.yaml"], "misspelt.yaml: there is no field 'dayz' (did you mean days?)."),
@@ -85,17 +84,15 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     assert files_in(tmp_path) == before
 
 
-def test_help_answers_at_once_and_imports_nothing_heavy() -> None:
+def test_help_imports_nothing_heavy() -> None:
     heavy = ("torch", "pybullet", "langgraph", "langchain_core", "chromadb", "transformers", "numpy")
     code = (
         "import sys\nfrom coopera.cli import main\nmain(['run', '--help'])\n"
         f"assert not set({heavy!r}) & set(sys.modules), set({heavy!r}) & set(sys.modules)"
     )
-    begun = time.perf_counter()
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "--setting" in done.stdout
-    assert time.perf_counter() - begun < 5  # 0.3 s on an idle machine; loose, since the machine may be busy
 
 
 @pytest.fixture
