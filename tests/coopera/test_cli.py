@@ -100,7 +100,9 @@ def study(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """Stand in for the study: tells three events and writes a small run, or raises what `error` says."""
     asked: dict[str, Any] = {"error": None}
 
-    def run_study(config: Any, *, on_event: Callable[[Mapping[str, Any]], None]) -> dict[str, Any]:
+    def run_study(
+        config: Any, *, on_event: Callable[[Mapping[str, Any]], None], ask_person: Any = None
+    ) -> dict[str, Any]:
         asked["config"] = config
         on_event({"day": 0, "hour": 9, "node": "propose", "success": None})
         on_event({"day": 0, "hour": 9, "node": "record", "success": 0.25})
