@@ -53,7 +53,7 @@ def read_manifest(folder: Path, expected: Mapping[str, Any]) -> dict[str, Any]:
         raise CooperaError(f"{path}: is damaged, not a JSON file ({err})") from err
     if not isinstance(manifest, dict):
         raise CooperaError(f"{path}: is damaged, expected a JSON object")
-    for name, value in expected.items():
+    for name, value in json.loads(json.dumps(expected)).items():  # as JSON has it: tuples are lists
         if manifest.get(name) != value:
             raise CooperaError(f"{path}: field {name!r} is {manifest.get(name)!r}, expected {value!r}")
     return manifest

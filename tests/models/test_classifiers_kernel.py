@@ -23,7 +23,7 @@ from tests.models.feedback import THINGS, WORDS, ask, days, kernel, tea_in_the_m
 def test_an_unknown_classifier_is_refused_with_the_known_names() -> None:
     with pytest.raises(ConfigError, match="'forest'.*kernel, lora"):
         make_classifier("forest", kind="task", embeddings=WORDS)
-    assert set(CLASSIFIERS) == {"kernel", "lora"}
+    assert set(CLASSIFIERS) == {"kernel", "lora", "lora-instruct"}
 
 
 def test_untrained_it_is_undecided_about_everything() -> None:
