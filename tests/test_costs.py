@@ -84,6 +84,7 @@ def test_an_estimate_foretells_the_calls_of_the_run(lived: Path, capsys: pytest.
     assert found["roles"]["robot"]["paid"] is False
 
 
+@pytest.mark.slow
 def test_a_rerun_and_another_method_pay_only_for_what_is_new(tmp_path: Path, data_dir: Path) -> None:
     with serving() as url:
 

@@ -31,7 +31,7 @@ def test_a_server_that_says_nothing_useful_fails_the_check(coopera: Cli) -> None
 
 
 def test_a_model_that_is_not_there_is_refused_or_fails(coopera: Cli, tmp_path: Path) -> None:
-    assert coopera("models", "check", "huggingface:nowhere/at-all").code == 2
+    assert coopera("models", "check", f"huggingface:{tmp_path / 'nowhere'}").code == 2
     study = tmp_path / "study.yaml"
     study.write_text("calls: {retries: 0}")
     said = coopera("models", "check", "openai:x", "--base-url", "http://127.0.0.1:9/v1", "--study", study)

@@ -13,6 +13,7 @@ from tests.serving import serving
 from tests.test_household import truth
 
 
+@pytest.mark.slow
 def test_studies_at_once_are_the_same_as_each_alone_whichever_ends_first(tmp_path: Path, data_dir: Path) -> None:
     def study(name: str, **more: Any) -> Config:
         options = {"days": 1, "pictures": "none", "data_dir": data_dir, "cache": tmp_path / f"{name}.sqlite"}
