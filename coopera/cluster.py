@@ -41,7 +41,8 @@ def work_on_ray(
     except (ConnectionError, ValueError, RuntimeError) as err:
         raise ConfigError(f"--ray {address}: there is no cluster that can be reached ({err}).") from None
     try:
-        slots = max(1, int(ray.cluster_resources().get("CPU", 1)))  # type: ignore[no-untyped-call]
+        resources: Any = ray.cluster_resources  # untyped in ray
+        slots = max(1, int(resources().get("CPU", 1)))
         task = ray.remote(num_cpus=1, max_retries=TRIES - 1)(_try)
         queue, running = Queue(list(jobs)), dict[Any, Any]()
         while queue.jobs or running:
