@@ -7,7 +7,7 @@ import hashlib
 import json
 import threading
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import torch
@@ -33,7 +33,7 @@ class CausalBase:
         """
         self.recipe = recipe
         self.lock = threading.RLock()
-        self.owner: dict[Kind, object] = {}
+        self._inside: dict[Kind, object] = {}
         model, self.tokenizer = _load(recipe)
         self.name = _name(model, recipe.base)
         config = LoraConfig(
@@ -54,32 +54,30 @@ class CausalBase:
                 self.model.add_adapter("task", config)
         except ValueError as err:
             raise ConfigError(f"modules: {recipe.base} has none of {', '.join(recipe.modules)} to adapt.") from err
-        self._untrained = {kind: self._read(kind) for kind in KINDS}
+        self._shapes = {kind: {name: tuple(t.shape) for name, t in self._read(kind).items()} for kind in KINDS}
         self.answers = _answers(self.tokenizer, recipe.base)
 
-    def put_in(self, kind: Kind, owner: object, learned: dict[str, Tensor] | None) -> None:
-        """Make an adapter the active one, with what its owner learned, or as it was at first."""
-        if self.owner.get(kind) is not owner:
-            tensors = self._untrained[kind] if learned is None else learned
-            set_peft_model_state_dict(self.model, tensors, adapter_name=kind)
-            self.owner[kind] = owner
+    def put_in(self, kind: Kind, learned: Mapping[str, Tensor]) -> None:
+        """Make an adapter the active one and give it these tensors, which are not copied again while they are in it."""
+        if self._inside.get(kind) is not learned:
+            set_peft_model_state_dict(self.model, dict(learned), adapter_name=kind)
+            self._inside[kind] = learned
         self.model.set_adapter(kind)
 
     def take_out(self, kind: Kind) -> dict[str, Tensor]:
-        """Return copies of an adapter's tensors."""
+        """Return copies of an adapter's tensors, after training them; what was put in is in it no longer."""
+        self._inside.pop(kind, None)
         return self._read(kind)
 
-    def reset(self, kind: Kind, generator: torch.Generator) -> None:
-        """Start an adapter anew: B at zero, A drawn, so that it changes nothing at first."""
-        drawn = {}
-        for name, value in self._untrained[kind].items():
-            fresh = torch.zeros(value.shape)
+    def fresh(self, kind: Kind, seed: int) -> dict[str, Tensor]:
+        """Return the tensors of a new adapter: B at zero, A drawn, so that it changes nothing at first."""
+        generator, drawn = torch.Generator().manual_seed(seed), {}
+        for name, shape in self.shapes(kind).items():
+            drawn[name] = torch.zeros(shape)
             if ".lora_A." in name:
-                bound = 1.0 / value.shape[1] ** 0.5
-                fresh.uniform_(-bound, bound, generator=generator)
-            drawn[name] = fresh.to(value.dtype)
-        self.owner.pop(kind, None)
-        self.put_in(kind, None, drawn)
+                bound = 1.0 / shape[1] ** 0.5
+                drawn[name].uniform_(-bound, bound, generator=generator)
+        return drawn
 
     def parameters(self, kind: Kind) -> list[Any]:
         """What is trained of the active adapter."""
@@ -87,7 +85,7 @@ class CausalBase:
 
     def shapes(self, kind: Kind) -> dict[str, tuple[int, ...]]:
         """Names and shapes of an adapter's tensors."""
-        return {name: tuple(value.shape) for name, value in self._untrained[kind].items()}
+        return self._shapes[kind]
 
     def scores(self, texts: Sequence[str]) -> Tensor:
         """Logit of Yes less that of No, right after each instruction, shape (B,): one forward pass."""
