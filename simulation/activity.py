@@ -12,7 +12,7 @@ from simulation.humanoid import forward
 from simulation.motions import Motion
 from simulation.motions_poses import Setting, pose_at
 from simulation.navigation import Stand, clearance, obstacle_boxes
-from simulation.plans import Ground, Placed, Plan, Play, UnableError, Watch, clear_of, discs
+from simulation.plans import Ground, Placed, Plan, Play, UnableError, Watch, all_clear_of, clear_of, discs
 from simulation.rotations import wrapped
 from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState
@@ -202,20 +202,17 @@ def _open_floor(ground: Ground, plan: Plan, target: SceneObject) -> tuple[float,
     """A place near the target with much free floor around it, and the heading with most room ahead and behind."""
     scene = ground.scene
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
-    cells = np.array(ground.navigator.free_in(target.room))
+    cells = ground.navigator.cells_in(target.room)
     if not len(cells):
         raise UnableError(f"the human finds no place to stand near the {plain(target.name)}")
     gap = clearance(cells[:, 0], cells[:, 1], obstacle_boxes([target], []))
-    room = np.minimum(clearance(cells[:, 0], cells[:, 1], boxes), 0.9)
+    room = np.minimum(ground.navigator.clearance_in(target.room), 0.9)
     score = room - 0.25 * np.maximum(gap - 0.5, 0.0)
     taken = discs(plan.state, "robot")
-    free = np.array([clear_of((float(x), float(y)), taken) for x, y in cells])
-    best = int(np.where(free, score, score - 5.0).argmax())
+    best = int(np.where(all_clear_of(cells, taken), score, score - 5.0).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])
-    headings = [k * math.pi / 8 for k in range(16)]
-
-    def strip(yaw: float) -> float:
-        along = np.array((-0.9, -0.5, 0.5, 0.8))
-        return float(clearance(x + along * math.cos(yaw), y + along * math.sin(yaw), boxes).min())
-
-    return x, y, max(headings, key=lambda yaw: (round(strip(yaw), 3), -yaw))
+    headings = np.arange(16) * math.pi / 8
+    along = np.array((-0.9, -0.5, 0.5, 0.8))
+    ahead, aside = np.outer(np.cos(headings), along), np.outer(np.sin(headings), along)
+    strip = clearance(x + ahead, y + aside, boxes).min(axis=1).round(3)
+    return x, y, float(headings[int(strip.argmax())])

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from simulation.humanoid import forward
-from simulation.navigation import RADIUS, Disc, Navigator
-from simulation.plans import Placed, clear_of
+from simulation.navigation import RADIUS, Disc, Navigator, to_segment
+from simulation.plans import Placed, all_clear_of
 from simulation.robot import RobotBody
 from simulation.rotations import Array, about_z, wrapped
 from simulation.scene import Point, Scene
@@ -94,13 +94,13 @@ def watching_place(
         The place, or None if the person is seen from nowhere; the robot then stays where it is.
     """
     person = focus.person
-    cells = np.array(navigator.free_in(focus.room) + _doorways(navigator, focus))
+    cells = np.concatenate([navigator.cells_in(focus.room), *_doorways(navigator, focus)])
     if not len(cells):
         return None
     away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
     off = np.full(len(cells), np.inf)
     for a, b in zip(keep_clear, keep_clear[1:], strict=False):
-        off = np.minimum(off, _to_segment(cells, a, b))
+        off = np.minimum(off, to_segment(cells, a, b))
     apart = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
     if apart.sum() < 20:
         apart = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
@@ -127,7 +127,7 @@ def _best_sight(
     """The allowed cell, of shape (n, 2), from which the person is seen best; None if they are seen from none."""
     person = focus.person
     cells = cells[::4] if len(cells) > 400 else cells
-    cells = cells[[i for i, (x, y) in enumerate(cells) if clear_of((float(x), float(y)), taken)]]
+    cells = cells[all_clear_of(cells, taken)]
     if not len(cells):
         return None
     away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
@@ -198,19 +198,12 @@ def _glance(camera: Camera) -> Array:
     return np.asarray(lines / np.linalg.norm(lines, axis=1)[:, None])
 
 
-def _doorways(navigator: Navigator, focus: Focus) -> list[Point]:
+def _doorways(navigator: Navigator, focus: Focus) -> list[Array]:
     """Places in the rooms next door within sight distance, for rooms too small to watch in."""
     scene = navigator.scene
     names = sorted({name for door in scene.doors if focus.room in door.between for name in door.between})
-    found = [cell for name in names if name != focus.room for cell in navigator.free_in(name)]
-    return [cell for cell in found if math.dist(cell, (focus.person.x, focus.person.y)) <= _WATCH[1]]
-
-
-def _to_segment(places: Array, a: Point, b: Point) -> Array:
-    start, line = np.array(a), np.array(b) - np.array(a)
-    length = float(line @ line)
-    share = np.clip(((places - start) @ line) / length, 0.0, 1.0) if length > 0 else np.zeros(len(places))
-    return np.asarray(np.hypot(*(places - start - share[:, None] * line).T))
+    rooms = [navigator.cells_in(name) for name in names if name != focus.room]
+    return [c[np.hypot(c[:, 0] - focus.person.x, c[:, 1] - focus.person.y) <= _WATCH[1]] for c in rooms]
 
 
 def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:

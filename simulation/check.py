@@ -116,7 +116,7 @@ def _supports(scene: Scene) -> Iterator[str]:
 
 def _access(scene: Scene, navigator: Navigator) -> Iterator[str]:
     for room in scene.rooms:
-        if not navigator.free_in(room.name):
+        if not len(navigator.cells_in(room.name)):
             yield f"Nobody can get into the {room.name}."
     for thing in scene.fixed:
         stands = navigator.approach(thing, most=60)

@@ -207,7 +207,7 @@ class Navigator:
         """The nearest place (straight line) to step to so that a walker on `route` passes; None without one."""
         away = np.full(len(self._centres), np.inf)
         for a, b in zip(route, route[1:], strict=False):
-            away = np.minimum(away, _to_segment(self._centres, a, b))
+            away = np.minimum(away, to_segment(self._centres, a, b))
         open_nodes = np.flatnonzero(away >= space + 0.05)
         if not len(open_nodes):
             return None
@@ -219,14 +219,15 @@ class Navigator:
         node = self._nearest((x, y), None, within=CELL)
         return node is not None and float(self._clear_at(np.array([x]), np.array([y]))[0]) >= RADIUS - 0.01
 
-    def free_in(self, room: str) -> list[Point]:
-        """Centres of all cells of a room where one can stand, in fixed order."""
-        return [(x, y) for x, y in self.cells_in(room).tolist()]
-
     def cells_in(self, room: str) -> Array:
-        """The same centres as an array of shape (n, 2)."""
+        """Centres of all cells of a room where one can stand, in fixed order; shape (n, 2)."""
         centres: Array = self._centres[self._in_room[self._index(room)]]
         return centres
+
+    def clearance_in(self, room: str) -> Array:
+        """How far each of the same cells is from the nearest obstacle, in metres up to 2; shape (n,)."""
+        clear: Array = self._clear[tuple(self._cells[self._in_room[self._index(room)]].T)]
+        return clear
 
     def _index(self, room: str) -> int:
         return next(i for i, known in enumerate(self.scene.rooms) if known.name == room)
@@ -390,7 +391,8 @@ def _outside(avoid: Disc, places: Array) -> Mask:
     return outside
 
 
-def _to_segment(places: Array, a: Point, b: Point) -> Array:
+def to_segment(places: Array, a: Point, b: Point) -> Array:
+    """Distance of each place to the straight way between two points; shape (n, 2) to (n,)."""
     start, along = np.array(a), np.array(b) - np.array(a)
     length = float(along @ along)
     share = np.clip(((places - start) @ along) / length, 0.0, 1.0) if length > 0 else np.zeros(len(places))

@@ -7,6 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from core.errors import SimulationError
 from core.household import Agent, plain
 from simulation.elbowroom import Elbowroom
@@ -166,7 +169,15 @@ def discs(state: HomeState, agent: Agent) -> list[Disc]:
 
 def clear_of(place: Point, taken: list[Disc]) -> bool:
     """Whether a standing body at a place touches none of the discs."""
-    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius + RADIUS - 1e-9 for disc in taken)
+    return bool(all_clear_of(np.array([place]), taken)[0])
+
+
+def all_clear_of(places: Array, taken: list[Disc]) -> NDArray[np.bool_]:
+    """The same for each of many places; shape (n, 2) to (n,)."""
+    clear = np.ones(len(places), dtype=bool)
+    for disc in taken:
+        clear &= np.hypot(places[:, 0] - disc.x, places[:, 1] - disc.y) >= disc.radius + RADIUS - 1e-9
+    return clear
 
 
 def stand_up(person: PersonState, spot: Point) -> PersonState:

@@ -253,7 +253,7 @@ def _refuse_full_gripper(ground: Ground, state: HomeState) -> None:
 def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
     """Places within handing distance of the person, in their room: at a comfortable distance, ahead, and near first."""
     person, robot = state.person, state.robot
-    cells = np.array(ground.navigator.free_in(ground.scene.room_at(*person.place).name)).reshape(-1, 2)
+    cells = ground.navigator.cells_in(ground.scene.room_at(*person.place).name)
     gap = np.hypot(*(cells - np.array(person.place)).T)
     near = (gap >= HANDING[0]) & (gap <= HANDING[1])
     for disc in discs(state, "human"):

@@ -99,8 +99,9 @@ class World:
         person = places[0]
         robot = next((place for place in places[1:] if math.dist(place, person) > 1.0), None)
         if robot is None:
-            cells = self._ground.navigator.free_in(self.layout.room_at(*person).name)
-            robot = max(cells, key=lambda cell: round(math.dist(cell, person), 3))
+            cells = self._ground.navigator.cells_in(self.layout.room_at(*person).name)
+            x, y = cells[np.hypot(*(cells - np.array(person)).T).round(3).argmax()].tolist()
+            robot = x, y
         return HomeState(scene=self.scene, person=PersonState(spot=person, place=person), robot=RobotState(spot=robot))
 
     @property

@@ -36,9 +36,9 @@ def along(points: list[Point]) -> Array:
 
 
 def places(navigator: Navigator, count: int) -> list[Point]:
-    cells = [cell for room in navigator.scene.rooms for cell in navigator.free_in(room.name)]
+    cells = [cell for room in navigator.scene.rooms for cell in navigator.cells_in(room.name).tolist()]
     picked = np.random.default_rng(3).choice(len(cells), size=count, replace=False)
-    return [cells[int(i)] for i in picked]
+    return [(cells[int(i)][0], cells[int(i)][1]) for i in picked]
 
 
 def nearest_obstacle(scene: Scene, points: Array) -> float:
