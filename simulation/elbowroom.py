@@ -16,6 +16,7 @@ _FINGERS = 0.015
 _HAND = 0.16
 """Points this near to the grasped point belong to the hand, which touches what the thing stands on."""
 _WALL = 2.4
+_SLACK = 1e-6
 
 
 class Elbowroom:
@@ -35,6 +36,7 @@ class Elbowroom:
             size = ((b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, _WALL / 2)
             rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, _WALL / 2, *size, 0.0))
         self._boxes = np.array(rows).reshape(-1, 7)
+        self._round = np.hypot(self._boxes[:, 3], self._boxes[:, 4]) + _THICK + _SLACK
 
     def hit(self, arm: Array, grasp: Array, on: SceneObject | None) -> str | None:
         """Name what an arm would run into, "wall" for a wall; None where it has room.
@@ -45,8 +47,7 @@ class Elbowroom:
             on: The furniture that the hand reaches onto. One with a closed front (its parts fill the place itself,
                 as in a fridge) is taken to be open.
         """
-        x, y = arm[0, :2]
-        near = np.flatnonzero(np.hypot(self._boxes[:, 0] - x, self._boxes[:, 1] - y) < 3.0)
+        near = self._near(arm, grasp)
         boxes = self._boxes[near]
         hand = np.linalg.norm(arm - grasp, axis=1) < _HAND
         inside = _inside(arm, boxes, np.where(hand, _FINGERS, _THICK)[:, None])
@@ -57,6 +58,14 @@ class Elbowroom:
                 inside[:, own] = False
         found = np.flatnonzero(inside.any(axis=0))
         return self.names[near[found[0]]] if len(found) else None
+
+    def _near(self, arm: Array, grasp: Array) -> NDArray[np.int64]:
+        """Which parts have any chance of being touched: those around which a circle meets the arm's rectangle."""
+        low, high = np.minimum(arm.min(axis=0), grasp), np.maximum(arm.max(axis=0), grasp)
+        x, y = self._boxes[:, 0], self._boxes[:, 1]
+        away_x, away_y = np.maximum(low[0] - x, x - high[0]), np.maximum(low[1] - y, y - high[1])
+        within_reach = np.hypot(x - arm[0, 0], y - arm[0, 1]) < 3.0
+        return np.flatnonzero((np.maximum(away_x, away_y) < self._round) & within_reach)
 
 
 def _inside(points: Array, boxes: Array, margin: Array) -> NDArray[np.bool_]:

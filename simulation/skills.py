@@ -250,10 +250,14 @@ def _refuse_full_gripper(ground: Ground, state: HomeState) -> None:
         raise UnableError(f"the robot must first put down the {plain(held)}")
 
 
-def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
+def _before_person(ground: Ground, state: HomeState) -> Iterator[Stand]:
     """Places within handing distance of the person, in their room: at a comfortable distance, ahead, and near first."""
+    here = _where_it_is(ground, state)
+    if here is not None:
+        yield here
     person, robot = state.person, state.robot
     cells = ground.navigator.cells_in(ground.scene.room_at(*person.place).name)
+    cells = cells[(np.abs(cells - np.array(person.place)) <= HANDING[1]).all(axis=1)]
     gap = np.hypot(*(cells - np.array(person.place)).T)
     near = (gap >= HANDING[0]) & (gap <= HANDING[1])
     for disc in discs(state, "human"):
@@ -264,11 +268,8 @@ def _before_person(ground: Ground, state: HomeState) -> list[Stand]:
     drive = np.hypot(*(cells - np.array(robot.spot)).T)
     cost = np.round(np.abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive, 6)
     order = np.argsort(cost, kind="stable")
-    here = _where_it_is(ground, state)
-    return ([here] if here is not None else []) + [
-        Stand(float(cells[i, 0]), float(cells[i, 1]), float(towards[i]), float(drive[i]), float(gap[i]))
-        for i in order[:: max(1, len(order) // _TRIES)]
-    ]
+    for i in order[:: max(1, len(order) // _TRIES)]:
+        yield Stand(float(cells[i, 0]), float(cells[i, 1]), float(towards[i]), float(drive[i]), float(gap[i]))
 
 
 def _where_it_is(ground: Ground, state: HomeState) -> Stand | None:
