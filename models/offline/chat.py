@@ -26,7 +26,7 @@ from models.offline.knowledge import shipped
 from models.offline.robot import Robot
 from models.offline.sense import CommonSense
 
-RULES = "2"
+RULES = "3"
 """Raised whenever the same question may get another answer; it enters every cache key."""
 
 _SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}

@@ -104,7 +104,10 @@ class Human:
         return total
 
     def _allowed(self, today: Sequence[Memory], rooms: Sequence[str]) -> NDArray[np.bool_]:
-        """Nothing of today again, unless it is repeatable and three hours old; only what the home has rooms for."""
+        """Nothing of today again, unless it is repeatable and three hours old; only what the home has rooms for.
+
+        After what closes a day, only what that leads on to.
+        """
         activities = self._sense.household.activities
         kinds = {room_kind(room) for room in rooms}
         possible = np.array([bool(kinds.intersection(activity.rooms)) for activity in activities])
@@ -112,6 +115,8 @@ class Human:
         for memory in today:
             index = self._sense.index(memory.text)
             fresh[index] &= activities[index].repeatable and memory.hours_ago >= AGAIN_AFTER
+            if activities[index].closes:
+                fresh &= self._sense.household.follow_matrix[index] > 0
         for mask in (possible & fresh, fresh):
             if mask.any():
                 return mask

@@ -14,7 +14,7 @@ from core.replies import FreeMotionDraft, FreeMotionReply, PickPlaceDraft, PickP
 from models.offline import own_steps, reflection
 from models.offline.choosing import favourite_spot, known, person_placements, reasons
 from models.offline.person import PrivateLife
-from models.offline.placing import free_motion, spots
+from models.offline.placing import free_motion, spots, usable
 from models.offline.reading import Piece, Surroundings, clip, memories, weighted_order
 from models.offline.sense import CommonSense
 
@@ -68,11 +68,14 @@ def free_motions(
     used = sense.mentioned(" ".join(memory.text for memory in before), names)
     weights = person.thing_weights(activity) * [AGAIN if name in used else 1.0 for name in names]
     count = min(int(variables["n_tasks"]), len(names))
+    drawn = weighted_order(weights, rng)
+    doable = [i for i in drawn if usable(sense.household, activity, names[i], options)]
+    chosen = [*doable, *(i for i in drawn if i not in doable)][:count]
     drafts: list[FreeMotionDraft] = []
     main: Piece | None = None
-    for turn, index in enumerate(sorted(weighted_order(weights, rng)[:count])):
+    for turn, index in enumerate(sorted(chosen)):
         thing = names[index]
-        motion = person.motion(activity, thing, rng)
+        motion = person.motion(activity, thing, options, rng)
         fitting = {cls: pieces for cls, pieces in options.items() if sense.household.suits(motion, cls)} or options
         spot = favourite_spot(person, activity, fitting, main, rng)
         main = main or spot

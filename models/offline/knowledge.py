@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cached_property, lru_cache
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -45,6 +46,7 @@ class Activity(Frozen):
     source: Text
     repeatable: bool = False
     need: bool = False
+    closes: bool = False
 
     @field_validator("hours")
     @classmethod
@@ -75,13 +77,36 @@ class Household(Frozen):
     """All activities, in the file's order: the index of an activity is its place in every array."""
 
     looks_like: Annotated[dict[Text, Text], Field(min_length=1)]
-    firm_ground: tuple[Text, ...] = ()
-    soft: tuple[Text, ...] = ()
+    done_at: dict[Text, tuple[Text, ...]] = {}
     activities: Annotated[tuple[Activity, ...], Field(min_length=2)]
 
     def suits(self, motion: str, furniture: str) -> bool:
-        """Whether a motion can sensibly be made at a class of furniture: nobody chops vegetables on a sofa."""
-        return motion not in self.firm_ground or furniture not in self.soft
+        """Whether a motion can sensibly be made at a class of furniture: nobody chops vegetables on a sofa.
+
+        Furniture that the file does not know is given the benefit of the doubt.
+        """
+        places = self.done_at.get(motion)
+        return places is None or furniture in places or furniture not in self.furniture
+
+    @cached_property
+    def furniture(self) -> frozenset[str]:
+        """Every class of furniture that the file speaks of."""
+        spots = {spot for activity in self.activities for spot in (*activity.fixed, *(at for _, at in activity.places))}
+        return frozenset(spots.union(*self.done_at.values()))
+
+    @cached_property
+    def uses(self) -> dict[str, frozenset[str]]:
+        """The motions that anybody makes with each thing, in whatever activity."""
+        made: dict[str, set[str]] = {}
+        for activity in self.activities:
+            for thing, motion in activity.things.items():
+                made.setdefault(thing, set()).add(motion)
+        return {thing: frozenset(motions) for thing, motions in made.items()}
+
+    @cached_property
+    def usual_places(self) -> frozenset[tuple[str, str]]:
+        """What is put where, in whatever activity: (movable class, fixed class)."""
+        return frozenset(place for activity in self.activities for place in activity.places)
 
     @cached_property
     def index(self) -> dict[str, int]:
@@ -157,26 +182,34 @@ def _first_problem(err: ValidationError, data: Any) -> str:
 
 def _check_references(household: Household, path: Path) -> None:
     """Refuse double ids and wordings, and references to activities or motions that do not exist."""
+    for problem in chain(_doubles(household), _unknowns(household)):
+        raise ConfigError(f"{path}: {problem}")
+
+
+def _doubles(household: Household) -> Iterator[str]:
     seen: dict[str, str] = {}
     ids = sorted(activity.id for activity in household.activities)
     for before, after in pairwise(ids):
         if before == after:
-            raise ConfigError(f"{path}: activity {after!r}, field 'id': each id may be used once only")
+            yield f"activity {after!r}, field 'id': each id may be used once only"
     for activity in household.activities:
         for wording in activity.wordings:
             other = seen.setdefault(key(wording), activity.id)
             if other != activity.id or len({key(text) for text in activity.wordings}) < len(activity.wordings):
-                raise ConfigError(
-                    f"{path}: activity {activity.id!r}, field 'wordings': {wording!r} stands also in activity {other!r}"
-                )
+                yield f"activity {activity.id!r}, field 'wordings': {wording!r} stands also in activity {other!r}"
+
+
+def _unknowns(household: Household) -> Iterator[str]:
+    for motion in household.done_at:
+        if motion not in household.looks_like:
+            yield f"field 'done_at': {motion!r} is not listed under looks_like"
+    for activity in household.activities:
         for other in activity.follows:
             if other not in household.index:
-                raise ConfigError(f"{path}: activity {activity.id!r}, field 'follows': there is no activity {other!r}")
+                yield f"activity {activity.id!r}, field 'follows': there is no activity {other!r}"
         for motion in activity.all_motions:
             if motion not in household.looks_like:
-                raise ConfigError(
-                    f"{path}: activity {activity.id!r}, field 'motions': {motion!r} is not listed under looks_like"
-                )
+                yield f"activity {activity.id!r}, field 'motions': {motion!r} is not listed under looks_like"
 
 
 def key(text: str) -> str:

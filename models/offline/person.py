@@ -7,7 +7,7 @@ habit, the favourite mug) is drawn once, from the id.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -29,17 +29,18 @@ FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of
 TOUCHES = 0.3  # share of the activities whose intention a person words with a touch of their own
 
 _TOUCHES = {
-    ("openness", 1): ("in a new way today", "and try something new with it"),
+    ("openness", 1): ("in a new way today", "with a curious mind"),
     ("openness", -1): ("just the usual way", "the way I always do"),
     ("conscientiousness", 1): ("properly", "with care"),
     ("conscientiousness", -1): ("without any hurry", "as far as I get"),
-    ("extroversion", 1): ("full of energy", "in high spirits"),
-    ("extroversion", -1): ("in peace and quiet", "undisturbed"),
-    ("agreeableness", 1): ("so that others like it too", "thinking of the others"),
-    ("agreeableness", -1): ("my own way", "without asking anybody"),
+    ("extroversion", 1): ("in high spirits", "in the best of moods"),
+    ("extroversion", -1): ("undisturbed", "away from any bustle"),
+    ("agreeableness", 1): ("in a friendly mood", "at peace with everybody"),
+    ("agreeableness", -1): ("my own way", "just as I please"),
     ("neuroticism", 1): ("to calm down", "to think of something else"),
-    ("neuroticism", -1): ("nice and easy", "at ease"),
+    ("neuroticism", -1): ("without a worry", "at ease"),
 }
+"""What may be added to any intention, a lively or a restful one, by trait and its direction."""
 
 
 class PrivateLife:
@@ -81,15 +82,18 @@ class PrivateLife:
         weights = usual * self._favour(f"spot|{activity.id}", len(activity.fixed), scale=SPOT_FAVOUR)
         return np.asarray(weights / weights.sum(), dtype=np.float64)
 
-    def motion(self, activity: Activity, thing: str, rng: np.random.Generator) -> str:
+    def motion(self, activity: Activity, thing: str, spots: Collection[str], rng: np.random.Generator) -> str:
         """Choose the motion for a thing: the common one, or another of the activity's that looks like it.
 
-        Which of them is a habit of this person's own; now and then it is another.
+        It is one that people make with that thing, and that can be made at one of the classes of furniture, if there is
+        any. Which of them is a habit of this person's own; now and then it is another.
         """
-        looks, common = self._sense.household.looks_like, activity.things[thing]
-        alike = [motion for motion in activity.all_motions if looks[motion] == looks[common]]
+        household, common = self._sense.household, activity.things[thing]
+        looks = household.looks_like
+        alike = [m for m in activity.all_motions if looks[m] == looks[common] and m in household.uses[thing]]
+        alike = [m for m in alike if any(household.suits(m, spot) for spot in spots)] or [common]
         own = self._rng("motion", activity.id, thing)
-        habit = common if own.random() < 0.7 else alike[int(own.integers(len(alike)))]
+        habit = common if own.random() < 0.7 and common in alike else alike[int(own.integers(len(alike)))]
         return habit if rng.random() < 0.9 else alike[int(rng.integers(len(alike)))]
 
     def favourite(self, names: Sequence[str], what: str) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from core.household import FreeMotion, PickPlace
-from models.offline.knowledge import Activity
+from models.offline.knowledge import Activity, Household
 from models.offline.reading import Piece, Surroundings, room_kind
 from models.offline.sense import CommonSense
 
@@ -59,13 +59,21 @@ def makeshift_places(
 ) -> list[Placement]:
     """Return placements for a home that lacks the usual objects, the most fitting first.
 
-    Things and spots that the activity knows come first, then those that are most like them.
+    First come the things that the activity knows, then those most like them; each goes where somebody puts it in some
+    activity rather than where nobody does, and sooner to a spot that the activity knows or that is like one.
     """
-    things = _by_fit(sense, movable.pieces, [thing for thing, _ in activity.places])
-    spots = _by_fit(sense, fixed.pieces, [*(spot for _, spot in activity.places), *activity.fixed])
+    known = {thing for thing, _ in activity.places}
+    things = _by_fit(sense, movable.pieces, [thing for thing, _ in activity.places])[:12]
+    spots = _by_fit(sense, fixed.pieces, [spot for _, spot in activity.places])
     spots.sort(key=lambda piece: room_kind(piece.room) not in activity.rooms)
-    pairs = [(max(i, j), i, j) for i in range(min(len(things), 12)) for j in range(min(len(spots), 12))]
-    return [Placement(things[i], spots[j], len(activity.places) + rank) for rank, (_, i, j) in enumerate(sorted(pairs))]
+    ranked: list[tuple[tuple[int, ...], Placement]] = []
+    for i, thing in enumerate(things):
+        for j, spot in enumerate(spots[:12]):
+            strange = (thing.cls, spot.cls) not in sense.household.usual_places
+            rank = (0, strange, max(i, j), i, j) if thing.cls in known else (1, i, strange, j)
+            ranked.append((rank, Placement(thing, spot, 0)))
+    ranked.sort(key=lambda pair: pair[0])
+    return [place._replace(order=len(activity.places) + n) for n, (_, place) in enumerate(ranked)]
 
 
 def fill_up(chosen: Sequence[Placement], spare: Sequence[Placement], count: int) -> list[Placement]:
@@ -89,6 +97,11 @@ def spots(sense: CommonSense, activity: Activity, fixed: Surroundings) -> dict[s
         return found
     nearest = _by_fit(sense, fixed.pieces, activity.fixed)[0]
     return {nearest.cls: [nearest]}
+
+
+def usable(household: Household, activity: Activity, thing: str, furniture: Iterable[str]) -> bool:
+    """Whether the common motion with a thing of the activity can be made at one of some classes of furniture."""
+    return any(household.suits(activity.things[thing], cls) for cls in furniture)
 
 
 def free_motion(spot: Piece, thing: str, motion: str) -> FreeMotion:

@@ -32,6 +32,7 @@ from models.offline.placing import (
     makeshift_places,
     placement,
     spots,
+    usable,
 )
 from models.offline.reading import Memory, Piece, Surroundings, class_of, clip, memories
 from models.offline.sense import CommonSense
@@ -77,14 +78,14 @@ def profile_type1(
 
 
 def profile_type2(
-    sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], rng: np.random.Generator
+    sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> FreeMotionReflectionReply:
     """Answer human/reflect_profile_type2: do things, spots, motions and their order fit this person's way?"""
     person, activity = known(life), sense.recognise(variables["intention"]).activity
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
     options = spots(sense, activity, fixed)
     weights = dict(zip(activity.thing_names, person.thing_weights(activity), strict=True))
-    favourites = sorted(weights, key=lambda thing: (-weights[thing], thing))
+    favourites = _usable_first(sense, activity, sorted(weights, key=lambda thing: (-weights[thing], thing)), options)
     for item in items:
         thing = item.act.in_hand
         if thing in weights and weights[thing] < HARDLY_EVER:
@@ -97,10 +98,11 @@ def profile_type2(
             item.problems.append(f"I have the {thing} in hand already")
             _other_thing(items, item, activity, favourites)
         if options and fixed.by_name.get(item.act.target) not in [p for some in options.values() for p in some]:
-            spot = by_name(next(iter(options.values())), activity.id)
             item.problems.append(f"the {plain(item.act.target)} is not the place for it")
-            item.act = item.act.model_copy(update={"target": spot.name, "target_id": spot.id})
-    _vary_motions(items, activity, rng, sense)
+            _move(item, by_name(next(iter(options.values())), activity.id))
+    _vary_motions(items, activity, favourites)
+    for item in items:
+        _to_a_fitting_place(sense, item, options)
     verdicts = _in_order(items, activity)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     return _moving_reply(items, _why(person, activity, variables, before), verdicts)
@@ -141,19 +143,26 @@ def scene_type2(
     for item in items:
         spot = _mend(sense, item, item.act.target, item.act.target_id, fixed)
         if spot is not None:
-            item.act = item.act.model_copy(update={"target": spot.name, "target_id": spot.id})
+            _move(item, spot)
     _find_repeats(items)
     _heed(items, variables["findings"])
+    options = spots(sense, activity, fixed)
+    things = _usable_first(sense, activity, activity.thing_names, options)
     for item in items:
         if any(MENDED not in said for said in item.problems):
-            _other_thing(items, item, activity, activity.thing_names)
+            _other_thing(items, item, activity, things)
+    for item in items:
+        _to_a_fitting_place(sense, item, options)
     verdicts = [_verdict(item) for item in items]
     del items[count:]
-    options = [piece for some in spots(sense, activity, fixed).values() for piece in some]
-    for thing in activity.thing_names:
+    for thing in things:
         if len(items) < count and options and thing not in [item.act.in_hand for item in items]:
-            act = free_motion(options[0], thing, activity.things[thing])
-            items.append(_Item("", f"One more: I {act.describe()}.", act))
+            more = _Item(
+                "", "", free_motion(by_name(next(iter(options.values())), thing), thing, activity.things[thing])
+            )
+            _to_a_fitting_place(sense, more, options)
+            more.thought = f"One more: I {more.act.describe()}."
+            items.append(more)
     return _moving_reply(items, _plainly(variables), verdicts)
 
 
@@ -241,19 +250,34 @@ def _other_thing(
         item.thought = f"Better: I {item.act.describe()}."
 
 
-def _vary_motions(
-    items: Sequence[_Item[FreeMotion]], activity: Activity, rng: np.random.Generator, sense: CommonSense
-) -> None:
-    """Where one motion would be made over and over, make another of the activity's motions instead."""
+def _usable_first(
+    sense: CommonSense, activity: Activity, things: Sequence[str], options: Mapping[str, Sequence[Piece]]
+) -> list[str]:
+    return sorted(things, key=lambda thing: not usable(sense.household, activity, thing, options))
+
+
+def _vary_motions(items: Sequence[_Item[FreeMotion]], activity: Activity, things: Sequence[str]) -> None:
+    """Where one motion would be made over and over, take a thing with which one does something else."""
     for item in items:
         made = [other.act.motion for other in items]
-        suits, place = sense.household.suits, class_of(item.act.target)
-        others = [motion for motion in activity.all_motions if motion not in made and suits(motion, place)]
+        taken = {other.act.in_hand for other in items}
+        others = [thing for thing in things if activity.things[thing] not in made and thing not in taken]
         if made.count(item.act.motion) > MONOTONE and others:
-            motion = others[int(rng.integers(len(others)))]
             item.problems.append(f"too often the same: {item.act.motion}")
-            item.act = item.act.model_copy(update={"motion": motion})
-            item.thought = f"For a change, I {item.act.describe()}."
+            _other_thing(items, item, activity, others)
+
+
+def _to_a_fitting_place(sense: CommonSense, item: _Item[FreeMotion], options: Mapping[str, Sequence[Piece]]) -> None:
+    """Go where the motion can be made, if the activity has such a place here."""
+    suits, motion = sense.household.suits, item.act.motion
+    fitting = next((pieces for cls, pieces in options.items() if suits(motion, cls)), None)
+    if fitting is not None and not suits(motion, class_of(item.act.target)):
+        item.problems.append(f"nobody would {motion} at the {plain(item.act.target)}")
+        _move(item, by_name(fitting, motion))
+
+
+def _move(item: _Item[FreeMotion], spot: Piece) -> None:
+    item.act = item.act.model_copy(update={"target": spot.name, "target_id": spot.id})
 
 
 def _in_order(items: list[_Item[FreeMotion]], activity: Activity) -> list[VerdictReply]:

@@ -66,10 +66,20 @@ def test_meals_come_at_mealtimes_on_most_days_and_the_night_is_prepared_at_night
     days = len(_days())
     assert sum(hours["lunch"][h] for h in (11, 12, 13, 14)) >= 0.7 * days
     assert sum(hours["dinner"][h] for h in (17, 18, 19, 20)) >= 0.6 * days
-    assert hours["bedtime"][20] + hours["bedtime"][21] > 0.3 * days
-    assert not set(hours["bedtime"]) - {19, 20, 21}
+    nights = hours["bedtime"]
+    assert nights[20] + nights[21] >= 0.75 * days
+    assert nights[19] == nights.total() - nights[20] - nights[21] <= 0.1 * days
     assert not set(hours["breakfast"]) - {9, 10, 11}
     assert not set(hours["lunch"]) - {10, 11, 12, 13, 14, 15, 16}
+
+
+def test_after_the_evening_routine_only_quiet_things_follow() -> None:
+    known = shipped().activities[shipped().index["bedtime"]]
+    nights = [day[day.index("bedtime") + 1 :] for day in _days() if "bedtime" in day]
+    today = [memory(known.wordings[0], 0, 20, Clock(day=0, hour=21))]
+    late = {activity(intend(PEOPLE[0], 21, seed=s, today=today).intention) for s in range(40)}
+    assert 3 <= len(late) <= len(known.follows)
+    assert late | {doing for night in nights for doing in night} <= set(known.follows)
 
 
 def test_people_differ_from_each_other_more_than_from_themselves() -> None:

@@ -69,6 +69,17 @@ def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
     for activity in ACTIVITIES:
         assert {thing for thing, _ in activity.places} <= set(catalogue["movable"])
         assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
+    assert shipped().furniture <= set(catalogue["fixed"])
+
+
+def test_each_motion_of_an_activity_can_be_made_at_one_of_its_spots() -> None:
+    suits = shipped().suits
+    homeless = [(a.id, m) for a in ACTIVITIES for m in a.all_motions if not any(suits(m, spot) for spot in a.fixed)]
+    assert homeless == []
+    assert suits("chop vegetables", "kitchen_counter")
+    assert not suits("chop vegetables", "armchair")
+    assert suits("chop vegetables", "ping_pong_table")  # unknown to the file
+    assert suits("dance", "armchair")  # needs no special place
 
 
 def test_everything_that_is_placed_fits_where_it_is_placed() -> None:
@@ -148,6 +159,12 @@ def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field
     with pytest.raises(ConfigError, match=said) as refused:
         load(path)
     assert str(path) in str(refused.value)
+
+
+def test_a_place_for_a_motion_that_does_not_exist_is_refused(tmp_path: Path) -> None:
+    path = _broken(tmp_path, lambda data: data["done_at"].update({"fly": ["sofa"]}))
+    with pytest.raises(ConfigError, match=r"household\.yaml: field 'done_at': 'fly' is not listed under looks_like"):
+        load(path)
 
 
 def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:

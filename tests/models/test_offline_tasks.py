@@ -42,6 +42,8 @@ def test_every_wording_of_every_activity_becomes_that_activitys_tasks(known: Act
         assert len({task.act.in_hand for task in moves}) == 5
         assert {class_of(task.act.target) for task in moves} <= set(known.fixed)
         assert {task.act.motion for task in moves} <= set(known.all_motions)
+        assert [t.act for t in moves if t.act.motion not in shipped().uses[t.act.in_hand]] == []
+        assert [t.act for t in moves if not shipped().suits(t.act.motion, class_of(t.act.target))] == []
         places = _places(person(), wording, seed=seed)
         assert {(class_of(t.act.object), class_of(t.act.receptacle)) for t in places} <= set(known.places)
         assert len({task.act.describe() for task in places}) == 3
@@ -174,6 +176,24 @@ def _reflect(prompt: str, tasks: Any, who: dict[str, Any] | None = None, **chang
         extra |= {**(who or person()), **_NOTHING}
     given_ = {**when(0, 10), "intention": BAKE, "fixed": FIXED, **extra, **changed}
     return ask(prompt, **given_, tasks=tasks if isinstance(tasks[0], dict) else as_tasks(tasks))
+
+
+def test_the_first_reflection_moves_a_motion_to_where_it_can_be_made() -> None:
+    tasks = as_tasks(_moves(person()))
+    tasks[0]["act"] |= {"motion": "knead dough", "target": "stove_1", "target_id": FIXED["stove_1"][0]}
+    reply = _reflect("human/reflect_profile_type2", tasks)
+    assert "nobody would knead dough at the stove" in reply.verdicts[0].reason
+    moved = next(t.act for t in reply.tasks if t.act.motion == "knead dough")
+    assert class_of(moved.target) in ("kitchen_counter", "kitchen_cabinet", "dining_table")
+
+
+def test_a_home_without_the_usual_places_still_puts_things_where_somebody_would() -> None:
+    fixed = {name: FIXED[name] for name in ("fridge_1", "kitchen_counter_1", "bookshelf_1")}
+    movable = {name: MOVABLE[name] for name in ("glass_1", "mug_1", "book_1", "plate_1", "tuna_can_1", "spoon_1")}
+    placed = {
+        (class_of(t.act.object), class_of(t.act.receptacle)) for t in _places(person(), fixed=fixed, movable=movable)
+    }
+    assert placed <= shipped().usual_places
 
 
 @pytest.mark.parametrize("kind", ["type1", "type2"])
