@@ -33,9 +33,9 @@ from langchain_core.embeddings import Embeddings
 from typing_extensions import override
 
 from memory import MemoryStream, Record, bundled
+from memory.embeddings import unit
 from memory.minilm import Vector, shared
 from memory.scan import ArrayRows, top
-from memory.stream import unit
 
 DECAY = 0.95
 K = 5

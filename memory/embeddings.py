@@ -21,6 +21,7 @@ _LOG = logging.getLogger(__name__)
 _HUGGING_FACE = "Hugging Face "
 _IN_RAM = 65_536  # vectors kept in RAM; 100 MB of MiniLM's
 _PER_QUERY = 500
+_UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
 
 Encode = Callable[[str], Vector]
@@ -262,3 +263,21 @@ def identity(embeddings: Embeddings) -> str:
     name = getattr(embeddings, "model_name", None) or getattr(embeddings, "model", None)
     kind = type(embeddings).__qualname__
     return f"{kind} {name}" if isinstance(name, str) else kind
+
+
+def unit(vectors: Vector, texts: Sequence[str]) -> Vector:
+    """Scale vectors to unit norm, leaving alone those that have it.
+
+    Args:
+        vectors: Shape (n, d).
+        texts: What they stand for, for messages.
+
+    Raises:
+        MemoryStoreError: If a vector is not finite, or zero.
+    """
+    norms = np.sqrt(np.square(vectors, dtype=np.float64).sum(1))
+    for text, norm in zip(texts, norms, strict=True):
+        if not np.isfinite(norm) or norm == 0:
+            raise MemoryStoreError(f"the embeddings gave a vector of norm {norm} for the text {text[:60]!r}")
+    scaled = (vectors / norms[:, None]).astype(np.float32)
+    return np.where((np.abs(norms - 1) <= _UNIT_ERROR)[:, None], vectors, scaled)

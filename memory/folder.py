@@ -24,19 +24,23 @@ class DamagedMemoryError(MemoryStoreError):
     Attributes:
         where: The store, and the stream if it is known.
         what: What is wrong.
+        interrupted: Whether its last writer ended without closing it, which explains a half-written index.
     """
 
-    def __init__(self, where: str, what: str) -> None:
+    def __init__(self, where: str, what: str, *, interrupted: bool = False) -> None:
         """Tell of the damage and of the way out."""
         super().__init__(f"{where}: the memory is damaged: {what}; `coopera memory repair` rebuilds it from its texts")
         self.where = where
         self.what = what
+        self.interrupted = interrupted
 
 
 def check_folder(folder: Path, create: bool) -> None:
     """Make sure that a folder is a store or may become one."""
     if folder.exists() and not folder.is_dir():
         raise ConfigError(f"{folder}: a memory store is a folder, and this is a file")
+    if not folder.exists() and repaired(folder).exists():  # complete, since it was about to take the store's place
+        repaired(folder).rename(folder)
     if (folder / CHROMA).exists():
         return
     others = (
@@ -50,6 +54,11 @@ def check_folder(folder: Path, create: bool) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as err:
         raise ConfigError(f"{folder}: the memory store cannot be created: {err}") from err
+
+
+def repaired(folder: Path) -> Path:
+    """Return where a store is rebuilt before it takes the place of the damaged one."""
+    return folder.with_name(f"{folder.name}.repaired")
 
 
 def lock(folder: Path) -> IO[str]:
@@ -102,6 +111,16 @@ def seal(folder: Path) -> None:
     """Note the state in which the store was closed."""
     with suppress(OSError):  # without a seal, the next opening looks more closely
         (folder / _SEAL).write_text(json.dumps(_files(folder)))
+
+
+def unseal(folder: Path) -> None:
+    """Note that the store is open, by taking away its seal."""
+    (folder / _SEAL).unlink(missing_ok=True)
+
+
+def was_closed(folder: Path) -> bool:
+    """Whether the last process to open the store also closed it, whatever became of the files since."""
+    return (folder / _SEAL).exists()
 
 
 def is_as_sealed(folder: Path) -> bool:

@@ -2,16 +2,18 @@
 
 Vectors live in the index's files, texts in a SQLite database. The texts are read from there directly, past Chroma,
 which may refuse, or end the process, over a damaged index; then they are encoded again into a new store beside the
-damaged one, and the two change places. The damaged store is kept.
+damaged one, and the two change places. The damaged store is kept. `repair` is for the user, `heal` for what a crash
+alone explains.
 """
 
 from __future__ import annotations
 
 import json
+import logging
 import math
 import shutil
 import sqlite3
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from contextlib import closing
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,13 +22,13 @@ from langchain_core.embeddings import Embeddings
 
 from core.errors import ConfigError, MemoryStoreError
 from memory.damage import damage
-from memory.embeddings import as_array, by_identity, identity
-from memory.folder import CHROMA, locked
+from memory.embeddings import as_array, by_identity, identity, unit
+from memory.folder import CHROMA, DamagedMemoryError, locked, repaired
 from memory.log import Log, Record, restored
 from memory.numbering import Numbering, position_of
 from memory.store import Store
-from memory.stream import unit
 
+_LOG = logging.getLogger(__name__)
 _PAGE = 500
 
 
@@ -71,21 +73,53 @@ def repair(folder: Path, embeddings: Embeddings | None = None) -> list[Repaired]
     with locked(folder):
         if damage(folder, everything=True) is None:
             return []
-        fresh = folder.with_name(f"{folder.name}.repaired")
-        shutil.rmtree(fresh, ignore_errors=True)  # of a repair that was interrupted
         salvages = _salvage(folder)
         models = {s.model: embeddings if embeddings is not None else by_identity(s.model) for s in salvages}
         for model, given in models.items():
             if identity(given) != model:
                 raise MemoryStoreError(f"{folder}: was written with the embeddings {model!r}, not {identity(given)!r}")
-        done = [_rebuild(fresh, salvage, models[salvage.model]) for salvage in salvages]
-        fresh.mkdir(exist_ok=True)  # where there was no stream at all
-        folder.rename(_unused(folder.with_name(f"{folder.name}.damaged")))
-        fresh.rename(folder)
-    return done
+        _exchange(folder, salvages, models)
+    return [_outcome(salvage) for salvage in salvages]
 
 
-def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> Repaired:
+def heal(damage: DamagedMemoryError, embeddings: Embeddings) -> None:
+    """Rebuild a store whose last writer was killed, provided that nothing of it is lost by that.
+
+    Args:
+        damage: How it was found; names the store.
+        embeddings: Those of one of its streams; those of other streams are found by their name.
+
+    Raises:
+        DamagedMemoryError: The damage, if a record is missing or altered, or if a stream's embeddings are unknown.
+        MemoryStoreError: If the store is in use, or the texts cannot be read.
+    """
+    folder = Path(damage.where)
+    with locked(folder):
+        salvages = _salvage(folder)
+        if any(salvage.missing or salvage.altered for salvage in salvages):
+            raise damage
+        models = {identity(embeddings): embeddings}
+        try:
+            models |= {salvage.model: by_identity(salvage.model) for salvage in salvages if salvage.model not in models}
+        except MemoryStoreError as err:
+            raise damage from err
+        kept = _exchange(folder, salvages, models)
+    _LOG.warning("%s: %s, after a crash; rebuilt from its texts without loss (kept: %s)", folder, damage.what, kept)
+
+
+def _exchange(folder: Path, salvages: list[_Salvage], models: Mapping[str, Embeddings]) -> Path:
+    """Put a new store of the salvaged records in the place of the damaged one; return where that now is."""
+    fresh, kept = repaired(folder), _unused(folder.with_name(f"{folder.name}.damaged"))
+    shutil.rmtree(fresh, ignore_errors=True)  # of a repair that was interrupted
+    for salvage in salvages:
+        _rebuild(fresh, salvage, models[salvage.model])
+    fresh.mkdir(exist_ok=True)  # where there was no stream at all
+    folder.rename(kept)
+    fresh.rename(folder)  # if this is not reached, the next opening does it
+    return kept
+
+
+def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> None:
     """Write one stream into a new store."""
     store = Store.open(folder)
     try:
@@ -98,6 +132,10 @@ def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> Repaire
             log.append(texts, vectors, [record.hour for record in page], [record.metadata for record in page])
     finally:
         store.close()
+
+
+def _outcome(salvage: _Salvage) -> Repaired:
+    """Tell what became of a stream."""
     return Repaired(salvage.stream, len(salvage.records), salvage.missing, salvage.altered)
 
 

@@ -8,8 +8,7 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from core.errors import ConfigError
-from memory.embeddings import as_array
-from memory.stream import unit
+from memory.embeddings import as_array, unit
 
 
 class Search:

@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING, Any, TypeVar
 from core.errors import ConfigError, MemoryStoreError
 from memory.client import connect, disconnect, open_client, translated
 from memory.damage import damage
-from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal
+from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal, unseal, was_closed
 
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
@@ -88,7 +88,8 @@ class Store:
             if not is_as_sealed(folder):
                 reason = damage(folder)
                 if reason is not None:
-                    raise DamagedMemoryError(str(folder), reason)
+                    raise DamagedMemoryError(str(folder), reason, interrupted=not was_closed(folder))
+            unseal(folder)
             return cls(open_client(folder), str(folder), folder, holding)
         except MemoryStoreError:
             holding.close()

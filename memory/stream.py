@@ -14,13 +14,14 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
-import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from core.errors import ConfigError, MemoryStoreError
-from memory.embeddings import as_array, identity
+from memory.embeddings import as_array, identity, unit
+from memory.folder import DamagedMemoryError
 from memory.log import Log, Record
 from memory.minilm import Vector
+from memory.rebuild import heal
 from memory.scan import top
 from memory.store import Store
 
@@ -31,7 +32,6 @@ DECAY = 0.95  # PAPER §3.2: per hour
 MAX_TEXT = 100_000
 """Characters per record or query."""
 
-_UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PAGE = 1000
 _FAR = 10**9  # hours; a hundred thousand years
 
@@ -85,6 +85,10 @@ class MemoryStream:
     ) -> Self:
         """Open a stream, or make it.
 
+        A process that is killed while Chroma writes its index leaves that half-written. The index only doubles what the
+        database holds, so such a store is rebuilt from its texts before it is opened, if every one of them is whole;
+        a warning tells so, and the half-written store is kept. All other damage is left to `memory.repair`.
+
         Args:
             path_or_client: Folder of the store; or URL of a Chroma server, such as "http://localhost:8000"; or a
                 Chroma client.
@@ -100,7 +104,13 @@ class MemoryStream:
         """
         if not 0 < decay <= 1:
             raise ConfigError(f"the decay of a memory stream must be above 0 and at most 1, not {decay}")
-        store = Store.open(path_or_client, create=create)
+        try:
+            store = Store.open(path_or_client, create=create)
+        except DamagedMemoryError as damage:
+            if not damage.interrupted:
+                raise
+            heal(damage, embeddings)
+            store = Store.open(path_or_client, create=create)
         try:
             store.collection(name, identity(embeddings), create=create)
             where = f"{store.where}: the memory stream {name!r}"
@@ -289,24 +299,6 @@ class MemoryStream:
         except (TypeError, ValueError) as err:
             raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
         return Record(record.text, _whole(record.hour, "the hour of a memory"), dict(record.metadata))
-
-
-def unit(vectors: Vector, texts: Sequence[str]) -> Vector:
-    """Scale vectors to unit norm, leaving alone those that have it.
-
-    Args:
-        vectors: Shape (n, d).
-        texts: What they stand for, for messages.
-
-    Raises:
-        MemoryStoreError: If a vector is not finite, or zero.
-    """
-    norms = np.sqrt(np.square(vectors, dtype=np.float64).sum(1))
-    for text, norm in zip(texts, norms, strict=True):
-        if not np.isfinite(norm) or norm == 0:
-            raise MemoryStoreError(f"the embeddings gave a vector of norm {norm} for the text {text[:60]!r}")
-    scaled = (vectors / norms[:, None]).astype(np.float32)
-    return np.where((np.abs(norms - 1) <= _UNIT_ERROR)[:, None], vectors, scaled)
 
 
 def _check_text(text: str, what: str) -> None:

@@ -120,6 +120,37 @@ def test_any_damage_to_the_index_is_told_and_rebuilt_or_does_no_harm(store: Path
     assert answers(store) == expected
 
 
+def test_an_index_left_half_written_by_a_crash_is_rebuilt_on_opening_and_told(
+    store: Path, whole: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    expected = answers(whole)
+    (store / "closed.json").unlink()  # as while a process has it open
+    index_file("link_lists.bin", halved)(store)
+    assert answers(store) == expected
+    assert "after a crash; rebuilt from its texts without loss" in caplog.text
+    assert sorted(path.name for path in store.parent.iterdir()) == ["memory", "memory.damaged"]
+
+
+def test_a_crash_that_took_a_record_with_it_is_told_instead_of_healed(store: Path) -> None:
+    (store / "closed.json").unlink()
+    index_file("link_lists.bin", halved)(store)
+    sql("DELETE FROM embeddings WHERE id = 300")(store)
+    with pytest.raises(DamagedMemoryError, match=TELLS):
+        answers(store)
+    assert sorted(path.name for path in store.parent.iterdir()) == ["memory"]
+
+
+def test_a_rebuilding_that_was_killed_between_its_two_renamings_is_finished(store: Path, whole: Path) -> None:
+    store.rename(store.with_name("memory.repaired"))
+    assert answers(store) == answers(whole)
+
+
+def test_a_store_that_is_open_bears_no_seal(store: Path) -> None:
+    with MemoryStream.open(store, "x", Letters()):
+        assert not (store / "closed.json").exists()
+    assert (store / "closed.json").exists()
+
+
 def test_a_text_that_was_changed_behind_our_back_is_not_served(store: Path) -> None:
     sql("UPDATE embedding_metadata SET string_value = 'evil' WHERE key = 'chroma:document' AND id = 1200")(store)
     with (

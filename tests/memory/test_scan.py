@@ -13,9 +13,9 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from memory import CachedEmbeddings, MemoryStream
+from memory.embeddings import unit
 from memory.minilm import Vector
 from memory.scan import ArrayRows, top
-from memory.stream import unit
 
 QUERIES_EACH = 10
 
