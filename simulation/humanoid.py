@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from simulation.rotations import Array, about_y, matrix, posed, quaternion, slerp
+from simulation.rotations import Array, about_y, cross, matrix, posed, quaternion, slerp
 
 Side = Literal["right", "left"]
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -141,16 +141,16 @@ def bend_limb(root: Array, target: Array, bones: tuple[float, float], pole: Arra
     sin = math.sqrt(max(0.0, 1 - cos * cos))
     first = along * cos + across * sin
     second = (along * reached - first * upper) / lower
-    hinge = np.cross(across, along)
+    hinge = cross(across, along)
     y = -hinge if arm else hinge
     z = -first
-    turn = np.stack((np.cross(y, z), y, z), axis=1)
+    turn = np.stack((cross(y, z), y, z), axis=1)
     return Limb(turn, math.acos(min(max(float(first @ second), -1.0), 1.0)), abs(distance - reached))
 
 
 def _any_normal(line: Array) -> Array:
     other = np.array((1.0, 0.0, 0.0)) if abs(float(line[0])) < 0.9 else np.array((0.0, 1.0, 0.0))
-    normal = np.cross(line, other)
+    normal = cross(line, other)
     found: Array = normal / math.sqrt(float(normal @ normal))
     return found
 
