@@ -159,6 +159,7 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
         renderer=config.renderer,
         motions=motions,
         match=match,
+        errors=config.perception,
     )
 
 

@@ -14,7 +14,7 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from coopera.files import read_yaml
 from core.clock import FIRST_HOUR, HOURS_PER_DAY
 from core.errors import ConfigError
-from core.household import Collab
+from core.household import Collab, PerceptErrors
 from core.people import Frozen
 from models.settings import Budget, CallSettings
 
@@ -57,6 +57,10 @@ _EXPECTED = {
     "lived": "the path of a finished run without a robot",
     "renderer": "tiny or egl",
     "frame_size": "two whole numbers from 32 to 2048, [width, height]",
+    "perception": "a mapping with any of motion_confused, in_hand_missed and joint_noise",
+    "perception.motion_confused": "a share from 0 to 1",
+    "perception.in_hand_missed": "a share from 0 to 1",
+    "perception.joint_noise": "a number of metres from 0 to 1",
     "budget": "a mapping with calls, tokens or both",
     "budget.calls": "a whole number from 1 up",
     "budget.tokens": "a whole number from 1 up",
@@ -127,6 +131,7 @@ class Config(Frozen):
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels; 1024x768 where the robot's model is not the offline one.
         renderer: What draws the pictures.
+        perception: How the perception errs by which a robot is told of the person whose model sees no pictures.
         calls: How models are called (`models.settings.CallSettings`).
         schedule: The days of one episode, each a person and a home, in place of the setting's own order.
         backbone: The robot's language model in methods that are there to try another one.
@@ -162,6 +167,7 @@ class Config(Frozen):
     frames: Annotated[int, Field(strict=True, ge=1, le=64)] = 8
     frame_size: tuple[Pixels, Pixels] = SMALL
     renderer: Literal["tiny", "egl"] = "tiny"
+    perception: PerceptErrors = PerceptErrors()
     calls: CallSettings = CallSettings()
     schedule: Annotated[list[tuple[Text, Text]], Field(min_length=1, max_length=366)] | None = None
     backbone: Text = "offline:words"
@@ -201,7 +207,12 @@ class Config(Frozen):
         return yaml.safe_dump(data, sort_keys=False, allow_unicode=True, width=120)
 
 
-_SECTIONS: dict[str, type[Frozen]] = {"models": Models, "calls": CallSettings, "budget": Budget}
+_SECTIONS: dict[str, type[Frozen]] = {
+    "models": Models,
+    "perception": PerceptErrors,
+    "calls": CallSettings,
+    "budget": Budget,
+}
 
 
 def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:

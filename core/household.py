@@ -74,8 +74,8 @@ class Percept(Frozen):
     """What a perception module reports of the first task: seen things only, with its errors.
 
     `near`: fixed objects at which the person acted, nearest first, by name.
-    `motion`: the recognised motion label; may be wrong. `in_hand`: the class of the thing seen in the
-    hand, or None. `visible`: names of objects seen from the robot, sorted.
+    `motion`: the recognised motion label, empty where none was; may be wrong. `in_hand`: the class of the thing seen
+    in the hand, or None. `visible`: names of objects seen from the robot, sorted.
     """
 
     room: str
@@ -88,7 +88,19 @@ class Percept(Frozen):
         """The percept as one sentence for a model that cannot look at pictures."""
         at = f" at the {plain(self.near[0])}" if self.near else ""
         thing = f", holding something like a {plain(self.in_hand)}" if self.in_hand else ""
-        return f"In the {self.room}, the person seems to {self.motion}{at}{thing}."
+        doing = f"seems to {self.motion}" if self.motion else "is"
+        return f"In the {self.room}, the person {doing}{at}{thing}."
+
+
+class PerceptErrors(Frozen):
+    """How often and how far perception errs: shares in [0, 1], and metres."""
+
+    motion_confused: float = Field(0.15, ge=0, le=1)
+    """Another motion class of the same posture is reported than the one that was recognised."""
+    in_hand_missed: float = Field(0.20, ge=0, le=1)
+    """The thing in the hand is not recognised."""
+    joint_noise: float = Field(0.03, ge=0, le=1)
+    """Standard deviation of each coordinate of a joint (metres): 0.03 puts a joint 5 cm off on average."""
 
 
 def plain(name: str) -> str:

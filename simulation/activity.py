@@ -54,7 +54,6 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": act.in_hand})
     plan.steps.append(Play(person, motion))
     plan.state = plan.state.model_copy(update={"person": person})
-    plan.motion = motion
     hands = _hands(person, motion)
     things = [target] if used is target else [target, used]
     plan.at = [thing.name for thing in sorted(things, key=lambda thing: round(thing.bounds.distance(*hands), 3))]
@@ -68,7 +67,6 @@ def stay(ground: Ground, state: HomeState, watch: Watch) -> Plan:
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(person, motion))
-    plan.motion = motion
     plan.at = [person.at] if person.at is not None else []
     return plan
 

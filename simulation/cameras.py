@@ -47,6 +47,11 @@ def body_points(person: Placed) -> Array:
     return turned
 
 
+def around(scene: Scene, person: Placed) -> tuple[str, ...]:
+    """Furniture that a body is on or in: its hull would stop all rays to them."""
+    return tuple(thing.name for thing in scene.fixed if thing.bounds.distance(person.x, person.y) < 0.05)
+
+
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
     """The camera in the robot's head."""
     place, direction = body.camera(robot.pose)

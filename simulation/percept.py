@@ -1,5 +1,7 @@
 """What a perception module tells of a recorded act: coarse, sometimes wrong, and nothing that was not seen.
 
+Objects are seen where rays meet them; the person's motion is recognised from their joints (`simulation.pose_matching`).
+
 It stands in for a model that looks at the pictures, where the robot's own model cannot; it needs no pictures.
 """
 
@@ -9,27 +11,19 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from pydantic import Field
 
-from core.household import Percept
-from core.people import Frozen
-from simulation.cameras import ROBOT_FOV, robot_camera
+from core.household import Percept, PerceptErrors
+from simulation.cameras import ROBOT_FOV, around, robot_camera
 from simulation.motions import Library
-from simulation.recording import Moment, Recording
-from simulation.rotations import Array
+from simulation.plans import Placed
+from simulation.pose_matching import PARTS, matcher, skeleton
+from simulation.recording import TICKS, Moment, Recording
+from simulation.rotations import Array, about_z
 from simulation.scene import Scene
-from simulation.stage import Stage
+from simulation.stage import Camera, Stage
 
-
-class Errors(Frozen):
-    """How often perception errs: shares in [0, 1]."""
-
-    motion_confused: float = Field(0.15, ge=0, le=1)
-    """Another motion class of the same posture is reported."""
-    in_hand_missed: float = Field(0.20, ge=0, le=1)
-    """The thing in the hand is not recognised."""
-
-
+INSTANTS = 8
+"""At how many moments the person's joints are looked at: as many as a run takes pictures, if nothing else is asked."""
 _RANGE = 6.0
 
 
@@ -39,22 +33,25 @@ def perceive(
     recording: Recording,
     library: Library,
     *,
-    errors: Errors,
+    errors: PerceptErrors,
     class_of: Callable[[str], str],
     rng: np.random.Generator,
 ) -> Percept:
-    """Report the recording's last deed; always draws three numbers, so that other errors stay the same.
+    """Report the recording's last deed; what is drawn for one error never changes another.
 
-    The motion is named by its class, never by its caption, and the thing in hand by its class.
+    The motion is what pose matching makes of the joints that the camera saw, whatever was played; it is named by its
+    class, never by its caption, and so is the thing in hand.
     """
     shot = recording.shots[-1]
     moment = shot.at(shot.deed)
     stage.show(recording.state, moment)
     confused, which, missed = rng.random(3)
-    label = ""
-    if recording.motion is not None:
-        label = recording.motion.cls
-        others = library.confusable(recording.motion)
+    joints, seconds = seen_joints(stage, scene, recording, INSTANTS)
+    noise = rng.normal(0.0, errors.joint_noise, joints.shape)
+    motion, label = matcher(library).match(joints + noise, seconds), ""
+    if motion is not None:
+        label = motion.cls
+        others = library.confusable(motion)
         if confused < errors.motion_confused and others:
             label = others[int(which * len(others))]
     in_hand = recording.in_hand if missed >= errors.in_hand_missed else None
@@ -65,6 +62,44 @@ def perceive(
         in_hand=class_of(in_hand) if in_hand else None,
         visible=visible_from_robot(stage, scene, recording, moment),
     )
+
+
+def seen_joints(stage: Stage, scene: Scene, recording: Recording, count: int) -> tuple[Array, Array]:
+    """The person's joints at uniformly sampled moments, as far as the robot's head camera sees them.
+
+    A joint is seen if it lies within the picture and no furniture stands before it; what the person sits or lies on
+    hides nothing.
+
+    Returns:
+        Joint positions (count, 13, 3) in the world, NaN where not seen, and the moments in seconds (count,).
+    """
+    ticks = np.linspace(0, recording.ticks - 1, count).round().astype(int)
+    joints = np.full((count, len(PARTS), 3), np.nan)
+    found = [recording.find(int(tick)) for tick in ticks]
+    for index, shot in enumerate(recording.shots):
+        ignore = around(scene, shot.at(shot.deed).person)
+        stage.hide(ignore)
+        for i, (there, within) in enumerate(found):
+            if there == index:
+                moment = shot.at(within)
+                points = in_world(moment.person)
+                seen = _seen(stage, robot_camera(stage.body, moment.robot), points)
+                joints[i, seen] = points[seen]
+        stage.unhide(ignore)
+    return joints, ticks / TICKS
+
+
+def in_world(person: Placed) -> Array:
+    """A person's joints in the world, shape (13, 3)."""
+    turned: Array = skeleton(person.pose) @ about_z(person.yaw).T + np.array((person.x, person.y, 0.0))
+    return turned
+
+
+def _seen(stage: Stage, camera: Camera, points: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    eye, ahead = np.array(camera.eye), np.array(camera.target) - np.array(camera.eye)
+    hits = stage.rays(np.repeat(eye[None], len(points), axis=0), points)
+    free = np.array([hit < 0 or stage.small(int(hit)) for hit in hits])
+    return np.asarray(free & _in_picture(points - eye, ahead))
 
 
 def visible_from_robot(stage: Stage, scene: Scene, recording: Recording, moment: Moment) -> list[str]:

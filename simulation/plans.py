@@ -108,7 +108,6 @@ class Plan:
     steps: list[Step] = field(default_factory=list)
     metres: float = 0.0
     at: list[str] = field(default_factory=list)
-    motion: Motion | None = None
     blocked: str | None = None
 
     def mark(self) -> tuple[HomeState, int, float]:

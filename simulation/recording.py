@@ -16,7 +16,7 @@ import numpy as np
 from core.household import Agent
 from simulation.humanoid import SLICES, blend
 from simulation.humanoid_reach import carrying, reaching, standing
-from simulation.motions import Hold, Library, Motion
+from simulation.motions import Hold, Library
 from simulation.motions_poses import Setting, clip, pose_at
 from simulation.navigation import Stand
 from simulation.plans import Give, Handle, Placed, Play, Step, Turn, Walk
@@ -64,11 +64,10 @@ class Shot:
 
 @dataclass(slots=True)
 class Recording:
-    """A recorded act: the home before it, the shots, and what a percept may tell of it."""
+    """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done."""
 
     state: HomeState
     shots: list[Shot] = field(default_factory=list)
-    motion: Motion | None = None
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
 

@@ -209,8 +209,6 @@ def pick_place(ground: Ground, state: HomeState, agent: Agent, act: PickPlace, w
     if agent == "robot":
         _refuse_full_gripper(ground, state)
     plan = Plan(state.with_person(thing=None) if agent == "human" else state.with_robot(thing=None))
-    if agent == "human":
-        plan.motion = ground.motions["put things away on a shelf"]
     take(ground, plan, agent, thing, watch)
     put(ground, plan, agent, thing, receptacle, watch)
     plan.at.reverse()

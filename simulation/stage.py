@@ -160,6 +160,12 @@ class Stage:
             if thing is not None:
                 self.home.move(name, thing.position, thing.yaw)
 
+    def small(self, body: int) -> bool:
+        """Whether a body is a thing that can be carried, of the home or from the magic box."""
+        name = self.home.names.get(body, "")
+        thing = self.scene.object(name)
+        return name in self._carried or (thing is not None and not thing.fixed)
+
     def rays(self, starts: Array, ends: Array) -> NDArray[np.int64]:
         """Body that each ray hits first, -1 for none; starts and ends have shape (n, 3)."""
         hits: list[int] = []

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from simulation.cameras import Focus, robot_camera, view_camera, watching_place
+from simulation.cameras import Focus, around, robot_camera, view_camera, watching_place
 from simulation.engine import Renderer
 from simulation.plans import Ground, Placed, Plan, Turn, UnableError, discs
 from simulation.recording import Moment, Recording, robot_still
@@ -97,5 +97,4 @@ class Watcher:
     def _focus(self, person: Placed) -> Focus:
         """The person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
         scene = self.ground.scene
-        around = tuple(thing.name for thing in scene.fixed if thing.bounds.distance(person.x, person.y) < 0.05)
-        return Focus(person, around, scene.room_at(person.x, person.y).name)
+        return Focus(person, around(scene, person), scene.room_at(person.x, person.y).name)

@@ -13,14 +13,14 @@ from PIL import Image
 from pydantic import ValidationError
 
 from core.errors import SimulationError
-from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PickPlace
+from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
 from simulation import predicates, primitives
 from simulation.activity import free_motion, stay
 from simulation.elbowroom import Elbowroom
 from simulation.engine import Renderer
 from simulation.motions import Library, load_library
 from simulation.navigation import Navigator
-from simulation.percept import Errors, perceive
+from simulation.percept import perceive
 from simulation.plans import Ground, Plan, UnableError
 from simulation.primitives import Result
 from simulation.recording import TICKS, Filming, Recording
@@ -50,7 +50,7 @@ class World:
         renderer: Renderer = "tiny",
         motions: Library | None = None,
         match: Callable[[str], str] | None = None,
-        errors: Errors | None = None,
+        errors: PerceptErrors | None = None,
     ) -> None:
         """Set up a home in its initial state.
 
@@ -61,7 +61,7 @@ class World:
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
             match: Finds the caption of `motions` that a free-form text means; without it words are compared.
-            errors: How often the percept errs.
+            errors: How often and how far the percept errs.
 
         Raises:
             SimulationError: If nobody can stand anywhere in the home.
@@ -70,7 +70,7 @@ class World:
         self.scene = scene.id
         self.frame_size = frame_size
         self.renderer = renderer
-        self.errors = errors or Errors()
+        self.errors = errors or PerceptErrors()
         self.layout = scene
         self._library: Library = motions or load_library()
         self._ground = Ground(scene, Navigator(scene), self._library, load_robot(robot), Elbowroom(scene), match)
@@ -201,7 +201,6 @@ class World:
 
     def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
         recording = Filming(self._library, self._ground.robot, self.state).film(plan.steps, agent)
-        recording.motion = plan.motion or self._library[self.state.person.motion]
         recording.near, recording.in_hand = plan.at, in_hand
         self._recording = recording
         self.state = plan.state

@@ -78,6 +78,8 @@ def test_run_folders_are_numbered_without_a_clock(tmp_path: Path) -> None:
         ("humans: []", "humans must be a list of one or more persona ids, not []."),
         ("models: {human: 3}", "models.human must be a model such as offline, not 3."),
         ("frame_size: [320]", "frame_size must be two whole numbers from 32 to 2048, [width, height], not"),
+        ("perception: {motion_confused: 2}", "perception.motion_confused must be a share from 0 to 1, not 2."),
+        ("perception: {joint_nose: 0}", "there is no field 'joint_nose' (did you mean joint_noise?)."),
         ("pictures: film", "pictures must be sampled, none or video, not 'film'."),
         ("base_url: localhost", "base_url must be an address such as http://localhost:8000/v1, not 'localhost'."),
         ("- 1\n- 2", "the study file must be a mapping of fields to values, not a list."),

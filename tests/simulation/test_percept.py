@@ -5,11 +5,11 @@ import pytest
 from pydantic import ValidationError
 
 from core.errors import SimulationError
-from simulation.percept import Errors
+from core.household import PerceptErrors
 from simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
-SURE = Errors(motion_confused=0.0, in_hand_missed=0.0)
+SURE = PerceptErrors(motion_confused=0.0, in_hand_missed=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ def test_errors_come_at_their_rates() -> None:
     with World(flat()) as world:
         world.perform("human", move("sofa_1", "book", "sit and read"), record=True)
         draws = rng(1)
-        seen = [world.percept(draws) for _ in range(300)]
+        seen = [world.percept(draws) for _ in range(150)]
     wrong = np.mean([percept.motion != "look at something held" for percept in seen])
     missed = np.mean([percept.in_hand is None for percept in seen])
     assert wrong == pytest.approx(0.15, abs=0.06)
@@ -71,7 +71,7 @@ def test_errors_come_at_their_rates() -> None:
 
 
 def test_always_confused_is_never_right() -> None:
-    with World(flat(), errors=Errors(motion_confused=1.0, in_hand_missed=1.0)) as world:
+    with World(flat(), errors=PerceptErrors(motion_confused=1.0, in_hand_missed=1.0)) as world:
         world.perform("human", move("bed_1", "book", "lie and read"), record=True)
         percept = world.percept(rng())
     assert percept.motion == "rest lying"
@@ -104,4 +104,4 @@ def test_the_newest_recording_counts(home) -> None:
 
 def test_an_error_rate_is_a_share() -> None:
     with pytest.raises(ValidationError):
-        Errors(motion_confused=1.5)
+        PerceptErrors(motion_confused=1.5)
