@@ -1,13 +1,17 @@
-"""Does the robot learn? Success by day over the shipped people and several seeds, with intervals.
+"""Does the robot learn? Success by day over people and seeds on the very same days, with intervals.
 
-.venv/bin/python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,shuffled --out runs/learning
+    python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,shuffled --out runs/learning
+    python -m benchmarks.learning --humans spc-valid-0001,spc-valid-0002 --seeds 1 --methods ours:lora,frequency_prior
 
-Each seed lives with two of the ten people (seed 0 with the first two, and so on in turn), five days each, in one home,
-without pictures. Runs that are finished already are read, not done again. Prints a Markdown table: the mean predicate
-and judge F1 of each day over person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
+Each seed lives with two of the people (seed 0 with the first two, and so on in turn), five days each, in one home,
+without pictures: first alone, and then these days again with each method's robot. Runs that are finished already are
+read, not done again. Prints a Markdown table: the mean predicate and judge F1 of each day over person-episodes, and
+last day minus first day, each with a 95 % bootstrap interval.
 
-The method "shuffled" is ours with the yes and no of each day dealt out anew at random to the classifiers: what it gains
-is not learned from feedback.
+A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
+base here, unless --classifier-config gives another. The method "shuffled" is ours, but the yes and no of each day reach
+the classifiers dealt out anew at random, so that they have nothing to do with what was judged; all else (the retrieved
+days, the inferred picture, how many yes there were) is as it was. What it gains is not learned from feedback.
 """
 
 from __future__ import annotations
@@ -19,15 +23,15 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import Any
-
-import numpy as np
+from typing import Any, NamedTuple
 
 from coopera import Config, run_study
 from coopera.config import default_data_dir
 from coopera.humans import shipped_ids
 from core.hour import Example
+from core.household import Collab
 from core.protocols import Classifier
+from core.randomness import rng_at
 from evaluation import METHODS, register
 from evaluation.statistics import bootstrap_mean
 from memory.embeddings import bundled
@@ -37,7 +41,7 @@ PEOPLE_PER_SEED = 2
 
 
 class Shuffled:
-    """A classifier that learns from labels dealt out at random; all else is the inner one's."""
+    """A classifier that learns from each day's labels dealt out at random among that day's candidates."""
 
     def __init__(self, inner: Classifier) -> None:
         self._inner = inner
@@ -48,7 +52,7 @@ class Shuffled:
         dealt = list(examples)
         for day in sorted({example.day for example in examples}):
             rows = [row for row, example in enumerate(examples) if example.day == day]
-            for row, other in zip(rows, np.random.default_rng(day).permutation(rows), strict=True):
+            for row, other in zip(rows, rng_at(seed, "shuffled", day).permutation(rows), strict=True):
                 dealt[row] = examples[row].model_copy(update={"label": examples[other].label})
         return self._inner.train(dealt, seed=seed)
 
@@ -59,54 +63,90 @@ def shuffled(kind: Kind) -> Classifier:
     return Shuffled(make_classifier("kernel", kind=kind, embeddings=embeddings))
 
 
+class Job(NamedTuple):
+    """One run: a method, its classifier, a collaboration type and a seed; `ALONE` is the life without a robot."""
+
+    method: str
+    classifier: str
+    collab: Collab
+    seed: int
+
+
+ALONE = ("none", "kernel")
+
+
 def main() -> None:
     """Run what is missing and print the tables."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--days", type=int, default=5)
     parser.add_argument("--collab", default="1,2")
-    parser.add_argument("--methods", default="ours,random")
-    parser.add_argument("--classifier", default="kernel")
+    parser.add_argument("--methods", default="ours,random", help="comma-separated, each METHOD or METHOD:CLASSIFIER")
+    parser.add_argument("--classifier-config", type=Path, help="recipe of lora-instruct")
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("runs/learning"))
     args = parser.parse_args()
     types = [int(collab) for collab in args.collab.split(",")]
-    jobs = list(product(args.methods.split(","), types, range(args.seeds)))
+    methods = [tuple(f"{method}:kernel".split(":")[:2]) for method in args.methods.split(",")]
+    if args.classifier_config is None and any(classifier == "lora-instruct" for _, classifier in methods):
+        args.classifier_config = _tiny_recipe(args.out / "tiny-mistral")
+    jobs = [Job(*method, *rest) for method, *rest in product(methods, types, range(args.seeds))]
+    lives = [Job(*ALONE, *rest) for rest in product(types, range(args.seeds))]
     with ProcessPoolExecutor(args.workers) as pool:
-        summaries = list(pool.map(_summary, [(args, *job) for job in jobs]))
+        list(pool.map(_summary, [(args, life) for life in lives]))
+        summaries = list(pool.map(_summary, [(args, job) for job in jobs]))
     for collab in types:
-        _print_table(collab, args.days, [s for s, job in zip(summaries, jobs, strict=True) if job[1] == collab])
+        print(f"\nCollaboration type {collab}\n")
+        print("| method | measure | " + " | ".join(f"day {day + 1}" for day in range(args.days)) + " | last - first |")
+        print("|---|---|" + "---|" * (args.days + 1))
+        for method in methods:
+            mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
+            _print_rows(" ".join(method), args.days, mine)
 
 
-def _summary(job: tuple[argparse.Namespace, str, int, int]) -> dict[str, Any]:
-    args, method, collab, seed = job
-    folder = args.out / f"{method}-{args.classifier}-type{collab}-seed{seed}"
+def _tiny_recipe(folder: Path) -> Path:
+    from benchmarks.tiny_mistral import make_model, make_recipe  # noqa: PLC0415 - torch is heavy
+
+    recipe = folder / "recipe.yaml"
+    if not recipe.is_file():
+        make_model(folder / "base", hidden=64)
+        make_recipe(recipe, folder / "base", learning_rate=5e-3, batch=8, accumulation=1)
+    return recipe
+
+
+def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
+    args, job = given
+    folder = _folder(args.out, job)
     if (folder / "summary.json").is_file():
         found: dict[str, Any] = json.loads((folder / "summary.json").read_text())
         return found
     people = args.humans.split(",") if args.humans else list(shipped_ids())
-    first = seed * PEOPLE_PER_SEED % len(people)
+    first = job.seed * PEOPLE_PER_SEED % len(people)
     register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
+    alone = job[:2] == ALONE
     config = Config(
         humans=people[first : first + PEOPLE_PER_SEED],
-        collab=collab,
+        collab=job.collab,
         days=args.days,
-        method=method,
-        seed=seed,
-        classifier=args.classifier,
+        method=job.method,
+        seed=job.seed,
+        classifier=job.classifier,
+        classifier_config=args.classifier_config if job.classifier == "lora-instruct" else None,
         pictures="none",
+        lived=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
         out=folder,
     )
     return run_study(config)
 
 
-def _print_table(collab: int, days: int, summaries: list[dict[str, Any]]) -> None:
-    print(f"\nCollaboration type {collab}\n")
-    print("| method | measure | " + " | ".join(f"day {day + 1}" for day in range(days)) + " | last - first |")
-    print("|---|---|" + "---|" * (days + 1))
-    for method, measure in product(dict.fromkeys(s["method"] for s in summaries), ("predicate", "judge")):
-        curves = _curves([s for s in summaries if s["method"] == method], measure)
+def _folder(out: Path, job: Job) -> Path:
+    return out / f"{job.method}-{job.classifier}-type{job.collab}-seed{job.seed}"
+
+
+def _print_rows(method: str, days: int, summaries: list[dict[str, Any]]) -> None:
+    for measure in ("predicate", "judge"):
+        curves = _curves(summaries, measure)
         columns = [bootstrap_mean([curve[day] for curve in curves]) for day in range(days)]
         gain = bootstrap_mean([curve[-1] - curve[0] for curve in curves])
         cells = [f"{c.mean:.3f} [{c.low:.3f}, {c.high:.3f}]" for c in (*columns, gain)]

@@ -133,6 +133,7 @@ def open_services(
                 config.learning,
             ),
             told_who=config.who == "known",
+            hourly_traits=config.traits == "hourly",
             own=OwnRobot(method.own, run, config.seed) if method.own else None,
             recorder=run,
             score=Measure(ask, embeddings),

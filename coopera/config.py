@@ -45,6 +45,7 @@ _EXPECTED = {
     "classifier_config": "the path of a recipe file",
     "learning": "warm or fresh",
     "who": "known or unknown",
+    "traits": "evening or hourly",
     "human": "simulated, me or log:FILE",
     "feedback": "yes_no or graded",
     "person": "full, no_extension or single_shot",
@@ -121,6 +122,8 @@ class Config(Frozen):
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         who: Whether the robot is told whom it is with; "unknown" tells it on the first day with somebody, and has it
             guess from behaviour on later days.
+        traits: When the robot works out the person's traits: in the evening, from what it was told, or each hour too,
+            from its own guesses of the day so far.
         human: Who plays the person: the simulation, a real person's log (`coopera.real_people`), or a real person who
             is asked, on the terminal or wherever `run_study` is told to ask.
         feedback: What the person answers in the evening: yes or no (the paper's way), or a grade from 1 to 5.
@@ -158,6 +161,7 @@ class Config(Frozen):
     classifier_config: Path | None = None
     learning: Literal["warm", "fresh"] = "warm"
     who: Literal["known", "unknown"] = "known"
+    traits: Literal["evening", "hourly"] = "evening"
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     feedback: Literal["yes_no", "graded"] = "yes_no"
     person: Text = "full"

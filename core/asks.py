@@ -77,6 +77,6 @@ ASKS: dict[str, AskSpec] = {
         "n_tasks",
     ),
     "robot/tasks_type2": _spec("robot", "HandOverReply", *_TIME, *_BELIEF, *_MEMORY, "intention", "fixed", "n_tasks"),
-    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile"),
+    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),
 }

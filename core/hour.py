@@ -137,6 +137,8 @@ class RobotHour(Frozen):
     """Which defined fallbacks were used, e.g. "no intention accepted"."""
     with_whom: PersonId | None = None
     """Whom the robot took the person for, where nobody said so."""
+    picture: Picture | None = None
+    """What it took the person for, where traits are inferred each hour."""
 
 
 class Proposal(Frozen):

@@ -23,13 +23,13 @@ from core.household import SceneId
 from core.interview import Question
 from core.people import PersonId, Picture
 from core.randomness import Address
-from core.replies import GradesReply, TraitsReply, VerdictsReply
+from core.replies import GradesReply, VerdictsReply
 from graphs.hour import build_hour_graph, human_context
 from graphs.human import as_tasks, when, who
 from graphs.learning import told_of
 from graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
-from graphs.recall import as_memory
 from graphs.services import Services
+from graphs.traits import revise, told
 
 
 class DayInput(TypedDict):
@@ -124,27 +124,16 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     A reply that cannot be read leaves the picture as it was.
     """
     services, plan = runtime.context, state["plan"]
-    told = [hour for hour in services.recorder.read_day(plan.day) if hour.human is not None]
+    past = told(services.recorder.read_day(plan.day), plan.episode_day * 24)
     picture = state["pictures"].get(plan.person, Picture())
-    if not services.method.traits or not told:
+    if not services.method.traits or not past:
         return {"traits_reasons": {}}
     clock = plan.clock(len(plan.hours) - 1)
-    lived = [(hour.human, plan.episode_day * 24 + hour.hour) for hour in told if hour.human is not None]
+    at = Address(plan.person, clock.day, clock.hour, "infer_traits")
     try:
-        reply = services.ask(
-            "robot/traits",
-            TraitsReply,
-            at=Address(plan.person, clock.day, clock.hour, "infer_traits"),
-            variables={
-                "intentions": [as_memory(human.intention.text, now, clock) for human, now in lived],
-                "tasks": [as_memory(task.act.describe(), now, clock) for human, now in lived for task in human.tasks],
-                "profile": picture.profile,
-            },
-        )
+        seen, reasons = revise(services.ask, at, clock, past, picture, evening=True)
     except ModelOutputError as err:
         return {"traits_reasons": {"failed": str(err)}}
-    seen = Picture(big_five=reply.big_five, profile=reply.profile)
-    reasons = {"big_five": reply.reasons_big_five, "profile": reply.reasons_profile}
     return {"pictures": {**state["pictures"], plan.person: seen}, "traits_reasons": reasons}
 
 

@@ -28,6 +28,7 @@ from graphs.identity import identify, sight
 from graphs.lived import Shown
 from graphs.robot import OracleInput, RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
 from graphs.services import HumanContext, RobotContext, Services
+from graphs.traits import guesses, revise
 from simulation.state import digest
 
 
@@ -86,12 +87,15 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         picture = (
             state["picture"] if ctx.person == plan.person else state.get("pictures", {}).get(ctx.person, Picture())
         )
+        if runtime.context.hourly_traits and ctx.method.traits:
+            picture = _revised(runtime.context, plan, _clock(state), ctx.person, picture)
         given = RobotInput(clock=_clock(state), observation=state["observation"], picture=picture)
         helper = robot if ctx.own is None else own
         if ctx.method.intentions == "told":
             helper, given = oracle, OracleInput(**given, told=state["human"].intention.text)
         helped = robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))
-        return {"robot": helped.model_copy(update={"with_whom": guessed})}
+        believed = picture if runtime.context.hourly_traits else None
+        return {"robot": helped.model_copy(update={"with_whom": guessed, "picture": believed})}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
     nodes: dict[str, Node] = {
@@ -259,16 +263,28 @@ def _with_whom(state: HourState, services: Services) -> PersonId | None:
     return max(likely, key=lambda person: likely[person])
 
 
+def _revised(services: Services, plan: DayPlan, clock: Clock, person: PersonId, before: Picture) -> Picture:
+    """The picture of the person in the light of today's guesses; one that cannot be read leaves it as it was."""
+    helped = [
+        (hour.hour, hour.robot)
+        for hour in services.recorder.read_day(plan.day)
+        if hour.robot and hour.hour < clock.hour and (hour.robot.with_whom or plan.person) == person
+    ]
+    past = guesses(helped, plan.episode_day * 24)
+    if not past:
+        return before
+    at = Address(person, clock.day, clock.hour, "infer_traits")
+    try:
+        return revise(services.ask, at, clock, past, before, evening=False)[0]
+    except ModelOutputError:
+        return before
+
+
 def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: RobotHour) -> None:
-    accepted = [c for c in robot.intentions if c.accepted]
-    if not accepted:
-        return
-    guess = max(accepted, key=lambda c: c.probability or 0.0)
-    tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
-    seen = [robot.observation.first_task] if robot.observation.first_task else []
-    services.memories("guesses", plan.episode, robot.with_whom or plan.person).add(
-        guess.text, [*seen, *tasks], clock.now
-    )
+    for guess in guesses([(clock.hour, robot)], plan.episode_day * 24):
+        services.memories("guesses", plan.episode, robot.with_whom or plan.person).add(
+            guess.intention, guess.tasks, guess.now
+        )
 
 
 def _effect(home: Home, outcome: Outcome) -> tuple[str, ...]:

@@ -146,6 +146,8 @@ class Services:
     """How the node that runs now asks the person; set by the day graph."""
     told_who: bool = True
     """Whether the robot is told whom it is with, or guesses it (`graphs.identity`)."""
+    hourly_traits: bool = False
+    """Whether the robot revises its picture of the person each hour, from its own guesses, or in the evening alone."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
 

@@ -190,7 +190,7 @@ def examples(name: str) -> list[Mapping[str, Any]]:
     if "offers" in spec.variables or "first_task" in spec.variables:
         cases.append({**full, **_of_type(1)})
     if name == "robot/traits":
-        cases = [{**case, "tasks": _FULL["recalled_tasks"]} for case in cases]
+        cases = [{**case, "tasks": _FULL["recalled_tasks"], "evening": case is full} for case in cases]
     elif "offers" in spec.variables:  # the person's remaining tasks only, and none at all where there was but one
         cases = [{**case, "tasks": case["tasks"][1:]} for case in cases] + [{**full, "tasks": []}]
     return [{variable: case[variable] for variable in sorted(spec.variables)} for case in cases]

@@ -49,6 +49,9 @@ def run(
     who: Annotated[
         str | None, typer.Option(help="known, or unknown: the robot guesses whom it is with. [default: known]")
     ] = None,
+    traits: Annotated[
+        str | None, typer.Option(help="When traits are inferred: evening, or hourly too. [default: evening]")
+    ] = None,
     human: Annotated[
         str | None, typer.Option(help="simulated, log:FILE (a real person's log) or me. [default: simulated]")
     ] = None,
@@ -94,6 +97,7 @@ def run(
         "classifier_config": classifier_config,
         "learning": learning,
         "who": who,
+        "traits": traits,
         "human": human,
         "person": person,
         "motions": motions,

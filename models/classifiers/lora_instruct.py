@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -16,14 +15,14 @@ from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 
-from core.errors import CooperaError, LearningError
+from core.errors import CooperaError
 from core.hour import Example
 from models.classifiers.calibration import Scale, scale
 from models.classifiers.causal import CausalBase, open_base
+from models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
 from models.classifiers.instruction import InstructRecipe, instruction, read_recipe
-from models.classifiers.lora import every_fourth_hour, one_thread, replayed
 from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Inputs, Kind, Lesson, lesson
+from models.classifiers.text import Inputs, Kind
 
 VERSION = 1
 WEIGHTS, CONFIG = "adapter_model.safetensors", "adapter_config.json"  # as peft names and reads them
@@ -74,54 +73,44 @@ class LoraInstructClassifier:
         Raises:
             LearningError: If the loss is no longer a finite number; what was learned before is kept.
         """
-        taught = lesson(examples, self._inputs)
-        counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
-        if not taught.teaches:
+        counts, taught = evening(examples, self._inputs, most=self._recipe.most, seed=seed)
+        if taught is None:
             return counts
-        generator = np.random.default_rng(seed)
-        taught = replayed(taught, self._recipe.most, generator)
-        labels, held_out = np.array(taught.labels), every_fourth_hour(taught)
-        if len(set(labels[~held_out])) < 2 or len(set(labels[held_out])) < 2:
-            held_out[:] = False
         base = self._base()
         devices = list(range(torch.cuda.device_count()))
         with base.lock, one_thread(), torch.random.fork_rng(devices=devices):
             torch.manual_seed(seed % 2**63)
             base.put_in(self._kind, self._learned or base.fresh(self._kind, seed % 2**63))
             epochs = self._recipe.epochs if self._learned is None else self._recipe.later_epochs
-            rows = np.flatnonzero(~held_out)
+            rows = np.flatnonzero(~taught.held_out)
             try:
-                loss = self._fit(base, taught, rows, generator, epochs)
-                judged = held_out if held_out.any() else ~held_out
+                loss = self._fit(base, taught, rows, epochs)
+                judged = taught.held_out if taught.held_out.any() else ~taught.held_out
                 texts = [instruction(taught.examples[row]) for row in np.flatnonzero(judged)]
                 scores = self._scores(base, texts)
                 self._must_be_finite("answer", float(scores.sum()))
             finally:
                 learned = base.take_out(self._kind)
         days = len({hour // 24 for hour in taught.hours})
-        self._scale, self._learned = scale(scores, labels[judged], days=days), learned
+        self._scale, self._learned = scale(scores, taught.labels[judged], days=days), learned
         return counts | {"passes": float(len(rows) * epochs), "loss": loss}
 
-    def _fit(
-        self, base: CausalBase, taught: Lesson, rows: npt.NDArray[np.int64], generator: np.random.Generator, epochs: int
-    ) -> float:
+    def _fit(self, base: CausalBase, taught: Evening, rows: npt.NDArray[np.int64], epochs: int) -> float:
         """Train the active adapter to answer Yes or No, with balanced classes; return the last epoch's mean loss.
 
         DEVIATES: the authors repeat positives and train on the whole text with its padding; here classes are weighed
         and the loss is that of the answer's first token against the other answer.
         """
         recipe = self._recipe
-        texts = [instruction(example) for example in taught.examples]
-        labels = torch.tensor(taught.labels, dtype=torch.float32)
-        yes = float(labels[torch.from_numpy(rows)].mean())
-        weights = torch.where(labels > 0, 0.5 / yes, 0.5 / (1 - yes))
+        texts = [instruction(taught.examples[row]) for row in rows]
+        labels, weights = torch.from_numpy(taught.labels[rows].astype(np.float32)), balanced(taught.labels[rows])
         optimizer = torch.optim.AdamW(
             base.parameters(self._kind), lr=recipe.learning_rate, weight_decay=recipe.weight_decay
         )
         base.model.train()
         mean = 0.0
         for _ in range(epochs):
-            order, total = generator.permutation(rows), 0.0
+            order, total = taught.rng.permutation(len(rows)), 0.0
             starts = range(0, len(order), recipe.batch)
             for number, start in enumerate(starts, 1):
                 chosen = order[start : start + recipe.batch]
@@ -149,12 +138,9 @@ class LoraInstructClassifier:
                 scores[rows] = base.scores([texts[row] for row in rows]).cpu().numpy()
         return scores
 
-    def _must_be_finite(self, name: str, value: float) -> None:
-        if not math.isfinite(value):
-            raise LearningError(
-                f"the {self._kind} classifier (lora-instruct) could not learn: its {name} became {value} "
-                f"at learning rate {self._recipe.learning_rate}; what it learned before is kept"
-            )
+    def _must_be_finite(self, what: str, value: float) -> None:
+        name = f"{self._kind} classifier (lora-instruct)"
+        must_be_finite(what, value, classifier=name, rate=self._recipe.learning_rate)
 
     def _base(self) -> CausalBase:
         return open_base(self._recipe.model_dump_json())

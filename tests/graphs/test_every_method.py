@@ -45,24 +45,6 @@ def test_a_method_keeps_to_the_rules(make_services: MakeServices, tmp_path: Path
     assert again == hours
 
 
-@pytest.mark.parametrize("method", [name for name in HELPING if METHODS[name].intentions != "told"])
-def test_no_method_but_an_oracle_knows_a_first_days_intention(
-    make_services: MakeServices, tmp_path: Path, method: str
-) -> None:
-    answers = type2_answers()
-    answers["human/intention"] = lambda v: {"intention": "A SECRET PLAN"}
-    ask = ScriptedAsk(answers)
-    services = make_services(ask=ask, method=method, folder=tmp_path)
-    build_study_graph().invoke({"schedule": SCHEDULE[:1]}, context=services)
-    told = [
-        variables for prompt, at, variables in ask.asked if prompt.startswith("robot/") and at.node != "infer_traits"
-    ]
-    assert "SECRET" not in str(told)
-    for hour in services.recorder.read_day(0):
-        assert hour.robot is not None
-        assert "SECRET" not in str(hour.robot)
-
-
 def test_an_oracle_imagines_tasks_for_the_truth_and_for_nothing_else(
     make_services: MakeServices, tmp_path: Path
 ) -> None:

@@ -163,7 +163,7 @@ def test_in_type_1_the_robot_is_given_the_first_task_in_words_and_may_use_what_c
 
 
 def test_nothing_true_about_the_hour_is_an_input_of_the_robot() -> None:
-    """The audit of leaks: these are the robot's input and services, and none of their types holds the truth."""
+    """These are the robot's input and services, and none of their types holds the truth; see also test_leaks.py."""
     assert set(get_type_hints(RobotInput)) == {"clock", "observation", "picture"}
     assert set(Observation.model_fields) == {"frames", "percept", "first_task"}
     services = inspect.get_annotations(RobotContext)

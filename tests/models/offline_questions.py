@@ -188,6 +188,7 @@ _ALL: dict[str, Any] = {
     "percept": percept(),
     "first_task": None,
     "statements": [item.says for item in ITEMS],
+    "evening": True,
     "profile_1": "I love to bake.\nI have two dogs.",
     "profile_2": "I am old.",
     "conversation": "User 1: Hi! I work in a bakery downtown.\nUser 2: I paint.",

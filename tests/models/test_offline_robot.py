@@ -99,7 +99,7 @@ def _evening(lived: list[str], profile: str | None = None, tasks: list[str] | No
     now = Clock(day=0, hour=21)
     told = [memory(text, 0, 9 + i, now) for i, text in enumerate(lived)]
     done = [memory(text, 0, 9, now) for text in tasks or []]
-    return ask("robot/traits", intentions=told, tasks=done, profile=profile)
+    return ask("robot/traits", intentions=told, tasks=done, profile=profile, evening=True)
 
 
 def test_traits_are_read_from_what_was_done_and_little_evidence_says_little() -> None:

@@ -1,0 +1,85 @@
+"""Traits inference: the robot's picture of the person, revised in the evening and, if wanted, hour by hour.
+
+PAPER App. D. In the evening it rests on what the person told. During the day nobody tells anything, so that an hourly
+revision rests on the robot's own guesses of the hours before; the evening starts again from the evening before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from core.clock import Clock
+from core.hour import HourRecord, RobotHour
+from core.people import Picture
+from core.protocols import Ask
+from core.randomness import Address
+from core.replies import TraitsReply
+from graphs.recall import as_memory
+
+
+class Past(NamedTuple):
+    """An hour as the robot knows it: told, or guessed."""
+
+    now: int
+    intention: str
+    tasks: list[str]
+
+
+def told(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
+    """What the person told of a day's hours; failed hours are left out."""
+    return [
+        Past(dawn + hour.hour, hour.human.intention.text, [task.act.describe() for task in hour.human.tasks])
+        for hour in hours
+        if hour.human is not None
+    ]
+
+
+def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
+    """What the robot took for true in some hours of a day: its likeliest intention, and what it saw and offered.
+
+    Hours in which it accepted no intention are left out.
+    """
+    past = []
+    for hour, robot in hours:
+        accepted = [candidate for candidate in robot.intentions if candidate.accepted]
+        if accepted:
+            guess = max(accepted, key=lambda candidate: candidate.probability or 0.0)
+            seen = [robot.observation.first_task] if robot.observation.first_task else []
+            tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
+            past.append(Past(dawn + hour, guess.text, [*seen, *tasks]))
+    return past
+
+
+def revise(
+    ask: Ask, at: Address, clock: Clock, past: Sequence[Past], before: Picture, *, evening: bool
+) -> tuple[Picture, dict[str, str]]:
+    """Ask for a revised picture.
+
+    Args:
+        ask: The one door to language models.
+        at: The address of the call.
+        clock: Now.
+        past: The hours it rests on.
+        before: The picture so far.
+        evening: Whether they were told, or guessed.
+
+    Returns:
+        The picture, and the reasons for its parts.
+
+    Raises:
+        ModelOutputError: If the reply cannot be read.
+    """
+    reply = ask(
+        "robot/traits",
+        TraitsReply,
+        at=at,
+        variables={
+            "intentions": [as_memory(one.intention, one.now, clock) for one in past],
+            "tasks": [as_memory(task, one.now, clock) for one in past for task in one.tasks],
+            "profile": before.profile,
+            "evening": evening,
+        },
+    )
+    reasons = {"big_five": reply.reasons_big_five, "profile": reply.reasons_profile}
+    return Picture(big_five=reply.big_five, profile=reply.profile), reasons
