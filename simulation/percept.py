@@ -1,7 +1,6 @@
 """What a perception module tells of a recorded act: coarse, sometimes wrong, and nothing that was not seen.
 
 Objects are seen where rays meet them; the person's motion is recognised from their joints (`simulation.pose_matching`).
-
 It stands in for a model that looks at the pictures, where the robot's own model cannot; it needs no pictures.
 """
 
@@ -16,7 +15,7 @@ from core.household import Percept, PerceptErrors
 from simulation.cameras import ROBOT_FOV, around, robot_camera
 from simulation.motions import Library
 from simulation.plans import Placed
-from simulation.pose_matching import PARTS, matcher, skeleton
+from simulation.pose_matching import HANDS, PARTS, matcher, skeleton
 from simulation.recording import TICKS, Moment, Recording
 from simulation.rotations import Array, about_z
 from simulation.scene import Scene
@@ -40,7 +39,7 @@ def perceive(
     """Report the recording's last deed; what is drawn for one error never changes another.
 
     The motion is what pose matching makes of the joints that the camera saw, whatever was played; it is named by its
-    class, never by its caption, and so is the thing in hand.
+    class, never by its caption, and so is the thing in hand, where a hand was seen.
     """
     shot = recording.shots[-1]
     moment = shot.at(shot.deed)
@@ -54,7 +53,8 @@ def perceive(
         others = library.confusable(motion)
         if confused < errors.motion_confused and others:
             label = others[int(which * len(others))]
-    in_hand = recording.in_hand if missed >= errors.in_hand_missed else None
+    hand_seen = bool(np.isfinite(joints[:, HANDS]).any())
+    in_hand = recording.in_hand if hand_seen and missed >= errors.in_hand_missed else None
     return Percept(
         room=scene.room_at(moment.person.x, moment.person.y).name,
         near=recording.near,

@@ -1,10 +1,10 @@
 """Recognises a motion from joints alone: the library's poses are compared with those seen, in their order in time.
 
 What is seen are joint positions, as a 3D pose estimator gives them: some joints hidden, all of them noisy, and with
-no word of where the body stands or which way it faces. So two poses are compared as their distance after the best
-shift and the best turn about the vertical (Procrustes analysis without scale). A motion explains the instants if its
-poses follow each other at its own pace, from whatever phase; an instant may instead be one of coming or going, since
-people walk to what they do. Which motion was played is not among the arguments.
+no word of where on the floor the body is or which way it faces. So two poses are compared as their distance after the
+best shift along the floor and the best turn about the vertical (Procrustes analysis without scale). A motion
+explains the instants if its poses follow each other at its own pace, from whatever phase; an instant may instead be one
+of coming or going, since people walk to what they do. Which motion was played is not among the arguments.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ PARTS = (
     *(f"{side}_{part}" for part in ("shoulder", "elbow", "hand", "hip", "knee", "ankle") for side in ("right", "left")),
 )
 """The joints of a skeleton, in order: 13."""
+HANDS = [PARTS.index("right_hand"), PARTS.index("left_hand")]
 FEWEST = 4
 """An instant at which fewer joints are seen tells nothing."""
 TIDYING = "put things away on a shelf"
@@ -41,7 +42,7 @@ _TARGETS = ((0.5, 0.1), (0.5, 0.45), (0.55, 0.75), (0.6, 0.95), (0.5, 1.2), (0.4
 class Take(NamedTuple):
     """A motion in one setting: its skeletons, evenly spread over a period of seconds; period 0: in any order."""
 
-    motion: Motion | None
+    motion: Motion
     skeletons: Array
     period: float
 
@@ -72,7 +73,7 @@ class PoseMatcher:
         """Name the motion that explains some instants best; ties go to the first of the library.
 
         Args:
-            joints: Shape (n, 13, 3), metres, z up, in any frame; joints that are not seen are NaN.
+            joints: Shape (n, 13, 3), metres, z above the floor; joints that are not seen are NaN.
             seconds: When the instants are; shape (n,), rising.
 
         Returns:
@@ -105,7 +106,7 @@ def matcher(library: Library) -> PoseMatcher:
 
 
 def distances(joints: Array, skeletons: Array) -> Array:
-    """Mean square distance of seen joints after the best shift and the best turn about the vertical.
+    """Mean square distance of seen joints after the best shift along the floor and the best turn about the vertical.
 
     Args:
         joints: Shape (n, j, 3); joints that are not seen are NaN.
