@@ -141,6 +141,7 @@ def open_services(
             frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person],
+            sizes=config.search,
             lived=open_lived(config),
             told=told or nothing_was_told,
             in_the_loop=config.human == "me",

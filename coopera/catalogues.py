@@ -9,11 +9,13 @@ from typing import NamedTuple
 
 from coopera import humans
 from coopera.claim import refuse_used
-from coopera.config import Config
+from coopera.config import Config, Models
 from core.errors import ConfigError
 from core.people import Persona
 from graphs.person import PERSON_MODELS
+from models.backends import household_file
 from models.classifiers.instruction import read_recipe
+from models.offline.knowledge import load as load_household
 from simulation.motion_folder import load_motions
 from simulation.robot import ROBOTS
 from simulation.video import need_video
@@ -69,6 +71,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         _groups("humans", people, n_people, config.setting)
         _groups("scenes", scenes, n_scenes, config.setting)
     load_motions(config.motions)
+    _knowledge(config.models)
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
@@ -128,6 +131,14 @@ def _livable(persona: Persona, model: str) -> None:
     """Refuse a person who lacks the text that a person model lives by."""
     if not PERSON_MODELS[model].profile(persona):
         raise ConfigError(f"humans: {persona.id} has no notes in the persona file, and --person {model} lives by them.")
+
+
+def _knowledge(models: Models) -> None:
+    """Refuse a household file of one's own that is wrong before anything is written."""
+    for spec in sorted(set(models.model_dump().values())):
+        own = household_file(spec)
+        if own is not None and own.is_file():
+            load_household(own)
 
 
 def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:

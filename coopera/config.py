@@ -14,6 +14,7 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from coopera.files import read_yaml
 from core.clock import FIRST_HOUR, HOURS_PER_DAY
 from core.errors import ConfigError
+from core.hour import SearchSizes
 from core.household import Collab, PerceptErrors
 from core.people import Frozen
 from models.settings import Budget, CallSettings
@@ -49,6 +50,9 @@ _EXPECTED = {
     "human": "simulated, me or log:FILE",
     "feedback": "yes_no or graded",
     "person": "full, no_extension or single_shot",
+    "search": "a mapping with objects, motions or both",
+    "search.objects": "a whole number from 1 to 1000",
+    "search.motions": "a whole number from 1 to 1000",
     "motions": "the path of a folder of .npy or .npz clips",
     "robot": "the name of a robot's body such as fetch",
     "pictures": "sampled, none or video",
@@ -128,6 +132,7 @@ class Config(Frozen):
             is asked, on the terminal or wherever `run_study` is told to ask.
         feedback: What the person answers in the evening: yes or no (the paper's way), or a grade from 1 to 5.
         person: How a simulated person is made: the paper's way or one of its ablations (`graphs.person`).
+        search: How many objects and motions the person is offered for an intention, at most.
         motions: A folder of Motion-X or AMASS clips that the person can do beside the shipped motions.
         robot: The robot's body, one of `simulation.robot.ROBOTS`.
         pictures: Whether the first task of each hour is recorded as pictures.
@@ -165,6 +170,7 @@ class Config(Frozen):
     human: Annotated[str, Field(pattern=r"^(simulated|me|log:.+)$")] = "simulated"
     feedback: Literal["yes_no", "graded"] = "yes_no"
     person: Text = "full"
+    search: SearchSizes = SearchSizes()
     motions: Path | None = None
     robot: Text = "fetch"
     pictures: Literal["sampled", "none", "video"] = "sampled"
@@ -187,7 +193,7 @@ class Config(Frozen):
         if isinstance(data, dict) and data.get("frame_size") is None:
             models = data.get("models")
             robot = models.get("robot") if isinstance(models, dict) else getattr(models, "robot", None)
-            return {**data, "frame_size": SMALL if robot in (None, "offline") else LARGE}
+            return {**data, "frame_size": SMALL if (robot or "offline").startswith("offline") else LARGE}
         return data
 
     @field_validator("setting", "collab", mode="before")
@@ -216,13 +222,14 @@ _SECTIONS: dict[str, type[Frozen]] = {
     "perception": PerceptErrors,
     "calls": CallSettings,
     "budget": Budget,
+    "search": SearchSizes,
 }
 
 
 def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:
     """Read a study file and lay flags over it; a flag of None was not given.
 
-    Flags are named as the fields are; of `models`, `calls` and `budget`, mappings of what was given.
+    Flags are named as the fields are; of `models`, `calls`, `budget` and `search`, mappings of what was given.
 
     Raises:
         ConfigError: Naming the file or flag, the field and what was expected.
@@ -261,6 +268,6 @@ def _flag(names: list[str], flags: Mapping[str, Any]) -> str | None:
         roles = flags.get("models", {})
         one_for_all = len(roles) == len(Models.model_fields) and len(set(roles.values())) == 1
         return None if names[1] not in roles else "--model" if one_for_all else f"--{names[1]}-model"
-    if names[0] == "budget" and len(names) > 1:
-        return f"--budget-{names[1]}" if names[1] in flags.get("budget", {}) else None
+    if names[0] in ("budget", "search") and len(names) > 1:
+        return f"--{names[0]}-{names[1]}" if names[1] in flags.get(names[0], {}) else None
     return f"--{names[0].replace('_', '-')}" if names[0] in flags else None

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from langchain_core.embeddings import Embeddings
 from PIL import Image, ImageDraw
 
+from coopera.knowledge_check import strange_words, words_of_homes
 from core.errors import ModelCallError, ModelOutputError
 from core.hour import ModelCall
 from core.people import Frozen
 from core.protocols import Role
 from core.randomness import Address
 from core.replies import IntentionsReply, PickPlaceReply, VerdictsReply
-from models.backends import Backend, open_backend
+from models.backends import Backend, household_file, open_backend
 from models.door import Door
+from models.offline.knowledge import Household, load
 from models.schemas import enforced_schema, strays
 from models.settings import CallSettings
 from prompts import PromptLibrary
@@ -49,9 +52,16 @@ class Tried(NamedTuple):
 
 
 def check_model(
-    spec: str, *, base_url: str | None, settings: CallSettings, embeddings: Embeddings
+    spec: str, *, base_url: str | None, settings: CallSettings, embeddings: Embeddings, homes: Sequence[Path] = ()
 ) -> tuple[Backend, list[Tried]]:
     """Ask a model what coopera asks of models; the first check must hold for it to be of any use.
+
+    Args:
+        spec: The model.
+        base_url: Address of an OpenAI-compatible server.
+        settings: How it is called.
+        embeddings: What the offline model compares texts with.
+        homes: Folders of imported homes, of which an offline model's household file may speak.
 
     Raises:
         ConfigError: If it cannot be opened.
@@ -63,6 +73,8 @@ def check_model(
     if tried[0].ok:
         tried.append(_ask(door, "objects that exist", "robot/tasks_type1", PickPlaceReply))
         tried.append(_look(door) if backends["robot"].sees else _blind(spec))
+    if own := household_file(spec):
+        tried.append(_knowledge(load(own), homes))
     return backends["judge"], tried
 
 
@@ -105,4 +117,14 @@ def _look(door: Door) -> Tried:
 
 def _blind(spec: str) -> Tried:
     words = "it is not known to look at pictures, so as the robot it would be told what perception reports"
-    return Tried("pictures", True, f"{words}; if it does look, name it {spec}+images" if ":" in spec else words)
+    may_look = ":" in spec and not spec.startswith("offline")
+    return Tried("pictures", True, f"{words}; if it does look, name it {spec}+images" if may_look else words)
+
+
+def _knowledge(household: Household, homes: Sequence[Path]) -> Tried:
+    """Say how much a household file holds, and what of it no home has."""
+    loadings = sum(len(activity.big_five) for activity in household.activities)
+    assumed = sum(len(activity.assumed) for activity in household.activities)
+    words = f"{len(household.activities)} activities; {assumed} of {loadings} Big-Five loadings are assumed"
+    strange = list(strange_words(household, words_of_homes(homes)))
+    return Tried("household file", not strange, "; ".join(strange[:5]) or words)

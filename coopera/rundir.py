@@ -67,6 +67,7 @@ class RunDir:
         people: Sequence[Persona],
         prompts: Mapping[str, str],
         models: Mapping[str, str],
+        knowledge: Mapping[str, str] | None = None,
     ) -> Self:
         """Start a new run in `config.out`; nothing stays behind if that fails.
 
@@ -75,6 +76,7 @@ class RunDir:
             people: Those who take part; kept in the run, so that it stays readable without the data folder.
             prompts: SHA of each prompt by name.
             models: Identity of the model behind each role.
+            knowledge: SHA of each household file of one's own, by the model that has it.
 
         Raises:
             ConfigError: If the folder cannot be written, is not empty or holds another run.
@@ -82,7 +84,7 @@ class RunDir:
         if config.out is None:
             raise ConfigError("out: a folder for the run must be given.")
         root, made = config.out, claim.make_folder(config.out)
-        info = _info(prompts, models)
+        info = _info(prompts, models) | {"knowledge": dict(knowledge or {})}
         lock = None
         try:
             lock = claim.lock(root)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import sqlite3
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, TypeAlias, cast
@@ -17,11 +18,11 @@ from coopera import humans
 from coopera.assemble import model_specs, open_services
 from coopera.catalogues import resolve
 from coopera.config import Config
-from coopera.files import canonical_json, write_atomic
+from coopera.files import canonical_json, reason, write_atomic
 from coopera.real_people import open_told
 from coopera.report import write_report
 from coopera.rundir import RunDir
-from core.errors import RunError, WaitingError
+from core.errors import ConfigError, RunError, WaitingError
 from core.hour import Counts, DayPlan
 from core.household import SceneId
 from core.interview import Answer, Question
@@ -29,6 +30,7 @@ from core.people import PersonId
 from evaluation import SETTINGS, episode, pool, schedule
 from graphs import STATE_TYPES, Services, build_study_graph
 from graphs.study import Waiting, waiting
+from models.backends import household_file
 from models.settings import Budget
 from prompts import PromptLibrary
 
@@ -89,13 +91,15 @@ def resume_study(
         budget: What the run may spend in all, if not what it was begun with.
 
     Raises:
-        RunError: If the run is finished or still being written, or its prompts have changed since.
+        RunError: If the run is finished or still being written, or its prompts or household file have changed since.
     """
     with RunDir.resume(path, budget) as run:
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name) != sha)
         if changed:
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
+        if knowledge_of(run.info["models"].values()) != run.info.get("knowledge", {}):
+            raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
         told = open_told(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, told) as services:
             return _carry_on(run, services, on_event, ask_person)
@@ -114,10 +118,29 @@ def new_run(config: Config) -> Iterator[tuple[RunDir, Services]]:
     told = open_told(config, plan_days(config))
     specs = {str(role): spec for role, spec in model_specs(config).items()}
     with (
-        RunDir.create(config, people=people, prompts=prompts.hashes(), models=specs) as run,
+        RunDir.create(
+            config, people=people, prompts=prompts.hashes(), models=specs, knowledge=knowledge_of(specs.values())
+        ) as run,
         open_services(config, run, run.people(), prompts, told) as services,
     ):
         yield run, services
+
+
+def knowledge_of(specs: Iterable[str]) -> dict[str, str]:
+    """SHA-256 of each household file of one's own that some models name, by the model's name.
+
+    Raises:
+        ConfigError: If one cannot be read.
+    """
+    found: dict[str, str] = {}
+    for spec in specs:
+        path = household_file(spec)
+        if path is not None:
+            try:
+                found[spec] = hashlib.sha256(path.read_bytes()).hexdigest()
+            except OSError as err:
+                raise ConfigError(f"{path}: the household file cannot be read ({reason(err)}).") from err
+    return found
 
 
 def plan_days(config: Config) -> list[DayPlan]:

@@ -51,7 +51,8 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
     """The content of summary.json, from the hours in order and the evenings.
 
     `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
-    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else.
+    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else. `repairs` counts what code mended
+    in the person's tasks.
     """
     days = sorted({record.day for record in hours})
     told = {evening.day: evening for evening in evenings}
@@ -80,6 +81,7 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
             for record in hours
             if record.status == "failed"
         ],
+        "repairs": sum(len(record.human.repairs) for record in hours if record.human),
         "unscored": sum(entry["predicate"]["unscored"] for entry in entries),
         "fallbacks": fallbacks(hours),
         "identified": _identified(hours),

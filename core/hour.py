@@ -55,6 +55,16 @@ class Found(Frozen):
     motions: list[str]
 
 
+class SearchSizes(Frozen):
+    """How many objects and motions Search finds for an intention, at most: 30 and 5 in the authors' code.
+
+    In collaboration type 1 as many of the fixed and as many of the movable objects.
+    """
+
+    objects: int = Field(30, strict=True, ge=1, le=1000)
+    motions: int = Field(5, strict=True, ge=1, le=1000)
+
+
 class TaskVerdict(Frozen):
     """What a reflection says of one task."""
 

@@ -220,6 +220,7 @@ def human_context(services: Services, plan: DayPlan) -> HumanContext:
         memories=services.memories("human", plan.episode, plan.person),
         embeddings=services.embeddings,
         model=services.person,
+        sizes=services.sizes,
         interview=services.interview,
     )
 

@@ -125,11 +125,12 @@ def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]
 def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Find the objects and motions that fit the intention. Reads `intention`; writes `found`.
 
-    Top 30 objects (the fixed and, in type 1, the movable ones separately) and 5 motions by cosine, as the authors do.
+    The nearest objects (the fixed and, in type 1, the movable ones separately) and motions by cosine, as many as
+    `HumanContext.sizes` says.
     """
     ctx, query = runtime.context, state["intention"].text
     movable = _nearest(ctx, query, ctx.home.objects("movable")) if ctx.collab == 1 else {}
-    motions = ctx.search(ctx.home.motions).top(query, Numbers.SEARCH_MOTIONS) if ctx.collab == 2 else []
+    motions = ctx.search(ctx.home.motions).top(query, ctx.sizes.motions) if ctx.collab == 2 else []
     found = Found(
         fixed=_nearest(ctx, query, ctx.home.objects("fixed")),
         movable=movable,
@@ -316,7 +317,7 @@ def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
     for name in objects:
         by_text.setdefault(plain(name), []).append(name)
     ranked = [name for text, _ in ctx.search(list(by_text)).top(query, len(by_text)) for name in by_text[text]]
-    return {name: objects[name] for name in ranked[: Numbers.SEARCH_OBJECTS]}
+    return {name: objects[name] for name in ranked[: ctx.sizes.objects]}
 
 
 def _with_reasons(task: Task, said: Mapping[str, Reasons]) -> Task:

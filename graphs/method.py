@@ -64,6 +64,4 @@ class Numbers:
     DIRECT_TASKS = 8  # ours: where no intention is inferred, as many tasks as one reply may hold
     RECALL_INTENTIONS = 3  # PAPER §4.1
     RECALL_TASKS = 5  # PAPER §4.1
-    SEARCH_OBJECTS = 30  # the authors' code
-    SEARCH_MOTIONS = 5  # the authors' code
     SCENE_ROUNDS = 3  # ours: second reflections at most, while code still finds something wrong

@@ -15,7 +15,7 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from core.clock import Clock
-from core.hour import DayPlan, Intention, LoggedHour, Success, Task, TaskCandidate
+from core.hour import DayPlan, Intention, LoggedHour, SearchSizes, Success, Task, TaskCandidate
 from core.household import Collab, Outcome, SceneId
 from core.people import Persona, PersonId
 from core.protocols import Ask, Home, Recorder
@@ -58,6 +58,7 @@ class HumanContext:
     memories: Memories
     embeddings: Embeddings
     model: PersonModel = FULL
+    sizes: SearchSizes = SearchSizes()
     told: LoggedHour | None = None
     """What a real person wrote down of this hour."""
     interview: Interview | None = None
@@ -134,6 +135,8 @@ class Services:
     """Whether the first task of each hour is filmed, too."""
     person: PersonModel = FULL
     """How people are simulated."""
+    sizes: SearchSizes = SearchSizes()
+    """How much Search finds for an intention."""
     lived: Lived | None = None
     """Days that were lived before, which the people live again; by default they live new ones."""
     told: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_told

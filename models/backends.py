@@ -1,9 +1,9 @@
 """From a model's name to a chat model: which backends there are, and what each of them can do.
 
-A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone), `openai:MODEL` (any
-OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER` (in this process), `replay:RUN` (what was said
-in an earlier run), or `PROVIDER:MODEL` for the other providers of LangChain.
-A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
+A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone, `offline:FILE.yaml` knows a
+household of one's own), `openai:MODEL` (any OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER`
+(in this process), `replay:RUN` (what was said in an earlier run), or `PROVIDER:MODEL` for the other providers of
+LangChain. A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
 """
 
 from __future__ import annotations
@@ -31,8 +31,9 @@ from models.transport import Line, RefusedError, Sleep, gate_to, wait
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
-    "offline, openai:MODEL (with --base-url for a server of your own), huggingface:REPO-OR-FOLDER, "
-    "replay:RUN, or PROVIDER:MODEL where the langchain package of that provider is installed"
+    "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
+    "huggingface:REPO-OR-FOLDER, replay:RUN, "
+    "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
 _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
@@ -163,7 +164,7 @@ def open_backend(
         ConfigError: If the spec is unknown, or what it needs is not there.
     """
     chosen = settings or CallSettings()
-    if spec in ("offline", "offline:words"):
+    if spec.partition(":")[0] == "offline":
         return _offline(spec, role, embeddings)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
@@ -178,11 +179,23 @@ def open_backend(
     return _any_provider(spec, provider, name, chosen, sleep)
 
 
+def household_file(spec: str) -> Path | None:
+    """The household file of one's own that an offline model's spec names, if it names one."""
+    kind, colon, name = spec.partition(":")
+    return Path(name).expanduser() if kind == "offline" and colon and name != "words" else None
+
+
 def _offline(spec: str, role: Role, embeddings: Embeddings) -> Backend:
     offline = importlib.import_module("models.offline.chat")
-    if spec != "offline":
+    knowledge = importlib.import_module("models.offline.knowledge")
+    if spec == "offline:words":
         embeddings = importlib.import_module("models.offline.words").WordEmbeddings()
-    return Backend(spec, offline.OfflineChatModel(role=role, embeddings=embeddings), reads_variables=True)
+    own = household_file(spec)
+    if own is not None and not own.is_file():
+        raise ConfigError(f'the model "{spec}" is unknown: there is no such file, and a model may be {_HELP}')
+    household = knowledge.load(own) if own else knowledge.shipped()
+    model = offline.OfflineChatModel(role=role, embeddings=embeddings, household=household)
+    return Backend(spec, model, reads_variables=True)
 
 
 def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:

@@ -21,7 +21,10 @@ def models() -> None:
 @app.command()
 def check(
     spec: Annotated[
-        str, typer.Argument(metavar="SPEC", help="Such as offline, openai:MODEL or huggingface:REPO-OR-FOLDER.")
+        str,
+        typer.Argument(
+            metavar="SPEC", help="Such as offline, offline:HOUSEHOLD.yaml, openai:MODEL or huggingface:REPO-OR-FOLDER."
+        ),
     ],
     base_url: BaseUrl = None,
     study: Annotated[
@@ -39,7 +42,11 @@ def check(
 
     config = load_config(study, {"base_url": base_url})
     backend, tried = check_model(
-        spec, base_url=config.base_url, settings=config.calls, embeddings=open_embeddings(config)
+        spec,
+        base_url=config.base_url,
+        settings=config.calls,
+        embeddings=open_embeddings(config),
+        homes=[config.data_dir / "scenes"],
     )
     works = all(one.ok for one in tried)
     if as_json:

@@ -62,6 +62,12 @@ def run(
     person: Annotated[
         str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
     ] = None,
+    search_objects: Annotated[
+        int | None, typer.Option(metavar="N", help="Objects the person is offered for an intention. [default: 30]")
+    ] = None,
+    search_motions: Annotated[
+        int | None, typer.Option(metavar="N", help="Motions the person is offered for an intention. [default: 5]")
+    ] = None,
     motions: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Motion-X (.npy) or AMASS (.npz) clips the person can do, too.")
     ] = None,
@@ -101,12 +107,13 @@ def run(
         "human": human,
         "person": person,
         "motions": motions,
+        "search": _given(objects=search_objects, motions=search_motions),
         "feedback": feedback,
         "lived": lived,
         "renderer": renderer,
         "robot": robot,
         "pictures": pictures,
-        "budget": _given(budget_calls, budget_tokens),
+        "budget": _given(calls=budget_calls, tokens=budget_tokens),
     }
     config = resolve(load_config(study or _replayed(model), flags))
     assert config.out is not None  # resolve sets it
@@ -131,7 +138,7 @@ def resume(
     from coopera.rundir import RunDir
 
     found = RunDir.open(run)
-    raised = load_config(run / "config.yaml", {"budget": _given(budget_calls, budget_tokens)}).budget
+    raised = load_config(run / "config.yaml", {"budget": _given(calls=budget_calls, tokens=budget_tokens)}).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.study import resume_study
@@ -142,9 +149,9 @@ def resume(
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
-def _given(calls: int | None, tokens: int | None) -> dict[str, int] | None:
-    """The limits that flags give."""
-    return {name: limit for name, limit in (("calls", calls), ("tokens", tokens)) if limit is not None} or None
+def _given(**numbers: int | None) -> dict[str, int] | None:
+    """The numbers that flags give."""
+    return {name: number for name, number in numbers.items() if number is not None} or None
 
 
 def _replayed(model: str | None) -> Path | None:

@@ -13,7 +13,7 @@ from langchain_core.embeddings import Embeddings
 from langchain_core.language_models.chat_models import BaseChatModel
 from langchain_core.messages import AIMessage, BaseMessage
 from langchain_core.outputs import ChatGeneration, ChatResult
-from pydantic import ConfigDict, PrivateAttr
+from pydantic import ConfigDict, Field, PrivateAttr
 from typing_extensions import override
 
 from core.asks import ASKS
@@ -22,7 +22,7 @@ from core.protocols import Role
 from core.replies import REPLIES
 from models.offline.human import Human
 from models.offline.judge import Judge
-from models.offline.knowledge import shipped
+from models.offline.knowledge import Household, shipped
 from models.offline.robot import Robot
 from models.offline.sense import CommonSense
 
@@ -48,6 +48,7 @@ class OfflineChatModel(BaseChatModel):
 
     role: Role
     embeddings: Embeddings
+    household: Household = Field(default_factory=shipped)
 
     _side: Human | Robot | Judge = PrivateAttr()
     _lock: RLock = PrivateAttr(default_factory=RLock)
@@ -55,7 +56,7 @@ class OfflineChatModel(BaseChatModel):
     @override
     def model_post_init(self, context: Any, /) -> None:
         """Build this role's side; texts are encoded when first needed."""
-        self._side = _SIDES[self.role](CommonSense(shipped(), self.embeddings))
+        self._side = _SIDES[self.role](CommonSense(self.household, self.embeddings))
 
     @property
     @override

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import chain, pairwise
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 import yaml
 from numpy.typing import NDArray
-from pydantic import Field, ValidationError, field_validator
+from pydantic import Field, ValidationError, ValidationInfo, field_validator
 
 from core.errors import ConfigError
 from core.people import TRAITS, BigFive, Frozen
@@ -44,6 +44,7 @@ class Activity(Frozen):
     follows: tuple[str, ...] = ()
     big_five: dict[str, Loading] = {}
     source: Text
+    assumed: tuple[str, ...] = ()
     repeatable: bool = False
     need: bool = False
     closes: bool = False
@@ -61,6 +62,13 @@ class Activity(Frozen):
         if unknown := sorted(set(loadings) - set(TRAITS)):
             raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
         return loadings
+
+    @field_validator("assumed")
+    @classmethod
+    def _assumed_are_loadings(cls, assumed: tuple[str, ...], info: ValidationInfo) -> tuple[str, ...]:
+        if strange := sorted(set(assumed) - set(info.data.get("big_five", assumed))):
+            raise ValueError(f"{strange[0]!r} has no loading in big_five")
+        return assumed
 
     @cached_property
     def all_motions(self) -> tuple[str, ...]:
@@ -143,8 +151,32 @@ class Household(Frozen):
         return np.asarray(self.loadings @ deviation, dtype=np.float64)
 
 
+class Extension(Frozen):
+    """What a user's file changes of the shipped one: an activity of a known id replaces it, the others come last."""
+
+    extends: Literal["shipped"]
+    looks_like: dict[Text, Text] = {}
+    done_at: dict[Text, tuple[Text, ...]] = {}
+    activities: tuple[Activity, ...] = ()
+
+    def applied(self) -> Household:
+        """The shipped household with these changes."""
+        known = shipped()
+        own = {activity.id: activity for activity in self.activities}
+        kept = tuple(own.get(activity.id, activity) for activity in known.activities)
+        added = tuple(activity for activity in self.activities if activity.id not in known.index)
+        return Household(
+            looks_like={**known.looks_like, **self.looks_like},
+            done_at={**known.done_at, **self.done_at},
+            activities=kept + added,
+        )
+
+
+Read = TypeVar("Read", bound=Frozen)
+
+
 def load(path: Path = SHIPPED) -> Household:
-    """Read a household file and check that it hangs together.
+    """Read a household file, or one that `extends: shipped`, and check that it hangs together.
 
     Raises:
         ConfigError: Naming the file, the activity and the field, and what was expected.
@@ -153,12 +185,21 @@ def load(path: Path = SHIPPED) -> Household:
         data = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
+    if isinstance(data, dict) and "extends" in data:
+        extension = _parsed(Extension, data, path)
+        _refuse(_double_ids(extension.activities), path)
+        household = extension.applied()
+    else:
+        household = _parsed(Household, data, path)
+    _refuse(chain(_double_ids(household.activities), _double_wordings(household), _unknowns(household)), path)
+    return household
+
+
+def _parsed(kind: type[Read], data: Any, path: Path) -> Read:
     try:
-        household = Household.model_validate(data)
+        return kind.model_validate(data)
     except ValidationError as err:
         raise ConfigError(f"{path}: {_first_problem(err, data)}") from err
-    _check_references(household, path)
-    return household
 
 
 @lru_cache(maxsize=1)
@@ -180,18 +221,19 @@ def _first_problem(err: ValidationError, data: Any) -> str:
     return f"field {'.'.join(where) or 'all'!r}: {said}"
 
 
-def _check_references(household: Household, path: Path) -> None:
-    """Refuse double ids and wordings, and references to activities or motions that do not exist."""
-    for problem in chain(_doubles(household), _unknowns(household)):
+def _refuse(problems: Iterator[str], path: Path) -> None:
+    for problem in problems:
         raise ConfigError(f"{path}: {problem}")
 
 
-def _doubles(household: Household) -> Iterator[str]:
-    seen: dict[str, str] = {}
-    ids = sorted(activity.id for activity in household.activities)
-    for before, after in pairwise(ids):
+def _double_ids(activities: Sequence[Activity]) -> Iterator[str]:
+    for before, after in pairwise(sorted(activity.id for activity in activities)):
         if before == after:
             yield f"activity {after!r}, field 'id': each id may be used once only"
+
+
+def _double_wordings(household: Household) -> Iterator[str]:
+    seen: dict[str, str] = {}
     for activity in household.activities:
         for wording in activity.wordings:
             other = seen.setdefault(key(wording), activity.id)
@@ -207,9 +249,10 @@ def _unknowns(household: Household) -> Iterator[str]:
         for other in activity.follows:
             if other not in household.index:
                 yield f"activity {activity.id!r}, field 'follows': there is no activity {other!r}"
-        for motion in activity.all_motions:
+        fields = {f"things.{thing}": motion for thing, motion in activity.things.items()}
+        for field, motion in [*fields.items(), *(("motions", motion) for motion in activity.motions)]:
             if motion not in household.looks_like:
-                yield f"activity {activity.id!r}, field 'motions': {motion!r} is not listed under looks_like"
+                yield f"activity {activity.id!r}, field {field!r}: {motion!r} is not listed under looks_like"
 
 
 def key(text: str) -> str:

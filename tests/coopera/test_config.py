@@ -152,3 +152,26 @@ def test_imported_people_live_where_the_environment_says(monkeypatch: pytest.Mon
     monkeypatch.delenv("COOPERA_DATA_DIR")
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "share"))
     assert default_data_dir() == tmp_path / "share" / "coopera"
+
+
+def test_how_much_search_finds_can_be_said_and_stands_in_the_run(tmp_path: Path) -> None:
+    config = load_config(study(tmp_path, "search: {motions: 2}\n"), {"search": {"objects": 12}})
+    assert (config.search.objects, config.search.motions) == (12, 2)
+    assert yaml.safe_load(config.to_yaml())["search"] == {"objects": 12, "motions": 2}
+    with pytest.raises(ConfigError, match="--search-objects must be a whole number from 1 to 1000, not 0"):
+        load_config(flags={"search": {"objects": 0}})
+    with pytest.raises(ConfigError, match=r"study.yaml: search.motions must be a whole number from 1 to 1000"):
+        load_config(study(tmp_path, "search: {motions: many}\n"))
+
+
+def test_a_wrong_household_file_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    wrong = study(tmp_path, "extends: shipped\nactivities: [{id: kite}]\n")
+    models = {"human": f"offline:{wrong}"}
+    with pytest.raises(ConfigError, match=r"study\.yaml: activity 'kite', field 'wordings'"):
+        resolve(load_config(flags={"models": models, "out": tmp_path / "run"}), KNOWN)
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_robot_that_sees_nothing_gets_small_pictures_whatever_it_knows() -> None:
+    sizes = [load_config(flags={"models": {"robot": spec}}).frame_size for spec in ("offline:my.yaml", "openai:x")]
+    assert sizes == [(320, 240), (1024, 768)]

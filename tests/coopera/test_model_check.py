@@ -49,3 +49,22 @@ def test_a_tiny_model_with_eyes_passes(tmp_path: Path) -> None:
     )
     assert [one.ok for one in tried] == [True, True, True]
     assert "works: structured reply, held to a JSON schema" in model_check.in_words(backend, tried[0])
+
+
+def test_a_household_file_is_counted_and_what_no_home_has_is_named(coopera: Cli, tmp_path: Path) -> None:
+    shipped = Path(__file__).parents[2] / "examples" / "my_household.yaml"
+    own = tmp_path / "own.yaml"
+
+    def checked(file: Path) -> model_check.Tried:
+        given = {"base_url": None, "settings": CallSettings(), "embeddings": LetterEmbeddings()}
+        return model_check.check_model(f"offline:{file}", **given)[1][-1]
+
+    assert checked(shipped).ok
+    assert checked(shipped).words.startswith("47 activities; ")
+    own.write_text(shipped.read_text().replace("[workbench, desk,", "[workbenche, desk,"))
+    assert not checked(own).ok
+    assert "field 'fixed': no home has the furniture 'workbenche'; did you mean 'workbench'?" in checked(own).words
+    own.write_text(shipped.read_text().replace("glue: repair with tools", "glue: fly"))
+    said = coopera("models", "check", f"offline:{own}")
+    assert said.code == 2
+    assert f"{own}: activity 'model_railway', field 'things.glue': 'fly' is not listed under looks_like" in said.err

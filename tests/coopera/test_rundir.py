@@ -12,11 +12,15 @@ from pathlib import Path
 
 import pytest
 
-from coopera.config import Config
+from coopera.catalogues import resolve
+from coopera.config import Config, Models
 from coopera.humans import find
 from coopera.rundir import RunDir
+from coopera.study import knowledge_of, resume_study
+from coopera.summary import summarise
 from core.errors import ConfigError, ModelCallError, RunError
-from core.hour import HourRecord
+from core.hour import HourRecord, HumanHour
+from prompts import PromptLibrary
 from tests.coopera.fake_run import fake_run
 
 
@@ -97,11 +101,30 @@ def test_metrics_have_a_row_per_hour_and_measure(small_run: RunDir) -> None:
     assert [(row["day"], row["hour"], row["f1"]) for row in failed] == [("1", "16", ""), ("1", "16", "")]
 
 
+def _mended(human: HumanHour | None, times: int) -> HumanHour | None:
+    return human and human.model_copy(update={"repairs": ["Task 9.1 was dropped."] * times})
+
+
+def test_a_run_whose_household_file_has_changed_is_not_resumed(tmp_path: Path) -> None:
+    own = tmp_path / "own.yaml"
+    own.write_text("extends: shipped\n")
+    spec = f"offline:{own}"
+    config = resolve(Config(out=tmp_path / "run", models=Models(human=spec), data_dir=tmp_path))
+    known = knowledge_of([spec, "offline"])
+    with RunDir.create(config, people=[], prompts=PromptLibrary().hashes(), models={"human": spec}, knowledge=known):
+        pass
+    own.write_text("extends: shipped\nlooks_like: {}\n")
+    with pytest.raises(RunError, match="the household file has changed since this run began"):
+        resume_study(tmp_path / "run")
+
+
 def test_the_summary_adds_up_the_hours_of_a_day(small_run: RunDir) -> None:
     summary = json.loads((small_run.root / "summary.json").read_text())
     assert summary == small_run.summary()
     assert (summary["failed_hours"], summary["people"], len(summary["days"])) == (1, ["amara", "bruno"], 4)
     assert [day["episode"] for day in summary["days"]] == [0, 0, 1, 1]
+    mended = [hour.model_copy(update={"human": _mended(hour.human, 2)}) for hour in small_run.read_day(0) if hour.human]
+    assert summarise(small_run.config, mended)["repairs"] == 2 * len(mended) > 0 == summary["repairs"]
     day, hours = summary["days"][0]["predicate"], small_run.read_day(0)
     tp, fp, fn = (sum(getattr(hour.success.predicate, name) for hour in hours) for name in ("tp", "fp", "fn"))
     assert (day["tp"], day["fp"], day["fn"]) == (tp, fp, fn)

@@ -6,7 +6,7 @@ import pytest
 
 from core.clock import Clock
 from core.errors import ModelOutputError
-from core.hour import DayPlan
+from core.hour import DayPlan, SearchSizes
 from core.household import SceneId
 from graphs import HumanContext, build_human_graph
 from graphs.hour import human_context
@@ -187,3 +187,6 @@ def test_search_offers_at_most_thirty_objects_with_all_instances_in_reach(make_s
     hour = live(person(make_services, home=home))
     assert len(hour.found.fixed) == 30
     assert "stove_1" in hour.found.fixed
+    few = live(person(make_services, home=home, sizes=SearchSizes(objects=4, motions=1))).found
+    assert list(few.fixed) == list(hour.found.fixed)[:4]
+    assert few.motions == hour.found.motions[:1]

@@ -58,8 +58,15 @@ def test_the_offline_door_answers_every_prompt_whatever_its_variables(name: str)
     "spec", ["", "gpt-4o", "Offline", "openai:", ":model", "nobody:model", "openai: ", "offline:x"]
 )
 def test_an_unknown_model_is_refused_with_what_there_is(spec: str) -> None:
-    with pytest.raises(ConfigError, match=r"offline, openai:MODEL .*huggingface:REPO-OR-FOLDER"):
+    with pytest.raises(ConfigError, match=r"is unknown: .*:HOUSEHOLD\.yaml, openai:MODEL .*huggingface:REPO-OR"):
         open_backend(spec, "human", EMBEDDINGS)
+
+
+def test_an_offline_model_knows_the_household_of_the_file_that_it_names() -> None:
+    own = Path(__file__).parents[2] / "examples" / "my_household.yaml"
+    model: Any = open_backend(f"offline:{own}", "robot", EMBEDDINGS).model
+    plain: Any = open_backend("offline", "robot", EMBEDDINGS).model
+    assert set(model.household.index) - set(plain.household.index) == {"model_railway"}
 
 
 def test_an_unknown_role_is_refused() -> None:

@@ -149,6 +149,7 @@ def test_a_correct_small_file_is_read(tmp_path: Path) -> None:
         ("big_five", {"openness": 3}, r"activity 'lunch', field 'big_five.openness'"),
         ("follows", ["fly"], r"activity 'lunch', field 'follows': there is no activity 'fly'"),
         ("motions", ["fly"], r"activity 'lunch', field 'motions': 'fly' is not listed under looks_like"),
+        ("assumed", ["openness"], r"activity 'lunch', field 'assumed': 'openness' has no loading in big_five"),
         ("wordings", ["Cook a proper dinner", "Eat"], r"field 'wordings'.*'Cook a proper dinner'"),
         ("things", {}, r"activity 'lunch', field 'things'"),
         ("colour", "red", r"activity 'lunch', field 'colour'"),
@@ -165,6 +166,68 @@ def test_a_place_for_a_motion_that_does_not_exist_is_refused(tmp_path: Path) -> 
     path = _broken(tmp_path, lambda data: data["done_at"].update({"fly": ["sofa"]}))
     with pytest.raises(ConfigError, match=r"household\.yaml: field 'done_at': 'fly' is not listed under looks_like"):
         load(path)
+
+
+def _own(tmp_path: Path, **fields: Any) -> Path:
+    path = tmp_path / "own.yaml"
+    path.write_text(yaml.safe_dump({"extends": "shipped", **fields}), encoding="utf-8")
+    return path
+
+
+def _activity(index: int, **changed: Any) -> dict[str, Any]:
+    return {**json.loads(_three_activities())["activities"][index], **changed}
+
+
+def test_a_file_of_ones_own_replaces_adds_and_keeps(tmp_path: Path) -> None:
+    wordings = ["Fly a kite indoors", "Test the wind"]
+    new = _activity(1, id="kite", wordings=wordings, motions=["fly"], follows=["lunch"])
+    lunch = _activity(1, wordings=["Eat nothing at noon", "Fast for an hour"])
+    own = load(_own(tmp_path, activities=[lunch, new], looks_like={"fly": "exercise"}, done_at={"fly": ["sofa"]}))
+    assert list(own.index) == [*shipped().index, "kite"]
+    assert own.activities[own.index["lunch"]].wordings == tuple(lunch["wordings"])
+    assert own.activities[own.index["dinner"]] == shipped().activities[shipped().index["dinner"]]
+    assert own.suits("fly", "sofa")
+    assert not own.suits("fly", "bed")
+    assert load(_own(tmp_path)) == shipped()
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"extends": "nothing"}, r"field 'extends'"),
+        ({"activities": [{"id": "kite"}]}, r"activity 'kite', field 'wordings'"),
+        ({"activities": "kite"}, r"field 'activities'"),
+        ({"colour": "red"}, r"field 'colour'"),
+    ],
+)
+def test_a_mistake_in_a_file_of_ones_own_is_refused_by_its_name(
+    tmp_path: Path, fields: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(ConfigError, match=rf"own\.yaml: {said}"):
+        load(_own(tmp_path, **fields))
+
+
+def test_a_file_of_ones_own_may_neither_double_an_id_nor_take_a_wording_of_another(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"own\.yaml: activity 'kite', field 'id': each id may be used once only"):
+        load(_own(tmp_path, activities=[_activity(1, id="kite"), _activity(1, id="kite")]))
+    with pytest.raises(ConfigError, match=r"own\.yaml: activity 'kite', field 'wordings'.*stands also in"):
+        load(_own(tmp_path, activities=[_activity(1, id="kite")]))
+    with pytest.raises(ConfigError, match=r"activity 'kite', field 'things\.plate': 'fly' is not listed"):
+        load(
+            _own(
+                tmp_path,
+                activities=[
+                    _activity(1, id="kite", wordings=["a b", "c d"], things={**_activity(1)["things"], "plate": "fly"})
+                ],
+            )
+        )
+
+
+def test_what_is_assumed_says_so_and_the_documentation_counts_it() -> None:
+    assert [a.id for a in ACTIVITIES if bool(a.assumed) != ("assumption" in a.source)] == []
+    assumed = sum(len(activity.assumed) for activity in ACTIVITIES)
+    loadings = sum(len(activity.big_five) for activity in ACTIVITIES)
+    assert f"{assumed} of the {loadings} loadings" in (ROOT / "docs/offline-model.md").read_text(encoding="utf-8")
 
 
 def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:
