@@ -101,6 +101,18 @@ def write_atomic(path: Path, text: str) -> None:
         raise
 
 
+def write_output(path: Path, text: str) -> None:
+    """Write a file that a user has asked for, as a whole.
+
+    Raises:
+        ConfigError: If it cannot be written.
+    """
+    try:
+        write_atomic(path, text)
+    except OSError as err:
+        raise ConfigError(f"{path}: the file cannot be written ({reason(err)}).") from err
+
+
 def reason(err: OSError) -> str:
     """Say an operating system's refusal in a few words, such as "permission denied"."""
     return (err.strerror or str(err)).lower()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from coopera.files import write_atomic
+from coopera.files import write_output
 from core.errors import ConfigError
 from simulation.scene import Scene, dump_scene, list_scenes, load_scene
 
@@ -50,18 +50,6 @@ def place_for(id: str, folder: Path, *, force: bool = False) -> Path:
     if path.exists() and not force:
         raise ConfigError(f"{path}: there is a home of this id already; --force replaces it.")
     return path
-
-
-def write(path: Path, text: str) -> None:
-    """Write a text file as a whole.
-
-    Raises:
-        ConfigError: If it cannot be written.
-    """
-    try:
-        write_atomic(path, text)
-    except OSError as err:
-        raise ConfigError(f"{path}: the file cannot be written ({err.strerror or err}).") from err
 
 
 def write_picture(path: Path, pixels: NDArray[Any]) -> None:
@@ -122,7 +110,9 @@ def bring_in(
 
 def _arrive(scene: Scene, skipped: list[str], problems: list[str], folder: Path, *, force: bool) -> Arrival:
     file = place_for(scene.id, folder, force=force)
-    write(file, dump_scene(scene))
+    write_output(file, dump_scene(scene))
     lines = [f"left out: {line}" for line in skipped] + [f"problem: {line}" for line in problems]
-    write(folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines) or "Everything was taken over.\n")
+    write_output(
+        folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines) or "Everything was taken over.\n"
+    )
     return Arrival(scene, file, skipped, problems)

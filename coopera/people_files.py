@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from coopera.files import canonical_json, write_atomic
+from coopera.files import canonical_json, write_output
 from coopera.human_log import read_log
 from coopera.rundir import RunDir
 from core.errors import ConfigError
@@ -107,11 +107,11 @@ def write_results(folder: Path, figures: Sequence[Figure], about: Mapping[str, A
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
     writer.writerows(figure.model_dump() for figure in figures)
-    save(folder / "people.json", canonical_json(data))
-    save(folder / "people.csv", text.getvalue())
+    write_output(folder / "people.json", canonical_json(data))
+    write_output(folder / "people.csv", text.getvalue())
     head, *rows = table(figures)
     lines = [head, ["---"] * len(head), *rows]
-    save(folder / "people.md", "".join(f"| {' | '.join(cells)} |\n" for cells in lines))
+    write_output(folder / "people.md", "".join(f"| {' | '.join(cells)} |\n" for cells in lines))
 
 
 def table(figures: Sequence[Figure]) -> list[list[str]]:
@@ -128,18 +128,6 @@ def table(figures: Sequence[Figure]) -> list[list[str]]:
         numbers = [number(one.value), interval, control, number(one.paper), n]
         rows.append([one.check, one.measure, one.variant.replace("_", " "), *numbers, one.note])
     return rows
-
-
-def save(path: Path, text: str) -> None:
-    """Write a file of the results as a whole.
-
-    Raises:
-        ConfigError: If it cannot be written.
-    """
-    try:
-        write_atomic(path, text)
-    except OSError as err:
-        raise ConfigError(f"--out: {path} cannot be written ({err.strerror or err}).") from err
 
 
 def read_answers(path: Path) -> Any:

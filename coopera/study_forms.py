@@ -11,8 +11,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from pydantic import ValidationError
 
-from coopera.files import canonical_json, read_text
-from coopera.people_files import read_answers, save
+from coopera.files import canonical_json, read_text, write_output
+from coopera.people_files import read_answers
 from core.errors import ConfigError
 from evaluation.people.studies import Answers, Key, Made, Study
 
@@ -26,8 +26,8 @@ def write_study(folder: Path, made: Made) -> None:
     Raises:
         ConfigError: If the folder cannot be written.
     """
-    save(folder / "study.html", render(made.study))
-    save(folder / "study-key.json", canonical_json(made.key.model_dump()))
+    write_output(folder / "study.html", render(made.study))
+    write_output(folder / "study-key.json", canonical_json(made.key.model_dump()))
 
 
 def render(study: Study) -> str:

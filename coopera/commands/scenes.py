@@ -100,7 +100,8 @@ def generate(
     as_json: AsJson = False,
 ) -> None:
     """Make a home from a seed and store it, so that its id works everywhere."""
-    from coopera.homes import figures, place_for, write, write_picture
+    from coopera.files import write_output
+    from coopera.homes import figures, place_for, write_picture
     from simulation.generate import generate as make
     from simulation.proof import prove as problems_of
     from simulation.scene import dump_scene
@@ -109,7 +110,7 @@ def generate(
     file = place_for(id, _scenes(out), force=force)
     home = make(seed, rooms, id, things=things)
     problems = problems_of(home)
-    write(file, dump_scene(home))
+    write_output(file, dump_scene(home))
     if png is not None:
         from simulation.overview import overview
 

@@ -7,10 +7,9 @@ from typing import NamedTuple
 
 from core.people import PersonId
 from core.randomness import rng_at
-from evaluation.people.figures import Figure, unmeasured
+from evaluation.people.figures import Figure, over_people, unmeasured
 from evaluation.people.learners import Learner
 from evaluation.people.lives import HeldOut, LivedDay, Lives, hold_out
-from evaluation.statistics import bootstrap
 
 KINDS: dict[str, Callable[[LivedDay], list[str]]] = {
     "intentions": lambda day: day.intentions,
@@ -44,18 +43,16 @@ def distinctness(lives: Lives, learner: Learner, *, seed: int = 0) -> list[Figur
         if not right:
             figures += unmeasured("distinct", kind, why="no tested day is of a person who also lived another one")
             continue
-        units = [right[person] for person in sorted(right)]
-        interval = bootstrap(units, accuracy, seed=seed)
         figures.append(
-            Figure(
-                check="distinct",
-                measure=kind,
-                value=interval.mean,
-                low=interval.low,
-                high=interval.high,
-                n=sum(unit.days for unit in units),
+            over_people(
+                "distinct",
+                kind,
+                right,
+                accuracy,
+                chance=by_chance,
+                seed=seed,
+                n=sum(unit.days for unit in right.values()),
                 unit="days",
-                control=accuracy(list(by_chance.values())) if by_chance else None,
                 control_is="people shuffled",
                 note=f"{len(lives.people)}-way, chance {1 / len(lives.people):.3f}, unseen {held_out.unseen}",
             )

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from core.people import Frozen
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
+
+from core.people import Frozen, PersonId
+from evaluation.statistics import bootstrap
+
+Unit = TypeVar("Unit")
 
 FULL = "full"
 """The person as the paper simulates it; every other variant is an ablation."""
@@ -62,6 +68,42 @@ PAPER: dict[tuple[str, str, str], float] = {
 def unmeasured(check: str, *measures: str, why: str) -> list[Figure]:
     """Figures that could not be measured, with the reason."""
     return [Figure(check=check, measure=measure, note=why) for measure in measures]
+
+
+def over_people(
+    check: str,
+    measure: str,
+    units: Mapping[PersonId, Unit],
+    statistic: Callable[[Sequence[Unit]], float],
+    *,
+    chance: Mapping[PersonId, Unit],
+    seed: int,
+    **about: str | int,
+) -> Figure:
+    """A statistic of what was counted by person, with an interval that resamples people.
+
+    Args:
+        check: As in `Figure`.
+        measure: As in `Figure`.
+        units: What was counted, by person; at least one.
+        statistic: The number from some people's counts.
+        chance: The same counts of a control that must find nothing; none gives none.
+        seed: Of the resampling.
+        about: Further fields of the figure.
+    """
+    interval = bootstrap([units[person] for person in sorted(units)], statistic, seed=seed)
+    control = [chance[person] for person in sorted(chance)]
+    return Figure.model_validate(
+        {
+            **about,
+            "check": check,
+            "measure": measure,
+            "value": interval.mean,
+            "low": interval.low,
+            "high": interval.high,
+            "control": statistic(control) if control else None,
+        }
+    )
 
 
 def as_variant(figures: list[Figure], variant: str) -> list[Figure]:

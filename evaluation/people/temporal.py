@@ -7,10 +7,9 @@ from typing import NamedTuple
 
 from core.people import PersonId
 from core.randomness import rng_at
-from evaluation.people.figures import Figure, unmeasured
+from evaluation.people.figures import Figure, over_people, unmeasured
 from evaluation.people.learners import Learner, Step
 from evaluation.people.lives import LivedDay, Lives, hold_out
-from evaluation.statistics import bootstrap
 
 BEFORE = 3  # PAPER §4.2: "given three earlier intentions"
 _MEASURES = ("accuracy", "F1")
@@ -50,26 +49,21 @@ def temporal_dependence(lives: Lives, learner: Learner, *, seed: int = 0) -> lis
     if not answers:
         return unmeasured("temporal", *_MEASURES, why=f"it takes days of at least {BEFORE + 5} hours")
     by_chance = _answers([_out_of_order(day, seed) for day in lives.days], learner, seed)
-    units = [answers[person] for person in sorted(answers)]
-    chance = [by_chance[person] for person in sorted(by_chance)]
-    figures = []
-    for measure, statistic in zip(_MEASURES, (accuracy, f1), strict=True):
-        interval = bootstrap(units, statistic, seed=seed)
-        figures.append(
-            Figure(
-                check="temporal",
-                measure=measure,
-                value=interval.mean,
-                low=interval.low,
-                high=interval.high,
-                n=sum(map(sum, units)),
-                unit="steps",
-                control=statistic(chance),
-                control_is="hours shuffled",
-                note=f"half of the steps are real, chance 0.5, unseen {held_out.unseen}",
-            )
+    return [
+        over_people(
+            "temporal",
+            measure,
+            answers,
+            statistic,
+            chance=by_chance,
+            seed=seed,
+            n=sum(map(sum, answers.values())),
+            unit="steps",
+            control_is="hours shuffled",
+            note=f"half of the steps are real, chance 0.5, unseen {held_out.unseen}",
         )
-    return figures
+        for measure, statistic in zip(_MEASURES, (accuracy, f1), strict=True)
+    ]
 
 
 def questions(day: LivedDay, seed: int) -> list[Question]:
