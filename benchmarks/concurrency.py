@@ -1,25 +1,25 @@
 """Eight studies at once against one after the other, at a server that answers every request after 200 ms.
 
-    python -m benchmarks.concurrency [--studies 8] [--hours 3] [--latency 0.2]
+    python -m benchmarks.concurrency [--studies 8] [--hours 13] [--latency 0.2] [--processes 2]
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
-the processor: what the homes compute takes turns.
+the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import resource
 import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from coopera import Config
 from coopera.config import Models
 from coopera.humans import shipped_ids
-from coopera.studies import run_studies
+from coopera.studies import Ended, run_studies
 from core.errors import CooperaError
 from tests.serving import done, serving
 
@@ -28,13 +28,14 @@ def main() -> None:
     """Print both times and their ratio."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=8)
-    parser.add_argument("--hours", type=int, default=3)
+    parser.add_argument("--hours", type=int, default=13)
     parser.add_argument("--latency", type=float, default=0.2)
+    parser.add_argument("--processes", type=int, default=os.cpu_count())
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, serving("--latency", str(given.latency)) as url:
         root = Path(folder)
 
-        def studies(name: str, cache: str) -> list[Config]:
+        def studies(name: str) -> list[Config]:
             people = [shipped_ids()[n % len(shipped_ids())] for n in range(given.studies)]
             return [
                 Config(
@@ -46,37 +47,45 @@ def main() -> None:
                     models=Models(human="openai:tiny", robot="openai:tiny", judge="openai:tiny"),
                     base_url=url,
                     out=root / name / str(n),
-                    cache=root / cache,
+                    cache=root / f"{name}.sqlite",
                     data_dir=root / "data",
                 )
                 for n, person in enumerate(people)
             ]
 
-        run_studies(studies("warm", "warm.sqlite"))  # every text is encoded once, as in any second run
+        def at_once(name: str, processes: int) -> list[Ended]:
+            return run_studies(studies(name), at_once=given.studies, processes=processes)
+
+        at_once("warm", 1)  # every text is encoded once, as in any second run
         before = len(done(url))
-        single = _seconds(lambda: [run_studies([config]) for config in studies("single", "single.sqlite")])
-        asked = len(done(url)) - before
-        together = _seconds(lambda: run_studies(studies("together", "together.sqlite"), at_once=given.studies))
-        for n in range(given.studies):
-            same = [_trace(root / name / str(n)) for name in ("single", "together")]
-            assert same[0] == same[1], f"study {n} depends on its neighbours"
-    requests = f"{asked} requests of {given.latency:g} s each"
-    print(f"{given.studies} studies of {given.hours} hours, {requests}; {os.cpu_count()} cores")
-    print(f"one after the other: {single:.1f} s; at once: {together:.1f} s; ratio {single / together:.1f}")
+        print(f"{given.studies} studies of {given.hours} hours, {given.latency:g} s a request; {os.cpu_count()} cores")
+        single = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
+        print(f"requests: {len(done(url)) - before}")
+        for processes in sorted({1, given.processes}):
+            name = f"at once in {processes} process{'es' if processes > 1 else ''}"
+            together = _timed(name, lambda name=name, processes=processes: at_once(name, processes))
+            print(f"{name}: {single / together:.1f} times as fast")
+            for n in range(given.studies):
+                same = [(root / run / str(n) / "metrics.csv").read_bytes() for run in ("single", name)]
+                assert same[0] == same[1], f"study {n} depends on its neighbours"
 
 
-def _seconds(work: Callable[[], Any]) -> float:
-    started = time.perf_counter()
-    found = work()
+def _timed(name: str, work: Callable[[], list[Ended]]) -> float:
+    """Do the work, print what it took, and return its seconds; an error of a study ends the benchmark."""
+    started, cpu = time.perf_counter(), _cpu_seconds()
+    ended = work()
     seconds = time.perf_counter() - started
-    for error in (one for many in found for one in (many if isinstance(many, list) else [many])):
-        if isinstance(error, CooperaError):
-            raise error
+    print(f"{name}: {seconds:.1f} s, of processor time {_cpu_seconds() - cpu:.1f} s", flush=True)
+    for one in ended:
+        if isinstance(one, CooperaError):
+            raise one
     return seconds
 
 
-def _trace(run: Path) -> bytes:
-    return (run / "metrics.csv").read_bytes()
+def _cpu_seconds() -> float:
+    """Of this process and those that it has ended, but not of the server."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -98,12 +99,9 @@ def gather_pictures(run: RunDir, budget: int) -> Album:
     return embed(run.root, frames, budget)
 
 
-def render(run: RunDir, album: Album) -> str:
-    """The page as text; a run that is not finished is shown as far as it got."""
-    records = run.hours()
-    people = run.people()
-    days = _days(run, records, album, people)
-    evenings = {evening.day: evening for evening in run.evenings()}
+@functools.cache
+def _environment() -> Environment:
+    """The templates, compiled once: it takes longer than filling them."""
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
@@ -112,24 +110,37 @@ def render(run: RunDir, album: Album) -> str:
         lstrip_blocks=True,
     )
     environment.filters |= {"figure": figure, "hour": hour_label, "reasons": reasons, "flat": _flat, "words": _words}
-    return environment.get_template("report.html.j2").render(
-        run=run,
-        config=run.config,
-        info=run.info,
-        people=people,
-        days=days,
-        hours=run.config.day_hours,
-        summary=run.summary(),
-        overall={measure: pooled(records, measure) for measure in MEASURES},
-        curve=_curve(days),
-        ends=_ends(records),
-        by_hour=_by_hour(records, run.config.day_hours),
-        calibration=_calibration(records, evenings),
-        activities=learned.activities(records, evenings),
-        album=album,
-        offline=_offline_roles(run.info.get("models", {})),
-        style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
-        script=Markup((TEMPLATES / "script.js").read_text(encoding="utf-8")),
+    return environment
+
+
+def render(run: RunDir, album: Album) -> str:
+    """The page as text; a run that is not finished is shown as far as it got."""
+    records = run.hours()
+    people = run.people()
+    days = _days(run, records, album, people)
+    evenings = {evening.day: evening for evening in run.evenings()}
+    return (
+        _environment()
+        .get_template("report.html.j2")
+        .render(
+            run=run,
+            config=run.config,
+            info=run.info,
+            people=people,
+            days=days,
+            hours=run.config.day_hours,
+            summary=run.summary(),
+            overall={measure: pooled(records, measure) for measure in MEASURES},
+            curve=_curve(days),
+            ends=_ends(records),
+            by_hour=_by_hour(records, run.config.day_hours),
+            calibration=_calibration(records, evenings),
+            activities=learned.activities(records, evenings),
+            album=album,
+            offline=_offline_roles(run.info.get("models", {})),
+            style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
+            script=Markup((TEMPLATES / "script.js").read_text(encoding="utf-8")),
+        )
     )
 
 

@@ -18,7 +18,7 @@ from coopera.humans import read_persona, write_persona
 from coopera.stopping import Stop
 from coopera.summary import metrics_csv, metrics_rows, summarise
 from coopera.trace_files import read_json, read_record, write_record
-from core.errors import BudgetError, ConfigError, CooperaError, RunError, WaitingError
+from core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
 from core.hour import Evening, HourRecord
 from core.people import Persona
 from models.settings import Budget, Spent
@@ -50,14 +50,16 @@ class RunDir:
         config: The resolved configuration, as in config.yaml.
     """
 
-    def __init__(self, root: Path, config: Config, info: dict[str, Any], lock: IO[str] | None) -> None:
+    def __init__(
+        self, root: Path, config: Config, info: dict[str, Any], lock: IO[str] | None, stop: Stop | None = None
+    ) -> None:
         """Use `create`, `resume` or `open`."""
         self.root = root
         self.config = config
         self.info = info
         self._lock = lock
         self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
-        self._stop = Stop()
+        self._stop = Stop(stop)
 
     @classmethod
     def create(
@@ -68,6 +70,7 @@ class RunDir:
         prompts: Mapping[str, str],
         models: Mapping[str, str],
         knowledge: Mapping[str, str] | None = None,
+        stop: Stop | None = None,
     ) -> Self:
         """Start a new run in `config.out`; nothing stays behind if that fails.
 
@@ -77,6 +80,7 @@ class RunDir:
             prompts: SHA of each prompt by name.
             models: Identity of the model behind each role.
             knowledge: SHA of each household file of one's own, by the model that has it.
+            stop: What else stops this run, besides the signals that it listens to itself.
 
         Raises:
             ConfigError: If the folder cannot be written, is not empty or holds another run.
@@ -98,7 +102,7 @@ class RunDir:
             claim.clear(root, made)
             what = reason(err) if isinstance(err, OSError) else str(err)
             raise ConfigError(f"out: {root} cannot be written ({what}).") from err
-        return cls(root, config, info, lock)
+        return cls(root, config, info, lock, stop)
 
     @classmethod
     def open(cls, path: Path) -> Self:
@@ -160,7 +164,7 @@ class RunDir:
         if self._lock is None:
             return
         if self.state == "running":
-            if isinstance(error, (BudgetError, WaitingError)):
+            if isinstance(error, (BudgetError, StoppedError, WaitingError)):
                 self._end("stopped", str(error))
             elif isinstance(error, Exception):
                 what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
@@ -174,7 +178,7 @@ class RunDir:
         """Go on, unless a stop was asked for; whatever takes long calls this now and then.
 
         Raises:
-            RunError: If Ctrl-C was pressed or the process was told to end.
+            StoppedError: If Ctrl-C was pressed or the process was told to end.
         """
         self._stop.check()
 

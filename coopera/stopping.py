@@ -7,7 +7,7 @@ import threading
 from types import FrameType, TracebackType
 from typing import Any, Self
 
-from core.errors import RunError
+from core.errors import StoppedError
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -19,8 +19,9 @@ class Stop:
     a node. Whatever the work calls often therefore calls `check`, so that it ends within the hour.
     """
 
-    def __init__(self) -> None:
-        """Nothing is asked for yet."""
+    def __init__(self, outer: Stop | None = None) -> None:
+        """Nothing is asked for yet; what stops `outer` stops this one too."""
+        self._outer = outer
         self._asked = threading.Event()
         self._before: dict[signal.Signals, Any] = {}
 
@@ -42,10 +43,12 @@ class Stop:
         """Go on, or not.
 
         Raises:
-            RunError: If a stop was asked for.
+            StoppedError: If a stop was asked for.
         """
         if self._asked.is_set():
-            raise RunError("The run was interrupted.")
+            raise StoppedError("The run was interrupted.")
+        if self._outer is not None:
+            self._outer.check()
 
     def _ask(self, number: int, frame: FrameType | None) -> None:
         self._asked.set()

@@ -22,6 +22,7 @@ from coopera.files import canonical_json, reason, write_atomic
 from coopera.real_people import open_told
 from coopera.report import write_report
 from coopera.rundir import RunDir
+from coopera.stopping import Stop
 from core.errors import ConfigError, RunError, WaitingError
 from core.hour import Counts, DayPlan
 from core.household import SceneId
@@ -54,7 +55,11 @@ def nobody(question: Question) -> Answer:
 
 
 def run_study(
-    config: Config, *, on_event: Callable[[Event], None] | None = None, ask_person: AskPerson = nobody
+    config: Config,
+    *,
+    on_event: Callable[[Event], None] | None = None,
+    ask_person: AskPerson = nobody,
+    stop: Stop | None = None,
 ) -> dict[str, Any]:
     """Run a study from its first hour to its report.
 
@@ -63,6 +68,7 @@ def run_study(
         on_event: Told of each node that ends.
         ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
+        stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
 
     Returns:
         The content of summary.json.
@@ -71,7 +77,7 @@ def run_study(
         ConfigError: If the configuration is wrong; nothing is then written.
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
-    with new_run(config) as (run, services):
+    with new_run(config, stop) as (run, services):
         return _carry_on(run, services, on_event, ask_person)
 
 
@@ -106,7 +112,7 @@ def resume_study(
 
 
 @contextmanager
-def new_run(config: Config) -> Iterator[tuple[RunDir, Services]]:
+def new_run(config: Config, stop: Stop | None = None) -> Iterator[tuple[RunDir, Services]]:
     """Start a run directory and open its services, for scripts that drive a graph themselves.
 
     Raises:
@@ -119,7 +125,12 @@ def new_run(config: Config) -> Iterator[tuple[RunDir, Services]]:
     specs = {str(role): spec for role, spec in model_specs(config).items()}
     with (
         RunDir.create(
-            config, people=people, prompts=prompts.hashes(), models=specs, knowledge=knowledge_of(specs.values())
+            config,
+            people=people,
+            prompts=prompts.hashes(),
+            models=specs,
+            knowledge=knowledge_of(specs.values()),
+            stop=stop,
         ) as run,
         open_services(config, run, run.people(), prompts, told) as services,
     ):

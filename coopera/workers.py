@@ -152,10 +152,15 @@ def _hire(context: Any, work: Work) -> _Worker:
     return _Worker(process, here)
 
 
+def die_with(parent: int) -> bool:
+    """Let this process be killed when its parent dies; False if the parent has died already."""
+    ctypes.CDLL(None).prctl(_PARENT_DEATH, signal.SIGKILL)
+    return os.getppid() == parent
+
+
 def _serve(pipe: Connection, work: Work, parent: int) -> None:
     """The life of a worker: take a job, do it, say how it went."""
-    ctypes.CDLL(None).prctl(_PARENT_DEATH, signal.SIGKILL)
-    if os.getppid() != parent:  # it died before this process could ask to die with it, and may have left a job
+    if not die_with(parent):  # it may have left a job
         return
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends the workers
     while True:

@@ -6,9 +6,21 @@ exit code 2 (the input is wrong) and every other `CooperaError` into 1 (the work
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class CooperaError(Exception):
     """Root of all errors that coopera raises on purpose; its text is one clear sentence."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Cross to another process whole, whatever the constructor of the class asks for."""
+        return _rebuilt, (type(self), self.args, self.__dict__)
+
+
+def _rebuilt(kind: type[CooperaError], args: tuple[Any, ...], attributes: dict[str, Any]) -> CooperaError:
+    err = kind.__new__(kind, *args)
+    err.__dict__.update(attributes)
+    return err
 
 
 class ConfigError(CooperaError):
@@ -62,3 +74,7 @@ class WaitingError(CooperaError):
 
 class RunError(CooperaError):
     """A run directory cannot be written, continued or read."""
+
+
+class StoppedError(RunError):
+    """A run was told to end, by Ctrl-C or `kill`; it is stopped, not failed, and resuming it goes on."""

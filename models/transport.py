@@ -68,10 +68,19 @@ class Gate:
             return self._begun[0] + _MINUTE - now
 
 
+_sharing = 1
+
+
+def share_pace(processes: int) -> None:
+    """Say that this process is one of several that keep the pace together: each keeps its part, at least 1 of it."""
+    global _sharing
+    _sharing = processes
+
+
 @functools.lru_cache(maxsize=64)
 def gate_to(server: str, at_once: int, per_minute: int | None) -> Gate:
     """The one gate that all studies of this process pass on their way to a server."""
-    return Gate(at_once, per_minute)
+    return Gate(max(1, at_once // _sharing), None if per_minute is None else max(1, per_minute // _sharing))
 
 
 @dataclass(frozen=True, slots=True)

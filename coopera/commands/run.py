@@ -191,7 +191,7 @@ def _carry_out(
     from rich.console import Console
 
     from coopera.progress import Progress, days_table
-    from core.errors import WaitingError
+    from core.errors import StoppedError, WaitingError
 
     try:
         # a live line and a person's typing would get in each other's way
@@ -201,7 +201,7 @@ def _carry_out(
     except WaitingError as err:
         typer.echo(f"{err} Continue with: coopera resume {folder}", err=True)
         raise typer.Exit(STOPPED) from None
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, StoppedError):
         typer.echo(_how_to_go_on(folder), err=True)
         raise typer.Exit(STOPPED) from None
     except BudgetError:

@@ -16,9 +16,10 @@ from coopera.catalogues import resolve
 from coopera.config import Config, Models
 from coopera.humans import find
 from coopera.rundir import RunDir
+from coopera.stopping import Stop
 from coopera.study import knowledge_of, resume_study
 from coopera.summary import summarise
-from core.errors import ConfigError, ModelCallError, RunError
+from core.errors import ConfigError, ModelCallError, RunError, StoppedError
 from core.hour import HourRecord, HumanHour
 from prompts import PromptLibrary
 from tests.coopera.fake_run import fake_run
@@ -190,6 +191,16 @@ def test_ctrl_c_ends_the_work_of_other_threads_at_their_next_record(tmp_path: Pa
     assert stopped_at
     assert RunDir.open(tmp_path / "run").state == "stopped"
     assert signal.getsignal(signal.SIGTERM) == before
+
+
+def test_a_run_is_stopped_by_what_stops_all(tmp_path: Path) -> None:
+    with Stop() as stop:
+        run = RunDir.create(Config(out=tmp_path / "run"), people=[], prompts={}, models={}, stop=stop)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        with pytest.raises(StoppedError), run:
+            run.write_hour(failed_hour(0, 9))
+    assert RunDir.open(tmp_path / "run").state == "stopped"
 
 
 def test_a_finished_run_is_finished_and_not_resumed(run: RunDir) -> None:
