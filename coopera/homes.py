@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coopera.files import write_output
 from core.errors import ConfigError
+from simulation.imported import read_text
 from simulation.scene import Scene, dump_scene, list_scenes, load_scene
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def bring_in(
         raise ConfigError(f"{path}: there is no such file or folder.")
     if path.is_file() and not path.name.endswith(_INSTANCE):
         home = load_scene(path)
-        return [_arrive(home, [], prove(home), folder, force=force)]
+        return [_arrive(home, [], prove(home), folder, meshes=_meshes_of(home), force=force)]
     from simulation.hssd import import_scene  # noqa: PLC0415
     from simulation.hssd_files import Folder  # noqa: PLC0415
 
@@ -104,12 +105,23 @@ def bring_in(
     for name in wanted:
         found = import_scene(hssd, name, skip_missing=skip_missing)
         skipped = [f"{item.what}: {item.why}" for item in found.skipped]
-        arrivals.append(_arrive(found.scene, skipped, found.problems, folder, force=force))
+        arrivals.append(_arrive(found.scene, skipped, found.problems, folder, meshes=found.meshes, force=force))
     return arrivals
 
 
-def _arrive(scene: Scene, skipped: list[str], problems: list[str], folder: Path, *, force: bool) -> Arrival:
+def _meshes_of(home: Scene) -> dict[str, str]:
+    """The files of a home's meshes, by their names."""
+    names = {part.file for thing in home.objects for part in thing.mesh}
+    folder = home.meshes
+    return {} if folder is None else {name: read_text(folder / name) for name in sorted(names)}
+
+
+def _arrive(
+    scene: Scene, skipped: list[str], problems: list[str], folder: Path, *, meshes: dict[str, str], force: bool
+) -> Arrival:
     file = place_for(scene.id, folder, force=force)
+    for name, text in meshes.items():
+        write_output(folder / f"{scene.id}.meshes" / name, text)
     write_output(file, dump_scene(scene))
     lines = [f"left out: {line}" for line in skipped] + [f"problem: {line}" for line in problems]
     write_output(

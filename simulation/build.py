@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from simulation.catalogue import catalogue, parts_of
 from simulation.engine import pybullet
 from simulation.floorplan import WALL_THICKNESS, Point, Wall
-from simulation.scene import Room, Scene, rgb_of
+from simulation.scene import Room, Scene, SceneObject, rgb_of
 from simulation.shapes import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
 
 WALL_HEIGHT = 2.4
@@ -70,15 +71,16 @@ def build(scene: Scene, client: int) -> BuiltHome:
     for start in range(0, len(scene.stage or []), MOST_PARTS):
         _stage_body(client, walls[start : start + MOST_PARTS])
     for thing in scene.objects:
-        body = _body(client, parts_of(thing.cls, thing.size, thing.rgb), thing.size)
+        drawn = _mesh_visual(client, thing, scene.meshes) if thing.mesh and scene.meshes is not None else None
+        body = _body(client, parts_of(thing.cls, thing.size, thing.rgb), thing.size, drawn)
         home.bodies[thing.name], home.names[body] = body, thing.name
         home.move(thing.name, thing.position, thing.yaw)
     return home
 
 
-def _body(client: int, parts: list[Part], size: Size) -> int:
-    """One body of several coloured parts, with a box around it for rays."""
-    visual = _visual(client, parts)
+def _body(client: int, parts: list[Part], size: Size, drawn: int | None = None) -> int:
+    """One body of several coloured parts, or of what was drawn instead, with a box around it for rays."""
+    visual = _visual(client, parts) if drawn is None else drawn
     half = [size[0] / 2, size[1] / 2, size[2] / 2]
     hull = pybullet.createCollisionShape(
         pybullet.GEOM_BOX, halfExtents=half, collisionFramePosition=[0, 0, half[2]], physicsClientId=client
@@ -102,6 +104,24 @@ def _visual(client: int, parts: list[Part]) -> int:
             rgbaColors=[list(part.rgba) for part in parts],
             visualFramePositions=[list(part.position) for part in parts],
             visualFrameOrientations=[list(part.orientation) for part in parts],
+            physicsClientId=client,
+        )
+    )
+
+
+def _mesh_visual(client: int, thing: SceneObject, folder: Path) -> int:
+    """What an imported thing looks like."""
+    count = len(thing.mesh)
+    return int(
+        pybullet.createVisualShapeArray(
+            shapeTypes=[pybullet.GEOM_MESH] * count,
+            fileNames=[str(folder / part.file) for part in thing.mesh],
+            meshScales=[[1.0, 1.0, 1.0]] * count,
+            halfExtents=[[0.0, 0.0, 0.0]] * count,
+            radii=[0.0] * count,
+            lengths=[0.0] * count,
+            rgbaColors=[[*rgb_of(part.colour), 1.0] for part in thing.mesh],
+            visualFramePositions=[[0.0, 0.0, 0.0]] * count,
             physicsClientId=client,
         )
     )

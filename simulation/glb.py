@@ -1,11 +1,12 @@
 """Read where the surface of a binary glTF 2.0 file lies: its corners and triangles, in the file's own frame.
 
-Only geometry is read, no material and no picture. Where a primitive is compressed, the box that the format demands
-for it stands for its corners.
+Of materials only the base colour is read, of a picture its mean. Where a primitive is compressed, the box that the
+format demands for it stands for its corners.
 """
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import struct
@@ -14,6 +15,7 @@ from typing import Annotated, Any, NamedTuple, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 from pydantic import ConfigDict, Field, ValidationError
 from pydantic.alias_generators import to_camel
 
@@ -26,16 +28,24 @@ Item = TypeVar("Item")
 
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _TRIANGLES = 4
+_PICTURES = ("PNG", "JPEG", "WEBP")
+_UNKNOWN: Array = np.full(3, np.nan)
+_GAMMA = 1 / 2.2
+"""Factors are light, colours on a screen are not."""
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
 _Index = Annotated[int, Field(ge=0)]
 _Three = tuple[float, float, float]
 
 
 class Mesh(NamedTuple):
-    """Corners of shape (n, 3), and triangles as rows of three of their numbers, shape (m, 3)."""
+    """Corners of shape (n, 3), and triangles as rows of three of their numbers, shape (m, 3), each with a colour.
+
+    Colours are channels in [0, 1], shape (m, 3); NaN where the file tells none that we can read.
+    """
 
     corners: Array
     triangles: Indices
+    colours: Array
 
 
 class _Gltf(Loose):
@@ -63,8 +73,30 @@ class _View(_Gltf):
 class _Primitive(_Gltf):
     attributes: dict[str, _Index]
     indices: _Index | None = None
+    material: _Index | None = None
     mode: int = _TRIANGLES
     extensions: dict[str, Any] = {}
+
+
+class _Picture(_Gltf):
+    index: _Index
+
+
+class _Metallic(_Gltf):
+    base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
+    base_color_texture: _Picture | None = None
+
+
+class _Material(_Gltf):
+    pbr_metallic_roughness: _Metallic | None = None
+
+
+class _Texture(_Gltf):
+    source: _Index | None = None
+
+
+class _Image(_Gltf):
+    buffer_view: _Index | None = None
 
 
 class _Mesh(_Gltf):
@@ -100,6 +132,9 @@ class _Document(_Gltf):
     scenes: list[_Scene] = []
     nodes: list[_Node] = []
     meshes: list[_Mesh] = []
+    materials: list[_Material] = []
+    textures: list[_Texture] = []
+    images: list[_Image] = []
     accessors: list[_Accessor] = []
     buffer_views: list[_View] = []
     buffers: list[dict[str, Any]] = []
@@ -149,6 +184,7 @@ class _Reader:
             roots = self._at(document.scenes, document.scene, "scene").nodes
         corners: list[Array] = []
         triangles: list[Indices] = []
+        colours: list[Array] = []
         seen: set[int] = set()
         waiting = [(number, np.eye(4), "scenes") for number in reversed(roots)]
         count = 0
@@ -166,10 +202,11 @@ class _Reader:
                 points, faces = self._primitive(primitive, f"meshes.{node.mesh}.primitives.{n}")
                 corners.append(points @ here[:3, :3].T + here[:3, 3])
                 triangles.append(faces + count)
+                colours.append(np.tile(self._colour(primitive.material), (len(faces), 1)))
                 count += len(points)
         if not count:
             self._refuse("meshes", "shows nothing: there is no mesh with a POSITION in its scene")
-        return Mesh(np.concatenate(corners), np.concatenate(triangles))
+        return Mesh(np.concatenate(corners), np.concatenate(triangles), np.concatenate(colours))
 
     def _chunks(self) -> tuple[bytes, bytes]:
         try:
@@ -215,6 +252,32 @@ class _Reader:
         if faces.size and int(faces.max()) >= len(points):
             self._refuse(f"accessors.{primitive.indices}", f"names a corner beyond the last, {len(points) - 1}")
         return points, faces
+
+    def _colour(self, number: int | None) -> Array:
+        """What a material looks like in one colour."""
+        if number is None:
+            return _UNKNOWN
+        metallic = self._at(self._document.materials, number, "materials").pbr_metallic_roughness or _Metallic()
+        factor = np.clip(metallic.base_color_factor[:3], 0.0, 1.0) ** _GAMMA
+        if metallic.base_color_texture is None:
+            return np.asarray(factor)
+        return np.asarray(factor * self._mean(metallic.base_color_texture.index, f"materials.{number}"))
+
+    def _mean(self, number: int, field: str) -> Array:
+        """The mean of a texture's picture; unknown where it is of a kind that we do not read, such as KTX2."""
+        source = self._at(self._document.textures, number, f"{field}.baseColorTexture.index").source
+        if source is None:
+            return _UNKNOWN
+        image = self._at(self._document.images, source, f"textures.{number}.source")
+        if image.buffer_view is None:
+            return _UNKNOWN
+        view = self._at(self._document.buffer_views, image.buffer_view, f"images.{source}.bufferView")
+        try:
+            with Image.open(io.BytesIO(self._binary[view.byte_offset :][: view.byte_length]), formats=_PICTURES) as one:
+                pixels: Array = np.asarray(one.convert("RGB").resize((8, 8)), dtype=np.float64)
+                return np.asarray(pixels.mean(axis=(0, 1)) / 255)
+        except (OSError, ValueError, Image.DecompressionBombError):
+            return _UNKNOWN
 
     def _corners_of_box(self, accessor: _Accessor, field: str) -> Array:
         if accessor.min is None or accessor.max is None or len(accessor.min) != 3 or len(accessor.max) != 3:

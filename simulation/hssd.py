@@ -20,10 +20,11 @@ from core.errors import ConfigError
 from core.household import SceneId
 from simulation.categories import DYNAMIC
 from simulation.floorplan import Wall
-from simulation.glb import Array, read_glb, rotation_matrix
+from simulation.glb import Array, Mesh, read_glb, rotation_matrix
 from simulation.hssd_files import Folder, Instance, Region, Template
 from simulation.hssd_names import class_of, colour_of, slug
 from simulation.hssd_walls import walls_of
+from simulation.meshes import look_of, simplified
 from simulation.proof import prove
 from simulation.scene import Room, Scene, SceneObject
 
@@ -46,11 +47,12 @@ class Skipped(NamedTuple):
 
 
 class Imported(NamedTuple):
-    """A home, what was left out of it, and what `prove` says of it."""
+    """A home, what was left out of it, what `prove` says of it, and the files of its meshes by their names."""
 
     scene: Scene
     skipped: list[Skipped]
     problems: list[str]
+    meshes: dict[str, str]
 
 
 class Box(NamedTuple):
@@ -59,6 +61,15 @@ class Box(NamedTuple):
     position: tuple[float, float, float]
     yaw: float
     size: tuple[float, float, float]
+
+
+class Found(NamedTuple):
+    """An instance that is taken over: its place in the file, what it is made from, and its box."""
+
+    number: int
+    template: Template
+    instance: Instance
+    box: Box
 
 
 def import_scene(folder: Folder, id: str, *, skip_missing: bool = False) -> Imported:
@@ -79,16 +90,16 @@ def import_scene(folder: Folder, id: str, *, skip_missing: bool = False) -> Impo
     rooms = _rooms(regions, floor, skipped)
     found = list(_objects(folder, id, floor, skip_missing, skipped))
     if not rooms:
-        rooms = [_room_around([box for _, _, box in found], id)]
+        rooms = [_room_around([one.box for one in found], id)]
         skipped.append(Skipped("rooms", "there are no regions, so the whole home is one room"))
     skipped += [
         Skipped(f"articulated_object_instances.{i}", "articulated objects are not taken over")
         for i in range(len(instances.articulated_object_instances))
     ]
     scene = Scene(id=SceneId(scene_id(id)), rooms=rooms, objects=[], stage=_stage(folder, id, floor, skipped))
-    scene = scene.model_copy(update={"objects": _name(scene, found)})
-    scene = Scene.model_validate(scene.model_dump())
-    return Imported(scene, skipped, prove(scene))
+    objects, meshes = _drawn(_name(scene, found), found, skipped)
+    scene = Scene.model_validate(scene.model_copy(update={"objects": objects}).model_dump())
+    return Imported(scene, skipped, prove(scene), meshes)
 
 
 def scene_id(name: str) -> str:
@@ -98,8 +109,13 @@ def scene_id(name: str) -> str:
 
 def box_of(template: Template, instance: Instance) -> Box:
     """The box of an instance in our frame, of the least size among those that are turned by its yaw."""
+    return _upright(template, instance, _corners(template.asset))[0]
+
+
+def _upright(template: Template, instance: Instance, corners: Array) -> tuple[Box, Array]:
+    """The box of an instance around corners of its asset, and these corners in the box's own frame."""
     scale = np.array(instance.scale) * np.array(template.config.scale) * template.config.units_to_meters
-    corners = _corners(template.asset) @ template.frame.T
+    corners = corners @ template.frame.T
     if instance.by_mass:
         given = template.config.com
         middle = (corners.min(axis=0) + corners.max(axis=0)) / 2 if given is None else np.array(given)
@@ -117,14 +133,21 @@ def box_of(template: Template, instance: Instance) -> Box:
     back = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
     own = points @ back.T
     low, high = own.min(axis=0), own.max(axis=0)
-    base = back.T @ np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
-    x, y, z = base + TO_OURS @ np.array(instance.translation)
+    middle = np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
+    x, y, z = back.T @ middle + TO_OURS @ np.array(instance.translation)
     w, d, h = (max(float(side), THINNEST) for side in high - low)
-    return Box(
+    box = Box(
         (round(float(x), 4), round(float(y), 4), round(float(z), 4)),
         round(math.remainder(yaw, math.tau), 6),
         (round(w, 4), round(d, 4), round(h, 4)),
     )
+    return box, own - middle
+
+
+@lru_cache(maxsize=64)
+def _mesh(asset: Path) -> Mesh:
+    """What an asset looks like, made small before it is turned and scaled for each instance."""
+    return simplified(read_glb(asset))
 
 
 @lru_cache(maxsize=512)
@@ -169,10 +192,8 @@ def _room_around(boxes: list[Box], id: str) -> Room:
     return Room(name="home", kind="home", x0=edges[0], y0=edges[1], x1=edges[2], y1=edges[3])
 
 
-def _objects(
-    folder: Folder, id: str, floor: float, skip_missing: bool, skipped: list[Skipped]
-) -> Iterator[tuple[int, Template, Box]]:
-    """The instances that are taken over, by their place in the file, with their templates and boxes."""
+def _objects(folder: Folder, id: str, floor: float, skip_missing: bool, skipped: list[Skipped]) -> Iterator[Found]:
+    """The instances that are taken over."""
     for number, instance in enumerate(folder.scene(id).object_instances):
         what = f"object_instances.{number} ({instance.template_name})"
         try:
@@ -180,7 +201,8 @@ def _objects(
             if template.opening:
                 skipped.append(Skipped(what, "a door or window: ways through walls stand open"))
                 continue
-            box = box_of(template, folder.with_origin(id, instance))
+            instance = folder.with_origin(id, instance)
+            box = box_of(template, instance)
         except FileNotFoundError as err:
             if not skip_missing:
                 raise ConfigError(str(err)) from err
@@ -195,14 +217,14 @@ def _objects(
         elif max(box.size) > LONGEST or max(abs(x), abs(y)) > 100:
             skipped.append(Skipped(what, f"is larger than {LONGEST:.0f} m, or farther than 100 m away"))
         else:
-            yield number, template, box
+            yield Found(number, template, instance, box)
 
 
-def _name(scene: Scene, found: list[tuple[int, Template, Box]]) -> list[SceneObject]:
+def _name(scene: Scene, found: list[Found]) -> list[SceneObject]:
     """Objects with names of their own and what carries them; ids are the places in HSSD's file."""
     count: Counter[str] = Counter()
     objects: list[SceneObject] = []
-    for number, template, box in found:
+    for number, template, _, box in found:
         row = template.row
         category = row.super_category.replace("_", " ").strip() or "unknown"
         cls = class_of(row)
@@ -223,6 +245,23 @@ def _name(scene: Scene, found: list[tuple[int, Template, Box]]) -> list[SceneObj
         )
     carriers = [thing for thing in objects if thing.fixed]
     return [thing if thing.fixed else _put_on(thing, carriers) for thing in objects]
+
+
+def _drawn(
+    objects: list[SceneObject], found: list[Found], skipped: list[Skipped]
+) -> tuple[list[SceneObject], dict[str, str]]:
+    """The objects with their meshes, and the meshes' files; what has no triangles is drawn from our own shapes."""
+    files: dict[str, str] = {}
+    seen: list[SceneObject] = []
+    for thing, one in zip(objects, found, strict=True):
+        mesh = _mesh(one.template.asset)
+        look = look_of(mesh._replace(corners=_upright(one.template, one.instance, mesh.corners)[1]), thing.colour)
+        files |= look.files
+        seen.append(thing.model_copy(update={"mesh": look.parts}))
+    without = sum(not thing.mesh for thing in seen)
+    if without:
+        skipped.append(Skipped("meshes", f"{without} are compressed in a way that is not read; drawn from our shapes"))
+    return seen, files
 
 
 def _put_on(thing: SceneObject, carriers: list[SceneObject]) -> SceneObject:

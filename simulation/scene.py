@@ -15,7 +15,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, TypeAlias
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from core.errors import ConfigError
 from core.household import ObjectMap, SceneId
@@ -78,11 +78,19 @@ class Door(Frozen):
     width: float = Field(DOOR_WIDTH, ge=0.7, le=3.0)
 
 
+class MeshPart(Frozen):
+    """A mesh of one colour: an OBJ file in the folder <home>.meshes/ beside the home's file, in the object's frame."""
+
+    file: str = Field(pattern=r"^[a-z0-9_-]{1,64}\.obj$")
+    colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
+
+
 class SceneObject(Frozen):
     """One object of the home, in its initial place.
 
     `position` is the centre of its base. `size` is (width, depth, height) in its own frame. `on` names the
-    fixed object that carries a movable one; a movable thing without it stands on the floor.
+    fixed object that carries a movable one; a movable thing without it stands on the floor. `mesh` is what it looks
+    like where it is not drawn from our own shapes; the box of its size stands for it in all other respects.
     """
 
     id: int = Field(ge=0)
@@ -96,6 +104,7 @@ class SceneObject(Frozen):
     size: tuple[Length, Length, Length]
     colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
     on: str | None = None
+    mesh: list[MeshPart] = Field([], max_length=16)
 
     @property
     def xy(self) -> Point:
@@ -155,6 +164,12 @@ class Scene(Frozen):
     objects: list[SceneObject] = []
     stage: list[Wall] | None = None
     """Where the walls of an imported home stand, which need not be on the edges of its rooms."""
+    _meshes: Path | None = PrivateAttr(None)
+
+    @property
+    def meshes(self) -> Path | None:
+        """The folder of its objects' meshes; None where the home was not read from a file, or has none."""
+        return self._meshes
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Scene:
@@ -291,6 +306,19 @@ def load_scene(id_or_path: str | Path, folders: Sequence[Path] = ()) -> Scene:
     scene = parse_scene(text, str(path))
     if given in known and scene.id != given:
         raise ConfigError(f"The scene file {path}, field id: must be {given!r} as the file's name, not {scene.id!r}.")
+    return _with_meshes(scene, path)
+
+
+def _with_meshes(scene: Scene, path: Path) -> Scene:
+    """Say where the meshes of a home lie that was read from a file."""
+    folder = path.with_suffix(".meshes")
+    for number, thing in enumerate(scene.objects):
+        for part in thing.mesh:
+            if not (folder / part.file).is_file():
+                raise ConfigError(
+                    f"The scene file {path}, field objects.{number}.mesh: there is no file {folder / part.file}."
+                )
+            scene._meshes = folder
     return scene
 
 
@@ -331,6 +359,8 @@ def dump_scene(scene: Scene) -> str:
         if key == "stage" and value is None:
             continue
         if isinstance(value, list):
+            if key == "objects":
+                value = [{name: field for name, field in row.items() if name != "mesh" or field} for row in value]
             rows = ",\n".join("    " + json.dumps(row, ensure_ascii=False) for row in value)
             parts.append(f'  "{key}": [\n{rows}\n  ]' if value else f'  "{key}": []')
         else:
