@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +45,13 @@ def model_specs(config: Config) -> dict[Role, str]:
 
 
 def open_embeddings(config: Config) -> Embeddings:
-    """The bundled sentence encoder, with a cache that all runs share."""
-    return bundled(config.data_dir / "embeddings.sqlite")
+    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too."""
+    return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
+
+
+@lru_cache(maxsize=2)
+def _embeddings(cache: Path) -> Embeddings:
+    return bundled(cache)
 
 
 def open_ask(

@@ -140,15 +140,15 @@ def do_run(job: RunJob) -> None:
         return
     if (job.folder / "run.json").is_file():
         if RunDir.open(job.folder).state != "finished":
-            resume_study(job.folder)
+            resume_study(job.folder, report=False)
     else:
         shutil.rmtree(job.folder, ignore_errors=True)  # what a start left that was killed
-        run_study(job.config)
+        run_study(job.config, report=False)
     run = RunDir.open(job.folder)
     hours = run.hours()
     rows = rows_of(hours, run.evenings(), _activity(job.config), job.labels)
     data = {"rows": [row.model_dump() for row in rows], "seconds": robot_seconds(hours)}
-    write_atomic(job.folder / ROWS, canonical_json(data))
+    write_atomic(job.folder / ROWS, canonical_json(data, indent=None))
 
 
 def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:

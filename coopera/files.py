@@ -70,14 +70,18 @@ def read_yaml(path: Path, what: str) -> dict[str, Any]:
     return data
 
 
-def canonical_json(data: Any) -> str:
+def canonical_json(data: Any, *, indent: int | None = 1) -> str:
     """Return data as JSON text with sorted keys, so that equal data are equal bytes.
+
+    Args:
+        data: What to write.
+        indent: None puts all on one line, which is written ten times as fast: for files that only programs read.
 
     Raises:
         RunError: If the data hold a number that is not finite, or something that JSON has no word for.
     """
     try:
-        return json.dumps(data, sort_keys=True, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        return json.dumps(data, sort_keys=True, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
     except (TypeError, ValueError) as err:
         raise RunError(f"This cannot be written as JSON: {err}.") from err
 

@@ -50,7 +50,7 @@ class LivedDays:
         """Keep what was shown of an hour."""
         path = self._shown(plan, hour)
         try:
-            write_atomic(path, canonical_json(shown.model_dump()))
+            write_atomic(path, canonical_json(shown.model_dump(), indent=None))
         except OSError as err:
             raise RunError(f"{path}: what was shown cannot be kept ({reason(err)}).") from err
 

@@ -60,6 +60,7 @@ def run_study(
     on_event: Callable[[Event], None] | None = None,
     ask_person: AskPerson = nobody,
     stop: Stop | None = None,
+    report: bool = True,
 ) -> dict[str, Any]:
     """Run a study from its first hour to its report.
 
@@ -69,6 +70,7 @@ def run_study(
         ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
+        report: Whether report.html is written at the end.
 
     Returns:
         The content of summary.json.
@@ -78,7 +80,7 @@ def run_study(
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
     with new_run(config, stop) as (run, services):
-        return _carry_on(run, services, on_event, ask_person)
+        return _carry_on(run, services, on_event, ask_person, report)
 
 
 def resume_study(
@@ -87,6 +89,7 @@ def resume_study(
     on_event: Callable[[Event], None] | None = None,
     ask_person: AskPerson = nobody,
     budget: Budget | None = None,
+    report: bool = True,
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
@@ -95,6 +98,7 @@ def resume_study(
         on_event: Told of each node that ends.
         ask_person: As for `run_study`.
         budget: What the run may spend in all, if not what it was begun with.
+        report: As for `run_study`.
 
     Raises:
         RunError: If the run is finished or still being written, or its prompts or household file have changed since.
@@ -108,7 +112,7 @@ def resume_study(
             raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
         told = open_told(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, told) as services:
-            return _carry_on(run, services, on_event, ask_person)
+            return _carry_on(run, services, on_event, ask_person, report)
 
 
 @contextmanager
@@ -169,9 +173,14 @@ def plan_days(config: Config) -> list[DayPlan]:
 
 
 def _carry_on(
-    run: RunDir, services: Services, on_event: Callable[[Event], None] | None, ask_person: AskPerson
+    run: RunDir,
+    services: Services,
+    on_event: Callable[[Event], None] | None,
+    ask_person: AskPerson,
+    report: bool,
 ) -> dict[str, Any]:
     with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
+        connection.execute("PRAGMA synchronous=NORMAL")  # what a power cut loses of it is done again
         saver = SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(_THREAD).values else {"schedule": plan_days(run.config)}
@@ -182,7 +191,8 @@ def _carry_on(
             given = question.answered(_ask(run, question.question, ask_person))
             question = _stream(graph, services, given, scored, on_event)
     summary = run.finish()
-    write_report(run)
+    if report:
+        write_report(run)
     return summary
 
 

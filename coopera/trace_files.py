@@ -7,6 +7,7 @@ in words), `human.found.objects` (fixed and movable together) and `world.moved` 
 from __future__ import annotations
 
 import json
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,6 +19,8 @@ from core.hour import Evening, HourRecord, RobotHour
 from core.household import Outcome
 
 Record = TypeVar("Record", HourRecord, Evening)
+_REMEMBERED = 160
+"""Records kept in memory: those of twelve days, some tens of megabytes."""
 
 
 def write_record(path: Path, record: HourRecord | Evening) -> None:
@@ -30,7 +33,7 @@ def write_record(path: Path, record: HourRecord | Evening) -> None:
     if isinstance(record, HourRecord):
         _derive(data, record)
     try:
-        write_atomic(path, canonical_json(data))
+        write_atomic(path, canonical_json(data, indent=None))
     except OSError as err:
         raise RunError(f"{path}: the trace cannot be written ({reason(err)}).") from err
 
@@ -41,6 +44,16 @@ def read_record(path: Path, kind: type[Record]) -> Record:
     Raises:
         RunError: If the file cannot be read or is damaged; names the file and the field.
     """
+    try:
+        at = path.stat()
+    except OSError as err:
+        raise _unreadable(path, err) from err
+    return _read_record(path, kind, (at.st_ino, at.st_mtime_ns, at.st_size))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _read_record(path: Path, kind: type[Record], state: tuple[int, int, int]) -> Record:
+    """Read a record once while its file stays as it is: an evening, the summary and the report all ask for it."""
     data = read_json(path)
     if kind is HourRecord and isinstance(data, dict):
         _underive(data)
@@ -61,9 +74,13 @@ def read_json(path: Path) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except OSError as err:
-        raise RunError(f"{path}: the file cannot be read ({reason(err)}).") from err
+        raise _unreadable(path, err) from err
     except ValueError as err:
         raise RunError(f"{path}: the file is damaged ({err}).") from err
+
+
+def _unreadable(path: Path, err: OSError) -> RunError:
+    return RunError(f"{path}: the file cannot be read ({reason(err)}).")
 
 
 def human_outcomes(record: HourRecord) -> list[Outcome]:

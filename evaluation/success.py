@@ -10,10 +10,11 @@ tp 3, fp 1, fn 1, tn 1; precision 3/4, recall 3/4, F1 = 6/8 = 0.75.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from langchain_core.embeddings import Embeddings
+from numpy.typing import NDArray
 
 from core.errors import ModelOutputError
 from core.hour import Intention, Success, Task, TaskCandidate
@@ -24,6 +25,8 @@ from core.replies import VerdictsReply
 from evaluation.counts import count
 from evaluation.measures import help_given
 
+Floats = NDArray[np.float64]
+
 SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
 
 
@@ -33,6 +36,7 @@ class Measure:
 
     ask: Ask
     embeddings: Embeddings
+    _vectors: dict[str, Floats] = field(init=False, default_factory=dict, repr=False, compare=False)
 
     def __call__(
         self,
@@ -74,8 +78,13 @@ class Measure:
     def _similarity(self, one: str, other: str) -> float:
         if plain(one).lower() == plain(other).lower():
             return 1.0
-        a, b = (np.asarray(self.embeddings.embed_query(plain(text)), dtype=np.float64) for text in (one, other))
-        return float(a @ b)
+        return float(self._vector(plain(one)) @ self._vector(plain(other)))
+
+    def _vector(self, text: str) -> Floats:
+        """A text's vector in float64; the names of a home's things come again every hour."""
+        if text not in self._vectors:
+            self._vectors[text] = np.asarray(self.embeddings.embed_query(text), dtype=np.float64)
+        return self._vectors[text]
 
     def _judge(
         self, at: Address, intention: Intention, remaining: Sequence[Task], candidates: Sequence[TaskCandidate]

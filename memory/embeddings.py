@@ -7,6 +7,7 @@ import logging
 import sqlite3
 import threading
 from collections.abc import Callable, Sequence
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -89,15 +90,20 @@ class CachedEmbeddings(Embeddings):
                     missing.append(text)
                 else:
                     found[text] = vector
-            if missing and self._disk is not None:
-                found.update(self._disk.read(missing))
-                missing = [text for text in missing if text not in found]
-            for text in missing:
+            if missing:
+                found |= (new := self._found_or_made(missing))
+                self._remember(new)
+        return [found[text] for text in texts]
+
+    def _found_or_made(self, texts: Sequence[str]) -> dict[str, Vector]:
+        """Return vectors that are not in RAM."""
+        found = self._disk.read(texts) if self._disk is not None else {}
+        for text in texts:
+            if text not in found:
                 found[text] = self._fresh(text)
                 if self._disk is not None:
                     self._disk.write(text, found[text])
-            self._remember(found)
-        return [found[text] for text in texts]
+        return found
 
     def _fresh(self, text: str) -> Vector:
         vector = self._encode(text)
@@ -110,7 +116,7 @@ class CachedEmbeddings(Embeddings):
     def _remember(self, found: dict[str, Vector]) -> None:
         """Keep vectors in RAM; where that is full, the oldest go."""
         self._ram.update(found)
-        for text in list(self._ram)[: max(0, len(self._ram) - _IN_RAM)]:
+        for text in list(islice(self._ram, max(0, len(self._ram) - _IN_RAM))):
             del self._ram[text]
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
+from functools import lru_cache
 from threading import RLock
 from typing import Any
 
@@ -32,6 +33,12 @@ RULES = "3"
 _SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}
 
 
+@lru_cache(maxsize=4)
+def _common_sense(embeddings: Embeddings) -> CommonSense:
+    """What the roles share, and all runs of a process that compare texts in the same way."""
+    return CommonSense(shipped(), embeddings)
+
+
 class OfflineChatModel(BaseChatModel):
     """A routine model that answers coopera's prompts without any language model, network or GPU.
 
@@ -56,7 +63,9 @@ class OfflineChatModel(BaseChatModel):
     @override
     def model_post_init(self, context: Any, /) -> None:
         """Build this role's side; texts are encoded when first needed."""
-        self._side = _SIDES[self.role](CommonSense(self.household, self.embeddings))
+        shared = self.household is shipped() and isinstance(self.embeddings, Hashable)
+        sense = _common_sense(self.embeddings) if shared else CommonSense(self.household, self.embeddings)
+        self._side = _SIDES[self.role](sense)
 
     @property
     @override

@@ -40,6 +40,7 @@ class CommonSense:
         self.household = household
         self._embeddings = embeddings
         self._vectors: dict[str, NDArray[np.float32]] = {}
+        self._cosine = lru_cache(maxsize=REMEMBERED)(self._work_out_cosine)
         self._by_wording = {key(w): a for a in household.activities for w in a.wordings}
 
     def vectors(self, texts: Sequence[str]) -> NDArray[np.float32]:
@@ -48,7 +49,9 @@ class CommonSense:
 
     def similarity(self, one: str, other: str) -> float:
         """Cosine of two texts, 1 where they are the same but for case, plural underscores and numbers."""
-        one, other = _words(one), _words(other)
+        return self._cosine(_words(one), _words(other))
+
+    def _work_out_cosine(self, one: str, other: str) -> float:
         return 1.0 if one == other else float(self._vector(one) @ self._vector(other))
 
     def thing_fit(self, thing: str) -> Floats:
@@ -144,7 +147,7 @@ class CommonSense:
             vector = np.asarray(self._embeddings.embed_query(text), dtype=np.float32)
             vector = vector / max(float(np.linalg.norm(vector)), 1e-9)
             if len(self._vectors) >= REMEMBERED:
-                del self._vectors[next(iter(self._vectors))]
+                self._vectors.pop(next(iter(self._vectors)), None)
             self._vectors[text] = vector
         return vector
 
