@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from pydantic import ValidationError
 
@@ -48,7 +48,7 @@ def read_record(path: Path, kind: type[Record]) -> Record:
         at = path.stat()
     except OSError as err:
         raise _unreadable(path, err) from err
-    return _read_record(path, kind, (at.st_ino, at.st_mtime_ns, at.st_size))
+    return cast(Record, _read_record(path, kind, (at.st_ino, at.st_mtime_ns, at.st_size)))
 
 
 @lru_cache(maxsize=_REMEMBERED)
