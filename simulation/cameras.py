@@ -25,6 +25,10 @@ _WATCH = (1.4, 3.6)
 _COMFORT = 2.3
 _KEEP_OFF = 0.9
 _GLANCES = 3
+_LOOKS = 8
+_SMALL, _LARGE = (48, 36), 0.04
+"""Small pictures by which cameras are compared, and the share of one that is as much of a person as is wanted."""
+_OVERHEAD = 4.5
 _CLOSE = 0.9  # metres
 _FRONT = 0.5  # square metres that a standing body shows
 _APART = 0.8
@@ -164,7 +168,7 @@ def _floor(cell: Array) -> Point:
     return float(cell[0]), float(cell[1])
 
 
-def _best_apart(places: Array, score: Array, allowed: Callable[[Point], bool]) -> list[int]:
+def _best_apart(places: Array, score: Array, allowed: Callable[[Point], bool], most: int = _GLANCES) -> list[int]:
     """The few best allowed places that lie apart, best first."""
     found: list[int] = []
     tried: list[int] = []
@@ -173,7 +177,7 @@ def _best_apart(places: Array, score: Array, allowed: Callable[[Point], bool]) -
             tried.append(int(i))
             if allowed(_floor(places[i])):
                 found.append(int(i))
-        if len(found) == _GLANCES:
+        if len(found) == most:
             break
     return found
 
@@ -230,7 +234,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
     if not inside.any():
         corner = room.centre
-        return Camera((corner[0], corner[1], 4.5), target, VIEW_FOV)
+        return Camera((corner[0], corner[1], _OVERHEAD), target, VIEW_FOV)
     eyes = eyes[inside]
     stage.hide(focus.ignore)
     share = seen_share(stage, eyes, points)
@@ -239,9 +243,17 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     side = np.array([abs(wrapped(float(a) - person.yaw)) for a in angle])
     away = np.hypot(eyes[:, 0] - person.x, eyes[:, 1] - person.y)
     score = 3 * share - 0.3 * np.abs(side - 0.7) - 0.2 * np.abs(away - 2.5) - 0.1 * np.abs(eyes[:, 2] - 1.9)
-    best = _best_apart(eyes, score, _anywhere)
+    best = _best_apart(eyes, score, _anywhere, _LOOKS if focus.ignore else _GLANCES)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
-    return cameras[_clearest(stage, cameras, score[best])]
+    if not focus.ignore:
+        return cameras[_clearest(stage, cameras, score[best])]
+    cameras.append(Camera((target[0] + 0.3, target[1] + 0.3, _OVERHEAD), target, VIEW_FOV))
+    return max(cameras, key=lambda camera: _shown(stage, camera))
+
+
+def _shown(stage: Stage, camera: Camera) -> float:
+    """How much of a small picture the person fills, up to `_LARGE`: what they are in may hide them, unlike its hull."""
+    return min(round(float((stage.picture(camera, _SMALL)[1] == stage.person).mean()), 4), _LARGE)
 
 
 def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:

@@ -64,6 +64,12 @@ def test_both_views_show_the_person_at_the_deed(home, act) -> None:
         start += shot.ticks
 
 
+def test_a_pane_of_the_shower_does_not_hide_the_person_from_the_third_person_view() -> None:
+    with World(load_scene("oak")) as world:
+        assert world.perform("human", move("shower_1", "sponge", "take a shower"), record=True).ok
+        assert persons_share(world, world._recording.shots[-1].deed)[1] > 0.015
+
+
 @pytest.mark.parametrize("target", ["kitchen_sink_1", "stove_1", "fridge_1"])
 def test_where_the_persons_way_fills_the_room_the_robot_still_finds_a_place_to_see_from(target) -> None:
     with World(load_scene("maple")) as world:
