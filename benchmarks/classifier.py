@@ -5,7 +5,9 @@
 Each person lives five days. Each hour the robot imagines five intentions, the classifier under test accepts some, five
 tasks are imagined for each, and it accepts some of those; in the evening it learns from all that was imagined. Day 1 is
 untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions. All classifiers meet the
-same human days. People 0 to 99 served to develop the classifiers; a benchmark takes people from 1000 on.
+same human days. `lora-instruct` has a small random model of Mistral's architecture for a base, which knows nothing of
+language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a benchmark takes
+people from 1000 on.
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
+from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Lived, Robot, draw_person, live_day
 from core.hour import Example
 from core.protocols import Classifier
@@ -167,11 +170,15 @@ def main() -> None:
     parser.add_argument("--classifiers", nargs="+", choices=names, default=names)
     parser.add_argument("--blind", action="store_true", help="hide the robot's own order from the classifiers")
     parser.add_argument("--learning", choices=["warm", "fresh"], default="warm", help="as in coopera run")
+    parser.add_argument("--classifier-config", type=Path, help="recipe of lora-instruct")
     parser.add_argument("--out", type=Path, help="write all figures to this JSON file")
     chosen = parser.parse_args()
     everything = {}
     with tempfile.TemporaryDirectory() as folder:
         embeddings = bundled(Path(folder) / "embeddings.sqlite")
+        recipe = chosen.classifier_config
+        if recipe is None and "lora-instruct" in chosen.classifiers:
+            recipe = tiny_recipe(Path(folder))
         numbers = range(chosen.first, chosen.first + chosen.people)
         for number in numbers:  # so that no classifier is charged for the first encoding of a text
             live(number, lambda kind: AlwaysYes(), embeddings, chosen.days)
@@ -180,7 +187,7 @@ def main() -> None:
             lives = [
                 live(
                     number,
-                    partial(_make, name, embeddings, Inputs(rank=not chosen.blind)),
+                    partial(_make, name, embeddings, Inputs(rank=not chosen.blind), recipe),
                     embeddings,
                     chosen.days,
                     chosen.learning,
@@ -194,11 +201,11 @@ def main() -> None:
         chosen.out.write_text(json.dumps(everything, indent=1) + "\n", encoding="utf-8")
 
 
-def _make(name: str, embeddings: Embeddings, inputs: Inputs, kind: Kind) -> Classifier:
+def _make(name: str, embeddings: Embeddings, inputs: Inputs, recipe: Path | None, kind: Kind) -> Classifier:
     simple: dict[str, Callable[[], Classifier]] = {"always-yes": AlwaysYes, "frequency": Frequency}
     if name in simple:
         return simple[name]()
-    return make_classifier(name, kind=kind, embeddings=embeddings, inputs=inputs)
+    return make_classifier(name, kind=kind, embeddings=embeddings, inputs=inputs, recipe=recipe)
 
 
 def _table(name: str, figures: np.ndarray[tuple[int, int, int], np.dtype[np.float64]]) -> str:

@@ -20,7 +20,7 @@ from pathlib import Path
 import torch
 from langchain_core.embeddings import Embeddings
 
-from benchmarks.tiny_mistral import make_model, make_recipe
+from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Robot, draw_person, live_day
 from core.hour import Example
 from graphs.replay import keep
@@ -113,8 +113,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         embeddings = bundled(Path(folder) / "embeddings.sqlite")
         lived = imagined(max(chosen.days), embeddings)
-        base = make_model(Path(folder) / "base", hidden=chosen.hidden, layers=chosen.layers)
-        recipe = make_recipe(Path(folder) / "recipe.yaml", base, learning_rate=1e-3, batch=8, accumulation=1)
+        recipe = tiny_recipe(Path(folder), hidden=chosen.hidden, layers=chosen.layers)
         print("| classifier | " + " | ".join(f"day {day}" for day in chosen.days) + " | last / second | peak MB |")
         print("|---|" + "---|" * (len(chosen.days) + 2))
         for name in chosen.classifiers:

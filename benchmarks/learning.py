@@ -90,7 +90,9 @@ def main() -> None:
     types = [int(collab) for collab in args.collab.split(",")]
     methods = [tuple(f"{method}:kernel".split(":")[:2]) for method in args.methods.split(",")]
     if args.classifier_config is None and any(classifier == "lora-instruct" for _, classifier in methods):
-        args.classifier_config = _tiny_recipe(args.out / "tiny-mistral")
+        from benchmarks.tiny_mistral import tiny_recipe  # noqa: PLC0415 - torch is heavy
+
+        args.classifier_config = tiny_recipe(args.out / "tiny-mistral")
     jobs = [Job(*method, *rest) for method, *rest in product(methods, types, range(args.seeds))]
     lives = [Job(*ALONE, *rest) for rest in product(types, range(args.seeds))]
     with ProcessPoolExecutor(args.workers) as pool:
@@ -103,16 +105,6 @@ def main() -> None:
         for method in methods:
             mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
             _print_rows(" ".join(method), args.days, mine)
-
-
-def _tiny_recipe(folder: Path) -> Path:
-    from benchmarks.tiny_mistral import make_model, make_recipe  # noqa: PLC0415 - torch is heavy
-
-    recipe = folder / "recipe.yaml"
-    if not recipe.is_file():
-        make_model(folder / "base", hidden=64)
-        make_recipe(recipe, folder / "base", learning_rate=5e-3, batch=8, accumulation=1)
-    return recipe
 
 
 def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from coopera.trace_files import intention_verdicts
+from core.clock import hour_label
 from core.hour import Evening, HourRecord
 
 BINS = 5
@@ -23,13 +24,18 @@ class Bin:
 
 
 @dataclass(frozen=True, slots=True)
-class Activity:
-    """One thing that the person did: in how many hours, imagined in how many, accepted in how many, and mixed up with.
+class Read:
+    """How the robot read some hours: those of an activity, or those of a time of day.
 
-    `mistaken` is the wrong intention that was accepted most often in those hours, with its count.
+    Attributes:
+        of: The activity as the person put it, or the hour of the day.
+        hours: How many there were.
+        imagined: In how many of them the right intention was imagined.
+        accepted: In how many it was accepted.
+        mistaken: The wrong intention that was accepted most often in them, with its count.
     """
 
-    text: str
+    of: str
     hours: int
     imagined: int
     accepted: int
@@ -70,8 +76,21 @@ def task_pairs(hours: Sequence[HourRecord]) -> list[tuple[float, bool]]:
     return [(t.probability, t.correct) for t in tasks if t.probability is not None and t.correct is not None]
 
 
-def activities(hours: Sequence[HourRecord], evenings: Mapping[int, Evening], most: int = 12) -> list[Activity]:
-    """What the person did most often, and how the robot read it; commonest first."""
+def by_activity(hours: Sequence[HourRecord], evenings: Mapping[int, Evening], most: int = 12) -> list[Read]:
+    """How the robot read what the person did most often; commonest first."""
+    read = _read(hours, evenings, lambda _, intention: intention)
+    return [one for _, one in sorted(read.items(), key=lambda item: (-item[1].hours, item[0]))[:most]]
+
+
+def by_hour(hours: Sequence[HourRecord], evenings: Mapping[int, Evening]) -> list[Read]:
+    """How the robot read each hour of the day, all days together; in order of time."""
+    read = _read(hours, evenings, lambda hour, _: f"{hour:02d}")
+    return [replace(read[key], of=hour_label(int(key))) for key in sorted(read)]
+
+
+def _read(
+    hours: Sequence[HourRecord], evenings: Mapping[int, Evening], key: Callable[[int, str], str]
+) -> dict[str, Read]:
     met: Counter[str] = Counter()
     imagined: Counter[str] = Counter()
     accepted: Counter[str] = Counter()
@@ -80,14 +99,14 @@ def activities(hours: Sequence[HourRecord], evenings: Mapping[int, Evening], mos
         if hour.human is None or hour.robot is None:
             continue
         said = intention_verdicts(evenings.get(hour.day), hour.hour)
-        text = hour.human.intention.text
-        met[text] += 1
+        of = key(hour.hour, hour.human.intention.text)
+        met[of] += 1
         right = [c for c in hour.robot.intentions if said.get(c.text)]
-        imagined[text] += bool(right)
-        accepted[text] += any(c.accepted for c in right)
+        imagined[of] += bool(right)
+        accepted[of] += any(c.accepted for c in right)
         wrong = [c.text for c in hour.robot.intentions if c.accepted and said.get(c.text) is False]
-        mistaken.setdefault(text, Counter()).update(wrong)
-    return [
-        Activity(text, count, imagined[text], accepted[text], next(iter(mistaken[text].most_common(1)), None))
-        for text, count in sorted(met.items(), key=lambda one: (-one[1], one[0]))[:most]
-    ]
+        mistaken.setdefault(of, Counter()).update(wrong)
+    return {
+        of: Read(of, count, imagined[of], accepted[of], next(iter(mistaken[of].most_common(1)), None))
+        for of, count in met.items()
+    }

@@ -135,7 +135,10 @@ def render(run: RunDir, album: Album) -> str:
             ends=_ends(records),
             by_hour=_by_hour(records, run.config.day_hours),
             calibration=_calibration(records, evenings),
-            activities=learned.activities(records, evenings),
+            mixed_up={
+                "activity": learned.by_activity(records, evenings),
+                "hour of day": learned.by_hour(records, evenings),
+            },
             album=album,
             offline=_offline_roles(run.info.get("models", {})),
             style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from coopera.learned import activities, calibration, intention_pairs, task_pairs
+from coopera.learned import by_activity, by_hour, calibration, intention_pairs, task_pairs
 from coopera.summary import fallbacks
 from core.hour import (
     Evening,
@@ -84,9 +84,18 @@ def test_verdicts_are_compared_with_what_was_right_and_unreadable_answers_left_o
 
 
 def test_an_activity_is_shown_with_what_it_was_mixed_up_with() -> None:
-    cook, sing = activities(HOURS, {0: EVENING})
-    assert (cook.text, cook.hours, cook.imagined, cook.accepted, cook.mistaken) == ("Cook", 2, 1, 1, ("Read", 2))
-    assert (sing.text, sing.hours, sing.imagined, sing.accepted, sing.mistaken) == ("Sing", 1, 0, 0, None)
+    cook, sing = by_activity(HOURS, {0: EVENING})
+    assert (cook.of, cook.hours, cook.imagined, cook.accepted, cook.mistaken) == ("Cook", 2, 1, 1, ("Read", 2))
+    assert (sing.of, sing.hours, sing.imagined, sing.accepted, sing.mistaken) == ("Sing", 1, 0, 0, None)
+
+
+def test_the_hours_of_the_day_are_shown_in_order_with_what_was_mixed_up_in_them() -> None:
+    early, late = HOURS[0], HOURS[1].model_copy(update={"hour": 9, "day": 1})
+    evenings = {0: EVENING, 1: EVENING.model_copy(update={"day": 1})}
+    nine, eleven = by_hour([HOURS[2], late, early], evenings)
+    assert (nine.of, nine.hours, nine.imagined, nine.accepted) == ("9 am", 2, 1, 1)
+    assert nine.mistaken == ("Read", 2)
+    assert (eleven.of, eleven.hours, eleven.mistaken) == ("11 am", 1, None)
 
 
 def test_fallbacks_are_counted_by_kind() -> None:
