@@ -10,7 +10,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for_all
 from multiprocessing.connection import Connection
@@ -21,12 +21,11 @@ from typing import Any, TypeAlias
 from coopera.catalogues import resolve
 from coopera.config import Config
 from coopera.stopping import Stop
-from coopera.study import run_study
+from coopera.study import Event, run_study
 from coopera.workers import die_with
 from core.errors import ConfigError, CooperaError, RunError
 from models.transport import share_pace
 
-Event: TypeAlias = Mapping[str, Any]
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
 

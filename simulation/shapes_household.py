@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from simulation.shapes import (
     BLACK,
+    BLUE,
     CREAM,
     DARK,
     DARK_WOOD,
@@ -13,13 +14,10 @@ from simulation.shapes import (
     WHITE,
     WOOD,
     YELLOW,
-    Colour,
     Kit,
     Recipe,
     shade,
 )
-
-BLUE: Colour = (0.2, 0.4, 0.75)
 
 
 def towel(kit: Kit) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from simulation.shapes import (
     BLACK,
+    BLUE,
     CREAM,
     DARK,
     DARK_WOOD,
@@ -14,13 +15,10 @@ from simulation.shapes import (
     STEEL,
     WHITE,
     YELLOW,
-    Colour,
     Kit,
     Recipe,
     shade,
 )
-
-BLUE: Colour = (0.2, 0.4, 0.75)
 
 
 def picture_frame(kit: Kit) -> None:

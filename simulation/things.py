@@ -6,6 +6,7 @@ from typing import NamedTuple, TypeAlias
 
 from core.randomness import seed_at
 from simulation.catalogue import catalogue
+from simulation.scene import rgb_of
 
 Point3: TypeAlias = tuple[float, float, float]
 _SIZE: Point3 = (0.12, 0.10, 0.12)
@@ -80,14 +81,9 @@ def shape_of(text: str) -> Shape:
             cls = "_".join(words[start : start + size])
             for name in (cls, cls.removesuffix("s")):
                 if name in known:
-                    return Shape(name, known[name].size, _rgb(known[name].colours[0]))
+                    return Shape(name, known[name].size, rgb_of(known[name].colours[0]))
     for word in reversed(words):
         like = LOOKS_LIKE.get(word) or LOOKS_LIKE.get(word.removesuffix("s"))
         if like in known:
-            return Shape(like, known[like].size, _rgb(known[like].colours[0]))
-    return Shape("_".join(words), _SIZE, _rgb(_COLOURS[seed_at(0, "magic box", text.lower()) % len(_COLOURS)]))
-
-
-def _rgb(colour: str) -> Point3:
-    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-    return red, green, blue
+            return Shape(like, known[like].size, rgb_of(known[like].colours[0]))
+    return Shape("_".join(words), _SIZE, rgb_of(_COLOURS[seed_at(0, "magic box", text.lower()) % len(_COLOURS)]))

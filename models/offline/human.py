@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core.clock import hour_label
 from core.people import Frozen
 from core.randomness import rng_at
 from core.replies import DayReply, IntentionReply
@@ -142,8 +143,8 @@ class Human:
         for memory in reversed(today[-3:]):
             before = self._sense.recognise(memory.text).activity
             if activity.id in before.follows:
-                return f'It comes naturally after "{memory.text}" at {_clock(memory.hour)}.'
-        return f'I have done "{today[-1].text}" at {_clock(today[-1].hour)} and want to do something else now.'
+                return f'It comes naturally after "{memory.text}" at {hour_label(memory.hour)}.'
+        return f'I have done "{today[-1].text}" at {hour_label(today[-1].hour)} and want to do something else now.'
 
 
 def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random.Generator:
@@ -156,10 +157,6 @@ def _tasks_before(recalled: Sequence[Any]) -> str:
     if not tasks:
         return "There are no earlier tasks to build on."
     return f"Of what I did earlier I remember: {tasks[0].text}."
-
-
-def _clock(hour: int) -> str:
-    return f"{(hour - 1) % 12 + 1} {'am' if hour < 12 else 'pm'}"
 
 
 _OTHERS: dict[str, Callable[[CommonSense, Mapping[str, Any]], Frozen]] = {

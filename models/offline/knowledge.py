@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 import yaml
 from numpy.typing import NDArray
-from pydantic import Field, ValidationError, ValidationInfo, field_validator
+from pydantic import AfterValidator, Field, ValidationError, ValidationInfo, field_validator
 
 from core.errors import ConfigError
 from core.people import TRAITS, BigFive, Frozen
@@ -26,7 +26,16 @@ _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast whe
 Floats = NDArray[np.float64]
 Text = Annotated[str, Field(min_length=2, max_length=200)]
 Weight = Annotated[float, Field(ge=0, le=50)]
-Loading = Annotated[float, Field(ge=-1, le=1)]
+
+
+def _known_traits(loadings: dict[str, float]) -> dict[str, float]:
+    if unknown := sorted(set(loadings) - set(TRAITS)):
+        raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
+    return loadings
+
+
+Loadings = Annotated[dict[str, Annotated[float, Field(ge=-1, le=1)]], AfterValidator(_known_traits)]
+"""What a trait above its middle adds to something, by trait."""
 
 
 class Activity(Frozen):
@@ -42,7 +51,7 @@ class Activity(Frozen):
     motions: tuple[Text, ...] = ()
     places: Annotated[tuple[tuple[Text, Text], ...], Field(min_length=3)]
     follows: tuple[str, ...] = ()
-    big_five: dict[str, Loading] = {}
+    big_five: Loadings = {}
     source: Text
     assumed: tuple[str, ...] = ()
     repeatable: bool = False
@@ -55,13 +64,6 @@ class Activity(Frozen):
         if not any(hours):
             raise ValueError("at least one of the weights must be above 0")
         return hours
-
-    @field_validator("big_five")
-    @classmethod
-    def _known_traits(cls, loadings: dict[str, float]) -> dict[str, float]:
-        if unknown := sorted(set(loadings) - set(TRAITS)):
-            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
-        return loadings
 
     @field_validator("assumed")
     @classmethod

@@ -10,12 +10,12 @@ from typing import Annotated, Any
 
 import numpy as np
 import yaml
-from pydantic import Field, field_validator
+from pydantic import Field
 
-from core.people import TRAITS, BigFive, Frozen
+from core.people import BigFive, Frozen
 from core.replies import ProfileReply
 from models.offline.big_five import infer
-from models.offline.knowledge import Loading
+from models.offline.knowledge import Loadings
 from models.offline.reading import clip
 from models.offline.sense import CommonSense
 from models.offline.statements import sentences, statements
@@ -37,14 +37,7 @@ _SMALL_TALK = re.compile(
 
 class _Statement(Frozen):
     says: Annotated[str, Field(min_length=2)]
-    big_five: dict[str, Loading]
-
-    @field_validator("big_five")
-    @classmethod
-    def _known_traits(cls, loadings: dict[str, float]) -> dict[str, float]:
-        if unknown := sorted(set(loadings) - set(TRAITS)):
-            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(TRAITS)}")
-        return loadings
+    big_five: Loadings
 
 
 class Aspect(Frozen):
