@@ -61,6 +61,16 @@ def clear(root: Path, made: Sequence[Path]) -> None:
             folder.rmdir()
 
 
+def empty(root: Path, made: Sequence[Path]) -> None:
+    """Undo a start after which nothing was done: all that the folder holds goes, and the folders made for it."""
+    for inside in root.iterdir():
+        if inside.is_dir():
+            shutil.rmtree(inside, ignore_errors=True)
+        else:
+            inside.unlink(missing_ok=True)
+    clear(root, made)
+
+
 def lock(root: Path) -> IO[str]:
     """Take the run's lock, which the system frees when this process ends, however it ends.
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import socket
 from collections.abc import Generator, Sequence
 from typing import Any
 
 from coopera.workers import TRIES, Done, Queue, Work
 from core.errors import ConfigError, CooperaError
+
+_PATIENCE = 10.0  # seconds
 
 
 def work_on_ray(
@@ -30,6 +33,7 @@ def work_on_ray(
     except ImportError:
         raise ConfigError("--ray needs the package ray: pip install -c constraints.txt -e '.[ray]'") from None
     local = address == "local"
+    _refuse_silent(address)
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # nothing is reported to anybody unless the user wants it
     try:
         ray.init(
@@ -60,6 +64,16 @@ def work_on_ray(
             yield from queue.close(job, error)
     finally:
         ray.shutdown()
+
+
+def _refuse_silent(address: str) -> None:
+    """Refuse a host and port at which nothing answers: Ray itself would go on trying for minutes."""
+    host, _, port = address.removeprefix("ray://").rpartition(":")
+    if host and port.isdigit():
+        try:
+            socket.create_connection((host, int(port)), timeout=_PATIENCE).close()
+        except (OSError, OverflowError) as err:
+            raise ConfigError(f"--ray {address}: nothing answers there ({err}).") from None
 
 
 def _try(work: Work, job: Any) -> str | None:

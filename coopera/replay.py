@@ -13,7 +13,7 @@ from typing import NamedTuple
 from coopera.assemble import open_embeddings, open_home
 from coopera.rundir import RunDir
 from coopera.trace_files import human_outcomes
-from core.errors import RunError
+from core.errors import ConfigError, RunError
 from core.hour import HourRecord
 from core.household import Outcome, SceneId
 from simulation import World
@@ -95,7 +95,13 @@ def _said(outcome: Outcome) -> str:
 
 
 def film_into(folder: Path, frames: int) -> Callable[[HourRecord, World], None]:
-    """Return a `look` that renders each recording into folder/day-DD/hour-HH."""
+    """Return a `look` that renders each recording into folder/day-DD/hour-HH.
+
+    Raises:
+        ConfigError: If the folder is a file.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise ConfigError(f"--frames: {folder} must be a folder, and it is a file.")
 
     def look(record: HourRecord, world: World) -> None:
         world.frames(frames, folder / f"day-{record.day:02d}" / f"hour-{record.hour:02d}")

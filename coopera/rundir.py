@@ -60,6 +60,7 @@ class RunDir:
         self._lock = lock
         self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
         self._stop = Stop(stop)
+        self._made: list[Path] = []
 
     @classmethod
     def create(
@@ -102,7 +103,9 @@ class RunDir:
             claim.clear(root, made)
             what = reason(err) if isinstance(err, OSError) else str(err)
             raise ConfigError(f"out: {root} cannot be written ({what}).") from err
-        return cls(root, config, info, lock, stop)
+        run = cls(root, config, info, lock, stop)
+        run._made = made
+        return run
 
     @classmethod
     def open(cls, path: Path) -> Self:
@@ -145,6 +148,13 @@ class RunDir:
         run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
         run._write_info()
         return run
+
+    def discard(self) -> None:
+        """Take back a run that was only just created, so that its folder is as it was before."""
+        if self._lock is not None:
+            claim.empty(self.root, self._made)
+            self._lock.close()
+            self._lock = None
 
     @property
     def state(self) -> str:

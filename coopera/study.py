@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
-from typing import Any, TypeAlias, cast
+from typing import Any, cast
 
 from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
@@ -30,6 +30,7 @@ from core.interview import Answer, Question
 from core.people import PersonId
 from evaluation import SETTINGS, episode, pool, schedule
 from graphs import STATE_TYPES, Services, build_study_graph
+from graphs.real_person import Interview
 from graphs.study import Waiting, waiting
 from models.backends import household_file
 from models.settings import Budget
@@ -37,8 +38,6 @@ from prompts import PromptLibrary
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
-
-AskPerson: TypeAlias = Callable[[Question], Answer]
 QUESTION = "question.json"
 """File of a run that waits for a person: the question (`core.interview.Question`)."""
 
@@ -58,7 +57,7 @@ def run_study(
     config: Config,
     *,
     on_event: Callable[[Event], None] | None = None,
-    ask_person: AskPerson = nobody,
+    ask_person: Interview = nobody,
     stop: Stop | None = None,
     report: bool = True,
 ) -> dict[str, Any]:
@@ -87,7 +86,7 @@ def resume_study(
     path: Path,
     *,
     on_event: Callable[[Event], None] | None = None,
-    ask_person: AskPerson = nobody,
+    ask_person: Interview = nobody,
     budget: Budget | None = None,
     report: bool = True,
 ) -> dict[str, Any]:
@@ -127,17 +126,21 @@ def new_run(config: Config, stop: Stop | None = None) -> Iterator[tuple[RunDir, 
     people = [humans.find(person, config.data_dir) for person in config.humans or []]
     told = open_told(config, plan_days(config))
     specs = {str(role): spec for role, spec in model_specs(config).items()}
-    with (
-        RunDir.create(
+    with ExitStack() as stack:
+        made = RunDir.create(
             config,
             people=people,
             prompts=prompts.hashes(),
             models=specs,
             knowledge=knowledge_of(specs.values()),
             stop=stop,
-        ) as run,
-        open_services(config, run, run.people(), prompts, told) as services,
-    ):
+        )
+        run = stack.enter_context(made)
+        try:
+            services = stack.enter_context(open_services(config, run, run.people(), prompts, told))
+        except ConfigError:
+            run.discard()
+            raise
         yield run, services
 
 
@@ -176,7 +179,7 @@ def _carry_on(
     run: RunDir,
     services: Services,
     on_event: Callable[[Event], None] | None,
-    ask_person: AskPerson,
+    ask_person: Interview,
     report: bool,
 ) -> dict[str, Any]:
     with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
@@ -196,7 +199,7 @@ def _carry_on(
     return summary
 
 
-def _ask(run: RunDir, question: Question, ask_person: AskPerson) -> Answer:
+def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:
     """Put a question to the person; until it is answered it stands in the run's folder, for whoever shows it."""
     waiting = run.root / QUESTION
     write_atomic(waiting, canonical_json(question.model_dump(mode="json")))

@@ -224,6 +224,8 @@ def _open(path: str, device: str, dtype: str, batch: int | None) -> HuggingFaceC
     safe: dict[str, Any] = {"trust_remote_code": False}
     place = _place(path, device)
     number = ("auto" if place.type == "cuda" else torch.float32) if dtype == "auto" else getattr(torch, dtype)
+    if Path(path).is_absolute() and not Path(path).is_dir():
+        raise ConfigError(f"the model huggingface:{path} cannot be loaded: there is no such folder")
     try:
         config = AutoConfig.from_pretrained(path, **safe)
         sees = hasattr(config, "vision_config")

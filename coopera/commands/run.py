@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from coopera.commands.options import AsJson, BaseUrl, CallBudget, Model, PromptFolder, RunPath, TokenBudget, as_list
 from core.errors import BudgetError
 
-STOPPED = 130  # what shells give a program that Ctrl-C ended
+if TYPE_CHECKING:
+    from coopera.study import Event
 
-Event = Mapping[str, Any]
+STOPPED = 130  # what shells give a program that Ctrl-C ended
 
 
 def run(
@@ -156,8 +157,10 @@ def _given(**numbers: int | None) -> dict[str, int] | None:
 
 def _replayed(model: str | None) -> Path | None:
     """The study file of the run that is to be replayed, so that it need not be described again."""
+    from coopera.rundir import RunDir
+
     kind, _, folder = (model or "").partition(":")
-    return Path(folder) / "config.yaml" if kind == "replay" else None
+    return RunDir.open(Path(folder)).root / "config.yaml" if kind == "replay" else None
 
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:

@@ -49,10 +49,12 @@ def read_recipe(path: Path = SHIPPED) -> InstructRecipe:
     """
     try:
         data: Any = yaml.safe_load(path.read_text(encoding="utf-8"))
+        if not isinstance(data, dict):
+            raise ConfigError(f"{path}: the classifier's recipe must be a mapping of fields, not {data!r}.")
         return InstructRecipe.model_validate(data)
     except ValidationError as err:
         first = err.errors(include_url=False)[0]
-        field = ".".join(map(str, first["loc"])) or "the file"
+        field = ".".join(map(str, first["loc"]))
         raise ConfigError(f"{path}: {field}: {first['msg'].lower()}, not {first['input']!r}.") from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: the classifier's recipe cannot be read ({' '.join(str(err).split())}).") from err

@@ -41,6 +41,7 @@ def files_in(folder: Path) -> list[str]:
         (["run", "--classifier", "oracle"], "--classifier must be kernel, lora or lora-instruct, not 'oracle'."),
         (["run", "--pictures", "film"], "--pictures must be sampled, none or video, not 'film'."),
         (["run", "--prompts", "missing"], "prompts: missing must be a folder of prompt files"),
+        (["run", "--model", "replay:missing"], "missing: this folder holds no run"),
         (["run", "missing.yaml"], "missing.yaml: there is no such study file."),
         (["run", "misspelt.yaml"], "misspelt.yaml: there is no field 'dayz' (did you mean days?)."),
         (["run", "--out", "taken"], "out: taken already holds another run"),
@@ -82,6 +83,24 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     assert said.err.count("\n") == 1
     assert said.out == ""
     assert files_in(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        (["--model", "gpt"], 'the model "gpt" is unknown'),
+        (["--lived", "missing"], "missing: this folder holds no run"),
+    ],
+)
+def test_what_is_found_wrong_only_when_the_run_opens_leaves_no_run_behind(
+    coopera: Cli, tmp_path: Path, wrong: list[str], sentence: str
+) -> None:
+    (tmp_path / "mine").mkdir()
+    for out in ("mine", "new/run"):
+        said = coopera("run", *wrong, "--out", out)
+        assert (said.code, sentence in said.err) == (2, True)
+    assert not files_in(tmp_path / "mine")
+    assert not (tmp_path / "new").exists()
 
 
 def test_help_imports_nothing_heavy() -> None:

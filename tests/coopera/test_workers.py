@@ -2,11 +2,15 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
+
+from coopera.cluster import work_on_ray
 from coopera.workers import Done, Queue, work_through
-from core.errors import RunError
+from core.errors import ConfigError, RunError
 
 
 @dataclass(frozen=True)
@@ -61,3 +65,11 @@ def test_a_job_waits_for_the_one_before_it_and_not_for_one_that_is_done_already(
     assert queue.take() is None
     assert queue.close(first, None) == [Done(first)]
     assert queue.take().name == "b"
+
+
+def test_a_cluster_that_does_not_answer_is_refused_at_once() -> None:
+    pytest.importorskip("ray")
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        free = server.getsockname()[1]
+    with pytest.raises(ConfigError, match=f"--ray 127.0.0.1:{free}: nothing answers there"):
+        list(work_on_ray([], go, address=f"127.0.0.1:{free}"))

@@ -218,6 +218,12 @@ def test_a_wrong_recipe_is_refused_naming_file_and_field(tmp_path: Path, change:
         make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings(), recipe=path)
 
 
+def test_a_recipe_that_is_no_mapping_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text("rank 8")
+    with pytest.raises(ConfigError, match="must be a mapping of fields, not 'rank 8'"):
+        read_recipe(tmp_path / "mine.yaml")
+
+
 def test_a_base_that_is_not_there_is_named_before_anything_is_done(tmp_path: Path) -> None:
     path = make_recipe(tmp_path / "mine.yaml", tmp_path / "nowhere")
     with pytest.raises(ConfigError, match=r"base: .*nowhere cannot be loaded"):

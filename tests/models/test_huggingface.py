@@ -52,6 +52,11 @@ def test_a_folder_without_a_model_is_refused(tmp_path: Path) -> None:
         open_backend(f"huggingface:{tmp_path}", "human", EMBEDDINGS)
 
 
+def test_a_folder_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="there is no such folder"):
+        open_backend(f"huggingface:{tmp_path / 'nowhere'}", "human", EMBEDDINGS)
+
+
 def test_a_model_without_a_chat_template_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="no chat template"):
         open_backend(f"huggingface:{random_llama(tmp_path, byte_tokenizer(None))}", "human", EMBEDDINGS)
