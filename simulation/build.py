@@ -13,6 +13,7 @@ from pathlib import Path
 from simulation.catalogue import catalogue, parts_of
 from simulation.engine import pybullet
 from simulation.floorplan import WALL_THICKNESS, Point, Wall
+from simulation.meshes import part_file
 from simulation.scene import Room, Scene, SceneObject, rgb_of
 from simulation.shapes import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
 
@@ -115,7 +116,7 @@ def _mesh_visual(client: int, thing: SceneObject, folder: Path) -> int:
     return int(
         pybullet.createVisualShapeArray(
             shapeTypes=[pybullet.GEOM_MESH] * count,
-            fileNames=[str(folder / part.file) for part in thing.mesh],
+            fileNames=[str(part_file(folder, part)) for part in thing.mesh],
             meshScales=[[1.0, 1.0, 1.0]] * count,
             halfExtents=[[0.0, 0.0, 0.0]] * count,
             radii=[0.0] * count,

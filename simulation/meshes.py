@@ -7,17 +7,25 @@ hold, so that equal things share them.
 from __future__ import annotations
 
 import hashlib
+import re
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from core.errors import ConfigError
 from simulation.glb import Array, Indices, Mesh
+from simulation.imported import read_text
 from simulation.scene import MeshPart, rgb_of
 
 MOST_TRIANGLES = 1500
 _CELLS = (64, 48, 32, 24, 16, 12, 8, 5)
 _SHADES = 8
 _MOST_COLOURS = 6
+
+
+_LINE = re.compile(r"(?:v|vn)(?: -?\d+\.\d+){3}|f(?: \d+//\d+){3}")
+_FACE = re.compile(r"(\d+)//(\d+)")
 
 
 class Look(NamedTuple):
@@ -45,6 +53,22 @@ def look_of(mesh: Mesh, colour: str) -> Look:
         parts.append(MeshPart(file=name, colour=f"#{red:02x}{green:02x}{blue:02x}"))
         files[name] = text
     return Look(parts, files)
+
+
+def part_file(folder: Path, part: MeshPart) -> Path:
+    """A part's file, after a look at it: a home may come from anywhere, and what draws it trusts every number.
+
+    Raises:
+        ConfigError: If it is no file as `look_of` makes them.
+    """
+    path = folder / part.file
+    lines = read_text(path).splitlines()
+    points, normals = (sum(line.startswith(f"{kind} ") for line in lines) for kind in ("v", "vn"))
+    corners = [(int(point), int(normal)) for line in lines for point, normal in _FACE.findall(line)]
+    whole = all(_LINE.fullmatch(line) for line in lines)
+    if not (whole and corners and all(0 < p <= points and 0 < n <= normals for p, n in corners)):
+        raise ConfigError(f"{path}: this is no mesh that coopera made (lines v, vn and f, faces of known corners).")
+    return path
 
 
 def simplified(mesh: Mesh, most: int = MOST_TRIANGLES) -> Mesh:

@@ -13,9 +13,9 @@ from core.errors import ConfigError
 from simulation.build import build
 from simulation.engine import pybullet
 from simulation.glb import Mesh, read_glb
-from simulation.meshes import MOST_TRIANGLES, look_of, simplified
+from simulation.meshes import MOST_TRIANGLES, look_of, part_file, simplified
 from simulation.overview import picture
-from simulation.scene import Scene, load_scene
+from simulation.scene import MeshPart, Scene, load_scene
 from tests.simulation.synthetic_hssd import SCENE, TABLE, boxes_document, change, write_glb, write_hssd
 
 LEGS = [((x, 0, z), (x + 0.06, 0.7, z + 0.06)) for x in (-0.6, 0.54) for z in (-0.4, 0.34)]
@@ -107,6 +107,22 @@ def test_a_home_whose_meshes_are_gone_is_refused(hssd: Path, tmp_path: Path) -> 
         path.unlink()
     with pytest.raises(ConfigError, match=r"field objects.0.mesh: there is no file"):
         load_scene(arrival.file)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "garbage\n",
+        "v 0.0 0.0 0.0\nvn 0.0 0.0 1.0\nf 1//1 1//1 2//1\n",
+        "mtllib /etc/passwd\n",
+        "f 0//1 1//1 1//1\n",
+    ],
+)
+def test_a_mesh_that_names_corners_it_does_not_have_is_refused_before_it_is_drawn(tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.obj").write_text(text)
+    with pytest.raises(ConfigError, match=r"a\.obj: this is no mesh that coopera made"):
+        part_file(tmp_path, MeshPart(file="a.obj", colour="#000000"))
 
 
 def png(colour: tuple[int, int, int]) -> bytes:
