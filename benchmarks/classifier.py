@@ -32,6 +32,7 @@ from graphs.replay import keep
 from memory.embeddings import bundled
 from models.classifiers import CLASSIFIERS, Inputs, Kind, make_classifier
 from models.classifiers.calibration import score_at
+from prompts import PromptLibrary
 
 DAYS = 5
 FIRST_TEST_PERSON = 1000
@@ -205,7 +206,9 @@ def _make(name: str, embeddings: Embeddings, inputs: Inputs, recipe: Path | None
     simple: dict[str, Callable[[], Classifier]] = {"always-yes": AlwaysYes, "frequency": Frequency}
     if name in simple:
         return simple[name]()
-    return make_classifier(name, kind=kind, embeddings=embeddings, inputs=inputs, recipe=recipe)
+    return make_classifier(
+        name, kind=kind, embeddings=embeddings, inputs=inputs, recipe=recipe, instruct=PromptLibrary().instruct
+    )
 
 
 def _table(name: str, figures: np.ndarray[tuple[int, int, int], np.dtype[np.float64]]) -> str:

@@ -27,9 +27,11 @@ from graphs.replay import keep
 from memory.embeddings import bundled
 from models.classifiers import CLASSIFIERS, Kind, make_classifier
 from models.classifiers.causal import open_base
-from models.classifiers.instruction import instruction, read_recipe
+from models.classifiers.instruction import read_recipe
+from prompts import PromptLibrary
 
 PERSON = 1000
+INSTRUCT = PromptLibrary().instruct
 SAMPLES, TOKENS = 3, 100  # the authors' code: so many texts of so many tokens for each verdict
 
 
@@ -59,7 +61,7 @@ def evening(name: str, day: int, lived: dict[Kind, list[list[Example]]], embeddi
     """Processor seconds of learning in the evening of a day (from 1), going on from the evening before."""
     seconds = 0.0
     for kind, days in lived.items():
-        judge = make_classifier(name, kind=kind, embeddings=embeddings, recipe=recipe)
+        judge = make_classifier(name, kind=kind, embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)
         kept = keep(example for before in days[: day - 1] for example in before)
         if kept:
             judge.train(kept, seed=0)  # an evening before, so that this one goes on
@@ -72,7 +74,7 @@ def evening(name: str, day: int, lived: dict[Kind, list[list[Example]]], embeddi
 def verdicts(lived: dict[Kind, list[list[Example]]], recipe: Path, timed: int) -> str:
     """25 verdicts by one forward pass, and by sampling as the authors' code does, at the same model."""
     base = open_base(read_recipe(recipe).model_dump_json())
-    texts = [instruction(example) for example in lived["intention"][0][:25]]
+    texts = [INSTRUCT(example) for example in lived["intention"][0][:25]]
     torch.set_num_threads(1)
     base.model.eval()
     with torch.no_grad():
@@ -117,7 +119,8 @@ def main() -> None:
         print("| classifier | " + " | ".join(f"day {day}" for day in chosen.days) + " | last / second | peak MB |")
         print("|---|" + "---|" * (len(chosen.days) + 2))
         for name in chosen.classifiers:
-            make_classifier(name, kind="task", embeddings=embeddings, recipe=recipe).train(lived["task"][0], seed=0)
+            one = make_classifier(name, kind="task", embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)
+            one.train(lived["task"][0], seed=0)
             seconds = [evening(name, day, lived, embeddings, recipe) for day in chosen.days]
             peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
             cells = " | ".join(f"{one:.2f} s" for one in seconds)

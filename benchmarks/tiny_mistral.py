@@ -12,7 +12,8 @@ from transformers import MistralConfig, MistralForCausalLM, PreTrainedTokenizerF
 
 from core.hour import Example
 from core.people import BigFive, PersonId
-from models.classifiers.instruction import SHIPPED, instruction
+from models.classifiers.instruction import SHIPPED
+from prompts import PromptLibrary
 
 RATE = 5e-3
 """Learning rate for a model so small; 1e-5, the paper's for 7 billion weights, would not move it."""
@@ -29,7 +30,7 @@ def make_model(folder: Path, *, hidden: int = 32, layers: int = 2, seed: int = 0
         vocab_size=600, special_tokens=["<s>", "</s>"], initial_alphabet=alphabet, show_progress=False
     )
     shown = Example(person=PersonId("a"), day=0, hour=9, candidate="drink tea", big_five=BigFive(), rank=0)
-    bare.train_from_iterator([instruction(shown)] * 3, trainer)
+    bare.train_from_iterator([PromptLibrary().instruct(shown)] * 3, trainer)
     words = PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
     words.save_pretrained(folder)
     config = MistralConfig(

@@ -28,6 +28,7 @@ from graphs.services import nothing_was_told
 from memory import MemoryStream, Search, bundled
 from models.budget import Meter
 from models.classifiers import Inputs, make_classifier
+from models.classifiers.instruction import Instruct
 from models.door import open_door
 from models.transport import wait
 from prompts import PromptLibrary
@@ -121,6 +122,7 @@ def open_services(
         embeddings = open_embeddings(config)
         meter = Meter(config.budget, run.spent())
         stack.callback(lambda: run.note_spent(meter.spent))
+        prompts = prompts or PromptLibrary(config.prompts)
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
         ask = _Interruptible(door, run.check)
         method = find_method(config.method)
@@ -132,7 +134,7 @@ def open_services(
             stream=_Streams(stack, run.root / "memory", embeddings),
             embeddings=embeddings,
             learner=Learner(
-                {kind: _classifier(config, method, kind, embeddings) for kind in KINDS},
+                {kind: _classifier(config, method, kind, embeddings, prompts.instruct) for kind in KINDS},
                 run,
                 config.seed,
                 config.learning,
@@ -213,7 +215,9 @@ class _Streams:
         return self._open[name]
 
 
-def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddings) -> Callable[[], Classifier]:
+def _classifier(
+    config: Config, method: Method, kind: Kind, embeddings: Embeddings, instruct: Instruct
+) -> Callable[[], Classifier]:
     if method.judge is not None:
         return partial(method.judge, kind)
     time_only = method.time_only
@@ -229,6 +233,7 @@ def _classifier(config: Config, method: Method, kind: Kind, embeddings: Embeddin
         embeddings=embeddings,
         inputs=inputs,
         recipe=config.classifier_config,
+        instruct=instruct,
     )
 
 

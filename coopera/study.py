@@ -104,7 +104,7 @@ def resume_study(
     """
     with RunDir.resume(path, budget) as run:
         prompts = PromptLibrary(run.config.prompts)
-        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name) != sha)
+        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
         if changed:
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
         if knowledge_of(run.info["models"].values()) != run.info.get("knowledge", {}):

@@ -6,12 +6,16 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
+- in the classifiers' instruction `big_five` is a text, `intentions` and `tasks` are texts, and `place` is the
+  candidate's among the robot's guesses, from 1, or None;
+- `seen` is what a robot saw that goes on from it without an intention, and then stands in `intention` too; None for
+  one that has a guess;
 - `percept` is a `Percept` as data with its `caption`, or None where the model looks at the pictures.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from core.protocols import Role
 
@@ -74,9 +78,32 @@ ASKS: dict[str, AskSpec] = {
         "fixed",
         "movable",
         "first_task",
+        "seen",
         "n_tasks",
     ),
-    "robot/tasks_type2": _spec("robot", "HandOverReply", *_TIME, *_BELIEF, *_MEMORY, "intention", "fixed", "n_tasks"),
+    "robot/tasks_type2": _spec(
+        "robot", "HandOverReply", *_TIME, *_BELIEF, *_MEMORY, "intention", "fixed", "seen", "n_tasks"
+    ),
     "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),
 }
+
+
+class InstructionSpec(NamedTuple):
+    """The contract of the text that a classifier is tuned on: it is never asked, its next token is weighed."""
+
+    role: Literal["classifier"]
+    reply: Literal["YesOrNo"]
+    variables: frozenset[str]
+
+
+INSTRUCTION = "classifier/instruction"
+PROMPTS: dict[str, AskSpec | InstructionSpec] = {
+    **ASKS,
+    INSTRUCTION: InstructionSpec(
+        "classifier",
+        "YesOrNo",
+        frozenset(("candidate", "intention", "profile", "big_five", "intentions", "tasks", "time", "place")),
+    ),
+}
+"""All prompts: those that are asked, and the classifiers' instruction."""

@@ -259,6 +259,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
                 **as_variables(state["recalled"], clock),
                 **extra,
                 "intention": intention.text,
+                "seen": intention.text if direct else None,
                 "fixed": home.objects("fixed"),
                 "n_tasks": count,
             },

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from core.asks import ASKS
+from core.asks import INSTRUCTION, PROMPTS
 from core.big_five_test import ITEMS
 
 _ACTS_1 = [
@@ -130,6 +130,7 @@ _FULL: dict[str, Any] = {
         "holding something like a book.",
     },
     "first_task": None,
+    "seen": None,
     "n_intentions": 5,
     "intentions": [
         {"when": "9 am", "hours_ago": 12, "text": "Start the day slowly with breakfast"},
@@ -150,6 +151,17 @@ _BARE: dict[str, Any] = {
     "percept": None,
     "profile_2": "",
     "conversation": "",
+}
+_UNKNOWN: dict[str, Any] = {"intentions": [], "tasks": [], "place": None}
+_INSTRUCTION: dict[str, Any] = {
+    "candidate": "bring the mug",
+    "intention": "Unwind with a book",
+    "profile": "Likes calm, indoor pastimes. Keeps the rooms in order. Reads in the afternoon.",
+    "big_five": "openness 3.80, conscientiousness 4.10, extroversion 2.20, agreeableness 3.60, neuroticism 2.40",
+    "intentions": ["Start the day slowly with breakfast", "Relax with some quiet reading"],
+    "tasks": ["put the bowl on the dining table", "put the cushion on the sofa"],
+    "time": "2 pm",
+    "place": 1,
 }
 _ROBOT_PROFILE = "Likes calm, indoor pastimes. Keeps the rooms in order. Reads in the afternoon."
 
@@ -179,9 +191,11 @@ def examples(name: str) -> list[Mapping[str, Any]]:
     """Variables to fill a prompt with, a full example first.
 
     Args:
-        name: One of `core.asks.ASKS`.
+        name: One of `core.asks.PROMPTS`.
     """
-    spec = ASKS[name]
+    if name == INSTRUCTION:
+        return [_INSTRUCTION, _INSTRUCTION | {**dict.fromkeys(("intention", "profile", "big_five"), ""), **_UNKNOWN}]
+    spec = PROMPTS[name]
     full = {**_FULL, **_of_type(1 if name.endswith("type1") else 2)}
     cases = [full, {**full, **_BARE}]
     if spec.role == "robot":
@@ -189,6 +203,8 @@ def examples(name: str) -> list[Mapping[str, Any]]:
         cases[1] |= {"profile": None, "big_five": None}
     if "offers" in spec.variables or "first_task" in spec.variables:
         cases.append({**full, **_of_type(1)})
+    if "seen" in spec.variables:
+        cases.append({**full, "seen": _FULL["percept"]["caption"]})
     if name == "robot/traits":
         cases = [{**case, "tasks": _FULL["recalled_tasks"], "evening": case is full} for case in cases]
     elif "offers" in spec.variables:  # the person's remaining tasks only, and none at all where there was but one

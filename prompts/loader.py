@@ -5,7 +5,7 @@ A prompt is a Markdown file `<role>/<name>.md`: YAML front matter between two li
 
 - `id`: the prompt's name, as its path says;
 - `version`: a whole number from 1, raised when the wording changes, since that changes results;
-- `model_role`: human, robot or judge: whose language model answers;
+- `model_role`: human, robot or judge: whose language model answers; or classifier, for the text that one is tuned on;
 - `reply`: the type of the answer, from `core.replies`; its JSON schema is added by the door, not written here;
 - `temperature`: 0 to 2;
 - `inputs`: the variables that the template uses, from `core.asks`;
@@ -21,13 +21,15 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import yaml
 from pydantic import Field, ValidationError
 
-from core.asks import ASKS
+from core.asks import ASKS, INSTRUCTION, PROMPTS
+from core.clock import hour_label
 from core.errors import PromptError
+from core.hour import Example
 from core.people import Frozen
 from core.protocols import Rendered, Role
 from prompts.examples import examples
@@ -43,7 +45,7 @@ class FrontMatter(Frozen):
 
     id: str
     version: Annotated[int, Field(strict=True, ge=1)]
-    model_role: Role
+    model_role: Role | Literal["classifier"]
     reply: str
     temperature: Annotated[float, Field(strict=True, ge=0, le=2, allow_inf_nan=False)]
     inputs: list[str]
@@ -73,7 +75,7 @@ class PromptLibrary:
         Raises:
             PromptError: Naming file and line of the first problem.
         """
-        self._prompts = {name: _read(name, SHIPPED / f"{name}.md") for name in sorted(ASKS)}
+        self._prompts = {name: _read(name, SHIPPED / f"{name}.md") for name in sorted(PROMPTS)}
         if overlay is not None:
             for name, path in _files_of(overlay):
                 self._prompts[name] = _read(name, path)
@@ -84,7 +86,7 @@ class PromptLibrary:
         return tuple(self._prompts)
 
     def render(self, name: str, variables: Mapping[str, Any]) -> Rendered:
-        """Fill a prompt's template.
+        """Fill a prompt that is asked.
 
         Args:
             name: Such as "human/intention".
@@ -93,22 +95,49 @@ class PromptLibrary:
         Raises:
             PromptError: Naming file and line.
         """
+        text, prompt = self.fill(name, variables), self._of(name)
+        return Rendered(
+            name=name,
+            role=ASKS[name].role,
+            text=text,
+            sha=prompt.sha,
+            reply=prompt.head.reply,
+            temperature=prompt.head.temperature,
+        )
+
+    def instruct(self, example: Example) -> str:
+        """Fill the classifiers' instruction; a causal model's next token is its Yes or No.
+
+        Raises:
+            PromptError: Naming file and line.
+        """
+        variables = {
+            "candidate": example.candidate,
+            "intention": example.intention,
+            "profile": example.profile,
+            "big_five": str(example.big_five or ""),
+            "intentions": example.intentions,
+            "tasks": example.tasks,
+            "time": hour_label(example.hour),
+            "place": None if example.rank is None else example.rank + 1,
+        }
+        return self.fill(INSTRUCTION, variables) + "\n"
+
+    def fill(self, name: str, variables: Mapping[str, Any]) -> str:
+        """Fill any prompt's template.
+
+        Raises:
+            PromptError: Naming file and line.
+        """
         prompt = self._of(name)
         missing = [f'"{i}"' for i in prompt.head.inputs if i not in variables]
-        surplus = [f'"{given}"' for given in sorted(set(variables) - ASKS[name].variables)]
+        surplus = [f'"{given}"' for given in sorted(set(variables) - PROMPTS[name].variables)]
         if missing or surplus:
             wrong = (
                 f"{', '.join(missing)} was not given" if missing else f"{', '.join(surplus)} is not a variable of it"
             )
             raise PromptError(f"{prompt.path}:{_line_of('inputs', prompt.text)}: {wrong}")
-        return Rendered(
-            name=name,
-            role=prompt.head.model_role,
-            text=prompt.template.fill({i: variables[i] for i in prompt.head.inputs}),
-            sha=prompt.sha,
-            reply=prompt.head.reply,
-            temperature=prompt.head.temperature,
-        )
+        return prompt.template.fill({i: variables[i] for i in prompt.head.inputs})
 
     def show(self, name: str, *, filled: bool = False) -> str:
         """A prompt's file as it stands, or its text filled with an example.
@@ -117,7 +146,7 @@ class PromptLibrary:
             PromptError: If there is no such prompt.
         """
         prompt = self._of(name)
-        return self.render(name, examples(name)[0]).text if filled else prompt.text
+        return self.fill(name, examples(name)[0]) if filled else prompt.text
 
     def head(self, name: str) -> FrontMatter:
         """A prompt's front matter."""
@@ -161,7 +190,7 @@ def _all_files(folder: Path) -> list[tuple[str, Path]]:
         paths = [Path(base, name) for name in files if not name.startswith(".") and Path(name).suffix in _TEXT]
         found += [(path.relative_to(folder).as_posix(), path) for path in paths]
     if not found:
-        raise PromptError(f"{folder}: there is no prompt in this folder; one would be called {next(iter(ASKS))}.md")
+        raise PromptError(f"{folder}: there is no prompt in this folder; one would be called {next(iter(PROMPTS))}.md")
     return sorted(found)
 
 
@@ -176,14 +205,14 @@ def _files_of(folder: Path) -> Iterator[tuple[str, Path]]:
 
 def _known(relative: str, path: Path) -> str:
     name = relative.removesuffix(".md")
-    if not relative.endswith(".md") or name not in ASKS:
+    if not relative.endswith(".md") or name not in PROMPTS:
         raise PromptError(f"{path}: {_unknown(name)}")
     return name
 
 
 def _unknown(name: str) -> str:
-    near = difflib.get_close_matches(name, ASKS, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"the prompts are {', '.join(sorted(ASKS))}"
+    near = difflib.get_close_matches(name, PROMPTS, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"the prompts are {', '.join(sorted(PROMPTS))}"
     return f'there is no prompt "{name}": {hint}'
 
 
@@ -225,7 +254,7 @@ def _front_matter(name: str, path: Path, front: str, text: str) -> FrontMatter:
         problem = err.errors(include_url=False, include_input=False)[0]
         field = str(problem["loc"][0]) if problem["loc"] else "front matter"
         raise PromptError(f'{path}:{_line_of(field, text)}: "{field}": {problem["msg"]}') from err
-    spec = ASKS[name]
+    spec = PROMPTS[name]
     for field, expected in (("id", name), ("model_role", spec.role), ("reply", spec.reply)):
         if (given := getattr(head, field)) != expected:
             raise PromptError(f'{path}:{_line_of(field, text)}: "{field}" must be {expected}, not {given}')
@@ -234,7 +263,7 @@ def _front_matter(name: str, path: Path, front: str, text: str) -> FrontMatter:
 
 def _compare_inputs(name: str, path: Path, text: str, head: FrontMatter, template: Template) -> None:
     line = _line_of("inputs", text)
-    known = ASKS[name].variables
+    known = PROMPTS[name].variables
     repeated = sorted({i for i in head.inputs if head.inputs.count(i) > 1})
     if repeated:
         raise PromptError(f'{path}:{line}: "inputs" names {repeated[0]} twice')

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings
 
     from core.protocols import Classifier
+    from models.classifiers.instruction import Instruct
 
 __all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
 
@@ -29,7 +30,13 @@ CLASSIFIERS: dict[str, str] = {
 
 
 def make_classifier(
-    name: str, *, kind: Kind, embeddings: Embeddings, inputs: Inputs | None = None, recipe: Path | None = None
+    name: str,
+    *,
+    kind: Kind,
+    embeddings: Embeddings,
+    inputs: Inputs | None = None,
+    recipe: Path | None = None,
+    instruct: Instruct | None = None,
 ) -> Classifier:
     """Return a new, untrained classifier.
 
@@ -39,6 +46,7 @@ def make_classifier(
         embeddings: Sentence embeddings; must give a text the same vector every time.
         inputs: What the method lets it see; by default everything.
         recipe: File with the recipe of `lora-instruct`; by default the paper's.
+        instruct: What `lora-instruct` tells its model: `PromptLibrary().instruct` of the room `prompts`.
 
     Raises:
         ConfigError: If there is no classifier of that name, or its recipe is wrong.
@@ -56,5 +64,8 @@ def make_classifier(
         from models.classifiers.instruction import SHIPPED, read_recipe  # noqa: PLC0415
         from models.classifiers.lora_instruct import LoraInstructClassifier  # noqa: PLC0415 - torch is heavier
 
-        return LoraInstructClassifier(kind=kind, inputs=inputs, recipe=read_recipe(recipe or SHIPPED))
+        if instruct is None:
+            raise ConfigError("the classifier lora-instruct needs an instruction: PromptLibrary().instruct")
+        recipe_read = read_recipe(recipe or SHIPPED)
+        return LoraInstructClassifier(kind=kind, inputs=inputs, instruct=instruct, recipe=recipe_read)
     raise ConfigError(f"there is no classifier {name!r}; known: {', '.join(CLASSIFIERS)}")

@@ -1,20 +1,24 @@
-"""An example as an instruction for a causal language model, and the recipe by which one is tuned (PAPER App. C.2)."""
+"""The recipe by which a causal language model is tuned to answer instructions with Yes or No (PAPER App. C.2)."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 import yaml
 from pydantic import Field, ValidationError
 
-from core.clock import hour_label
 from core.errors import ConfigError
 from core.hour import Example
 from core.people import Frozen
 
 SHIPPED = Path(__file__).with_name("lora_instruct.yaml")
 TAIL = "### Response:\n"
+"""How the shipped instruction ends; what counts is the line break, after which Yes and No are looked for."""
+
+Instruct: TypeAlias = Callable[[Example], str]
+"""Says an example as an instruction that ends with a line break: `prompts.PromptLibrary.instruct`."""
 
 Whole = Annotated[int, Field(strict=True, ge=1)]
 Share = Annotated[float, Field(ge=0, lt=1)]
@@ -58,21 +62,3 @@ def read_recipe(path: Path = SHIPPED) -> InstructRecipe:
         raise ConfigError(f"{path}: {field}: {first['msg'].lower()}, not {first['input']!r}.") from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: the classifier's recipe cannot be read ({' '.join(str(err).split())}).") from err
-
-
-def instruction(example: Example) -> str:
-    """Say an example as an instruction that is answered with Yes or No, in the paper's parts and their order."""
-    will = f"{example.candidate}, in order to {example.intention}" if example.intention else example.candidate
-    return (
-        "### Instruction:\n"
-        "Considering the human's profile, traits, temporal dependence on past behaviors, and the current time, "
-        f"determine if it is likely or unlikely that this human will: {will}. Respond with 'Yes' or 'No'.\n\n"
-        "### Input:\n"
-        f"Human Profile: {example.profile or 'unknown'}\n"
-        f"Big Five Traits: {example.big_five or 'unknown'}\n"
-        f"Previous Relevant Intentions: {'; '.join(example.intentions) or 'none'}\n"
-        f"Previous Relevant Tasks: {'; '.join(example.tasks) or 'none'}\n"
-        f"Current Time: {hour_label(example.hour)}\n"
-        + (f"Place Among the Robot's Guesses: {example.rank + 1}\n" if example.rank is not None else "")
-        + f"\n{TAIL}"
-    )

@@ -20,7 +20,7 @@ from core.hour import Example
 from models.classifiers.calibration import Scale, scale
 from models.classifiers.causal import CausalBase, open_base
 from models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
-from models.classifiers.instruction import InstructRecipe, instruction, read_recipe
+from models.classifiers.instruction import Instruct, InstructRecipe, read_recipe
 from models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from models.classifiers.text import Inputs, Kind
 
@@ -35,7 +35,7 @@ class LoraInstructClassifier:
     DEVIATES from the authors' code, which samples three texts of 100 tokens for each candidate and looks for "yes".
     """
 
-    def __init__(self, *, kind: Kind, inputs: Inputs, recipe: InstructRecipe | None = None) -> None:
+    def __init__(self, *, kind: Kind, inputs: Inputs, instruct: Instruct, recipe: InstructRecipe | None = None) -> None:
         """Start untrained; the base is loaded once for all classifiers of a recipe.
 
         Raises:
@@ -43,6 +43,7 @@ class LoraInstructClassifier:
         """
         self._kind = kind
         self._inputs = inputs
+        self._instruct = instruct
         self._recipe = recipe or read_recipe()
         self._learned: dict[str, Tensor] | None = None
         self._scale = Scale(1.0, 0.0)
@@ -55,7 +56,7 @@ class LoraInstructClassifier:
         base = self._base()
         with base.lock, one_thread():
             base.put_in(self._kind, self._learned)
-            scores = self._scores(base, [instruction(self._inputs.show(e)) for e in examples])
+            scores = self._scores(base, [self._instruct(self._inputs.show(e)) for e in examples])
         return [round(float(p), _DECIMALS) for p in self._scale.probabilities(scores)]
 
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
@@ -86,7 +87,7 @@ class LoraInstructClassifier:
             try:
                 loss = self._fit(base, taught, rows, epochs)
                 judged = taught.held_out if taught.held_out.any() else ~taught.held_out
-                texts = [instruction(taught.examples[row]) for row in np.flatnonzero(judged)]
+                texts = [self._instruct(taught.examples[row]) for row in np.flatnonzero(judged)]
                 scores = self._scores(base, texts)
                 self._must_be_finite("answer", float(scores.sum()))
             finally:
@@ -102,7 +103,7 @@ class LoraInstructClassifier:
         and the loss is that of the answer's first token against the other answer.
         """
         recipe = self._recipe
-        texts = [instruction(taught.examples[row]) for row in rows]
+        texts = [self._instruct(taught.examples[row]) for row in rows]
         labels, weights = torch.from_numpy(taught.labels[rows].astype(np.float32)), balanced(taught.labels[rows])
         optimizer = torch.optim.AdamW(
             base.parameters(self._kind), lr=recipe.learning_rate, weight_decay=recipe.weight_decay

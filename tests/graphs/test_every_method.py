@@ -53,6 +53,16 @@ def test_an_oracle_imagines_tasks_for_the_truth_and_for_nothing_else(
     assert all(hour.robot and [c.text for c in hour.robot.intentions] == ["Cook a meal"] for hour in hours)
 
 
+def test_a_robot_without_intentions_is_told_to_go_on_from_what_it_saw(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    for method in ("intention_agnostic", "ours"):
+        _, ask = live(make_services, method, tmp_path / method)
+        asked = ask.variables_of("robot/tasks_type2")
+        assert {v["seen"] is None for v in asked} == {method == "ours"}
+        assert all(v["seen"] in (None, v["intention"]) for v in asked)
+
+
 def test_direct_prompting_proposes_one_intention(make_services: MakeServices, tmp_path: Path) -> None:
     hours, _ = live(make_services, "direct_prompting", tmp_path)
     assert {len(hour.robot.intentions) for hour in hours if hour.robot} == {1}

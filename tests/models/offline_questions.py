@@ -63,8 +63,9 @@ def ask(prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: An
 
 
 def ask_model(chat: OfflineChatModel, prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: Any) -> Any:
-    if "steps" in ASKS[prompt].variables:
-        variables.setdefault("steps", [])
+    for name, nothing in (("steps", []), ("seen", None)):
+        if name in ASKS[prompt].variables:
+            variables.setdefault(name, nothing)
     assert set(variables) == set(ASKS[prompt].variables)
     asked = {"prompt": prompt, "variables": json.loads(json.dumps(variables)), "seed": seed, "temperature": temperature}
     reply = chat.invoke([HumanMessage("(the rendered prompt)", additional_kwargs={"coopera": asked})])
@@ -175,6 +176,7 @@ _ALL: dict[str, Any] = {
     "today": [],
     "hours": ["9 am", "12 pm", "9 pm"],
     "intention": "Make a homemade treat",
+    "seen": None,
     "intentions": [{"when": "9 am", "hours_ago": 12, "text": "Make a homemade treat"}],
     "fixed": FIXED,
     "movable": MOVABLE,

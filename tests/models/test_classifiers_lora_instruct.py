@@ -16,9 +16,12 @@ from core.hour import Example
 from core.people import PersonId
 from models.classifiers import Inputs, make_classifier
 from models.classifiers.causal import open_base
-from models.classifiers.instruction import SHIPPED, instruction, read_recipe
+from models.classifiers.instruction import SHIPPED, read_recipe
 from models.classifiers.lora_instruct import LoraInstructClassifier
+from prompts import PromptLibrary
 from tests.fakes import LetterEmbeddings
+
+INSTRUCT = PromptLibrary().instruct
 
 
 def ask(candidate: str, hour: int, *, day: int = 0, label: bool | None = None) -> Example:
@@ -49,7 +52,7 @@ def recipe(base: Path) -> Path:
 
 
 def classifier(recipe: Path, kind: str = "intention") -> LoraInstructClassifier:
-    return LoraInstructClassifier(kind=kind, inputs=Inputs(), recipe=read_recipe(recipe))  # type: ignore[arg-type]
+    return LoraInstructClassifier(kind=kind, inputs=Inputs(), instruct=INSTRUCT, recipe=read_recipe(recipe))  # type: ignore[arg-type]
 
 
 @pytest.fixture(scope="module")
@@ -73,11 +76,23 @@ def test_the_shipped_recipe_is_the_papers() -> None:
 
 
 def test_the_instruction_has_the_papers_parts_in_their_order() -> None:
-    text = instruction(ask("drink tea", 9).model_copy(update={"intention": "Rest", "tasks": ["boil water"]}))
+    text = INSTRUCT(ask("drink tea", 9).model_copy(update={"intention": "Rest", "tasks": ["boil water"]}))
     parts = ["### Instruction:", "drink tea, in order to Rest", "### Input:", "Human Profile: unknown", "Big Five"]
     parts += ["Previous Relevant Intentions: none", "Previous Relevant Tasks: boil water", "Current Time: 9 am"]
     places = [text.index(part) for part in [*parts, "### Response:"]]
     assert places == sorted(places)
+    assert text.endswith("### Response:\n"), "the next token is the answer"
+
+
+def test_the_instruction_is_a_prompt_that_can_be_reworded(tmp_path: Path) -> None:
+    file = tmp_path / "classifier" / "instruction.md"
+    file.parent.mkdir()
+    shipped = PromptLibrary().show("classifier/instruction")
+    file.write_text(shipped.replace("determine if it is likely or unlikely", "say whether it is likely"))
+    text = PromptLibrary(tmp_path).instruct(QUESTIONS[0])
+    assert "say whether it is likely that this human will: drink tea" in text
+    with pytest.raises(ConfigError, match="needs an instruction"):
+        make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings())
 
 
 def test_untrained_it_is_undecided_and_trained_it_knows_what_is_liked(
@@ -149,7 +164,7 @@ def test_the_score_is_the_logit_of_yes_less_that_of_no_of_the_plain_model_with_t
     trained.save(tmp_path)
     plain = PeftModel.from_pretrained(AutoModelForCausalLM.from_pretrained(base), tmp_path).eval()
     ours = open_base(trained._recipe.model_dump_json())
-    text = instruction(QUESTIONS[0])
+    text = INSTRUCT(QUESTIONS[0])
     with torch.no_grad():
         logits = plain(torch.tensor([ours.tokenizer(text)["input_ids"]])).logits[0, -1]
     yes, no = (ours.tokenizer(word)["input_ids"][0] for word in ("Yes", "No"))
@@ -215,7 +230,7 @@ def test_with_one_kind_of_answer_or_none_nothing_is_learned(recipe: Path, label:
 def test_a_wrong_recipe_is_refused_naming_file_and_field(tmp_path: Path, change: dict[str, object], why: str) -> None:
     path = make_recipe(tmp_path / "mine.yaml", tmp_path, **change)
     with pytest.raises(ConfigError, match=f"mine.yaml: {why}"):
-        make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings(), recipe=path)
+        make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings(), recipe=path, instruct=INSTRUCT)
 
 
 def test_a_recipe_that_is_no_mapping_is_refused(tmp_path: Path) -> None:
@@ -227,7 +242,7 @@ def test_a_recipe_that_is_no_mapping_is_refused(tmp_path: Path) -> None:
 def test_a_base_that_is_not_there_is_named_before_anything_is_done(tmp_path: Path) -> None:
     path = make_recipe(tmp_path / "mine.yaml", tmp_path / "nowhere")
     with pytest.raises(ConfigError, match=r"base: .*nowhere cannot be loaded"):
-        make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings(), recipe=path)
+        make_classifier("lora-instruct", kind="task", embeddings=LetterEmbeddings(), recipe=path, instruct=INSTRUCT)
 
 
 def test_the_manifest_says_what_it_is(tmp_path: Path, trained: LoraInstructClassifier) -> None:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.asks import ASKS
+from core.asks import PROMPTS
 from core.errors import PromptError
 from prompts import PromptLibrary, check
 from prompts.examples import examples
@@ -54,10 +54,10 @@ def shipped() -> PromptLibrary:
     return PromptLibrary()
 
 
-@pytest.mark.parametrize("name", sorted(ASKS))
+@pytest.mark.parametrize("name", sorted(PROMPTS))
 def test_every_shipped_prompt_reads_well_with_every_example(shipped: PromptLibrary, name: str) -> None:
     for variables in examples(name):
-        text = shipped.render(name, variables).text
+        text = shipped.fill(name, variables)
         assert text == text.strip()
         assert "\n\n\n" not in text, "no gaps of two blank lines"
         assert not any(mark in text for mark in ("{{", "{%", "None", "  -", "[]", "Undefined"))
@@ -66,7 +66,7 @@ def test_every_shipped_prompt_reads_well_with_every_example(shipped: PromptLibra
 
 def test_there_is_a_prompt_for_each_ask_and_no_other(shipped: PromptLibrary) -> None:
     files = {path.relative_to(SHIPPED).with_suffix("").as_posix() for path in SHIPPED.glob("*/*.md")}
-    assert set(shipped.names) == set(ASKS) == files
+    assert set(shipped.names) == set(PROMPTS) == files
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_an_overlay_replaces_only_the_files_it_has(shipped: PromptLibrary, tmp_p
     assert mine.render(GUESSES, examples(GUESSES)[0]).text.startswith("- Unwind")
     assert mine.path(GUESSES) == path
     assert mine.head(GUESSES).version == 2
-    changed = {name for name in ASKS if mine.hashes()[name] != shipped.hashes()[name]}
+    changed = {name for name in PROMPTS if mine.hashes()[name] != shipped.hashes()[name]}
     assert changed == {GUESSES}
     assert check(tmp_path) == []
 
