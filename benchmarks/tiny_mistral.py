@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import torch
@@ -19,19 +20,26 @@ RATE = 5e-3
 """Learning rate for a model so small; 1e-5, the paper's for 7 billion weights, would not move it."""
 
 
-def make_model(folder: Path, *, hidden: int = 32, layers: int = 2, seed: int = 0) -> Path:
-    """Write the model and its tokeniser; equal arguments give the same one."""
-    folder.mkdir(parents=True, exist_ok=True)
+def learned_words(texts: Iterable[str], *, size: int, special: Sequence[str] = ()) -> PreTrainedTokenizerFast:
+    """A byte-level BPE tokeniser learned from some texts; without any, each byte is a token."""
     bare = Tokenizer(BPE())
     bare.pre_tokenizer = pre_tokenizers.ByteLevel(add_prefix_space=False)
     bare.decoder = decoders.ByteLevel()
-    alphabet = pre_tokenizers.ByteLevel.alphabet()
     trainer = trainers.BpeTrainer(
-        vocab_size=600, special_tokens=["<s>", "</s>"], initial_alphabet=alphabet, show_progress=False
+        vocab_size=size,
+        special_tokens=["<s>", "</s>", *special],
+        initial_alphabet=pre_tokenizers.ByteLevel.alphabet(),
+        show_progress=False,
     )
+    bare.train_from_iterator(texts, trainer)
+    return PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
+
+
+def make_model(folder: Path, *, hidden: int = 32, layers: int = 2, seed: int = 0) -> Path:
+    """Write the model and its tokeniser; equal arguments give the same one."""
+    folder.mkdir(parents=True, exist_ok=True)
     shown = Example(person=PersonId("a"), day=0, hour=9, candidate="drink tea", big_five=BigFive(), rank=0)
-    bare.train_from_iterator([PromptLibrary().instruct(shown)] * 3, trainer)
-    words = PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
+    words = learned_words([PromptLibrary().instruct(shown)] * 3, size=600)
     words.save_pretrained(folder)
     config = MistralConfig(
         vocab_size=len(words),

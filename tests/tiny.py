@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import torch
-from tokenizers import Tokenizer, decoders, pre_tokenizers, trainers
-from tokenizers.models import BPE
 from transformers import (
+    BertConfig,
+    BertForMaskedLM,
+    BertTokenizerFast,
     CLIPImageProcessor,
     CLIPVisionConfig,
     LlamaConfig,
@@ -20,6 +21,7 @@ from transformers import (
     PreTrainedTokenizerFast,
 )
 
+from benchmarks.tiny_mistral import learned_words
 from core.asks import ASKS
 from prompts import PromptLibrary
 from prompts.examples import examples
@@ -59,15 +61,7 @@ def word_tokenizer(template: str | None = TEXT, *more: str) -> PreTrainedTokeniz
 
 
 def _trained(texts: Iterator[str], template: str | None, *more: str) -> PreTrainedTokenizerFast:
-    bare = Tokenizer(BPE())
-    bare.pre_tokenizer = pre_tokenizers.ByteLevel(add_prefix_space=False)
-    bare.decoder = decoders.ByteLevel()
-    alphabet = pre_tokenizers.ByteLevel.alphabet()
-    trainer = trainers.BpeTrainer(
-        vocab_size=2000, special_tokens=["<s>", "</s>", *more], initial_alphabet=alphabet, show_progress=False
-    )
-    bare.train_from_iterator(texts, trainer)
-    fast = PreTrainedTokenizerFast(tokenizer_object=bare, bos_token="<s>", eos_token="</s>")
+    fast = learned_words(texts, size=2000, special=more)
     fast.chat_template = template
     return fast
 
@@ -110,4 +104,26 @@ def random_llava(folder: Path, words: PreTrainedTokenizerFast | None = None) -> 
         torch.manual_seed(0)
         config = LlavaConfig(vision_config=vision, text_config=text, image_token_id=image)
         LlavaForConditionalGeneration(config).save_pretrained(folder)
+    return folder
+
+
+def random_bert(folder: Path, words: Sequence[str]) -> Path:
+    """Write a BERT of some thousand weights that knows these words and a full stop, without dropout."""
+    vocabulary = ["[PAD]", "[UNK]", "[CLS]", "[SEP]", "[MASK]", ".", *words]
+    (folder / "vocab.txt").write_text("\n".join(vocabulary))
+    BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=32).save_pretrained(folder)
+    with torch.random.fork_rng():
+        torch.manual_seed(0)
+        config = BertConfig(
+            vocab_size=len(vocabulary),
+            hidden_size=16,
+            num_hidden_layers=1,
+            num_attention_heads=2,
+            intermediate_size=32,
+            max_position_embeddings=32,
+            initializer_range=0.3,
+            hidden_dropout_prob=0.0,
+            attention_probs_dropout_prob=0.0,
+        )
+        BertForMaskedLM(config).save_pretrained(folder)
     return folder

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 import torch
-from transformers import BertConfig, BertForMaskedLM, BertTokenizerFast
 
 from core.errors import ConfigError
 from evaluation.people.finetune import FinetunedEncoder, Recipe
 from evaluation.people.learners import Step
+from tests.tiny import random_bert
 
 WORDS = ["tea", "soup", "rest", "read", "run", "sing"]
 FAST = Recipe(epochs=dict.fromkeys(("intentions", "tasks", "steps"), 20), learning_rate=1e-2, tokens=32)
@@ -16,26 +16,7 @@ FAST = Recipe(epochs=dict.fromkeys(("intentions", "tasks", "steps"), 20), learni
 
 @pytest.fixture(scope="module")
 def tiny_bert(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """A random BERT of a few thousand weights, as Hugging Face stores it."""
-    folder = tmp_path_factory.mktemp("tiny-bert")
-    vocabulary = ["[PAD]", "[UNK]", "[CLS]", "[SEP]", "[MASK]", ".", *WORDS]
-    (folder / "vocab.txt").write_text("\n".join(vocabulary))
-    BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=32).save_pretrained(folder)
-    with torch.random.fork_rng():
-        torch.manual_seed(0)
-        config = BertConfig(
-            vocab_size=len(vocabulary),
-            hidden_size=16,
-            num_hidden_layers=1,
-            num_attention_heads=2,
-            intermediate_size=32,
-            max_position_embeddings=32,
-            initializer_range=0.3,
-            hidden_dropout_prob=0.0,
-            attention_probs_dropout_prob=0.0,
-        )
-        BertForMaskedLM(config).save_pretrained(folder)
-    return str(folder)
+    return str(random_bert(tmp_path_factory.mktemp("tiny-bert"), WORDS))
 
 
 def test_a_finetuned_encoder_learns_who_is_who_whatever_the_labels(tiny_bert: str) -> None:
