@@ -111,7 +111,7 @@ def random_bert(folder: Path, words: Sequence[str]) -> Path:
     """Write a BERT of some thousand weights that knows these words and a full stop, without dropout."""
     vocabulary = ["[PAD]", "[UNK]", "[CLS]", "[SEP]", "[MASK]", ".", *words]
     (folder / "vocab.txt").write_text("\n".join(vocabulary))
-    BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=32).save_pretrained(folder)
+    BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=512).save_pretrained(folder)
     with torch.random.fork_rng():
         torch.manual_seed(0)
         config = BertConfig(
@@ -120,7 +120,6 @@ def random_bert(folder: Path, words: Sequence[str]) -> Path:
             num_hidden_layers=1,
             num_attention_heads=2,
             intermediate_size=32,
-            max_position_embeddings=32,
             initializer_range=0.3,
             hidden_dropout_prob=0.0,
             attention_probs_dropout_prob=0.0,

@@ -16,6 +16,7 @@ from evaluation.people.studies import make_study
 from tests.coopera.conftest import Said
 from tests.coopera.fake_run import fake_run
 from tests.evaluation.people.lived import day, lives
+from tests.tiny import random_bert
 
 Coopera = Callable[..., Said]
 
@@ -137,6 +138,35 @@ def test_an_encoder_that_is_none_is_refused(coopera: Coopera, runs: list[Path], 
         said = coopera("analyse", "humans", *runs, "--encoder", tmp_path / "nothing", *more)
         assert said.code == 2
         assert said.err.startswith("coopera: --encoder: ")
+
+
+@pytest.fixture(scope="module")
+def bert(runs: list[Path]) -> Path:
+    """A tiny BERT, as Hugging Face stores it, that knows the words of the runs' intentions."""
+    texts = [text for day in read_lives(runs).variants["full"].days for text in day.intentions]
+    folder = runs[0].parent / "bert"
+    folder.mkdir()
+    return random_bert(folder, sorted({word.lower() for text in texts for word in text.split()}))
+
+
+def test_any_hugging_face_encoder_can_be_looked_through(coopera: Coopera, runs: list[Path], bert: Path) -> None:
+    said = coopera("analyse", "humans", *runs, "--encoder", bert, "--out", "found", "--json")
+    assert said.code == 0, said.err
+    assert said.json["encoder"] == str(bert)
+    assert f"--encoder {bert}" in said.json["command"]
+    figures = {(one["check"], one["measure"]): one for one in said.json["figures"]}
+    assert figures["distinct", "intentions"]["n"] == 12
+    assert figures["temporal", "accuracy"]["value"] is not None
+
+
+@pytest.mark.slow
+def test_any_hugging_face_encoder_can_be_finetuned(coopera: Coopera, runs: list[Path], bert: Path) -> None:
+    said = coopera("analyse", "humans", *runs, "--encoder", bert, "--finetune", "--out", "found", "--json")
+    assert said.code == 0, said.err
+    assert said.json["encoder"] == f"{bert}, finetuned"
+    assert said.json["command"].endswith("--finetune --out found")
+    figures = {(one["check"], one["measure"]): one for one in said.json["figures"]}
+    assert 0 <= figures["distinct", "tasks"]["low"] <= figures["distinct", "tasks"]["high"] <= 1
 
 
 @pytest.mark.parametrize(

@@ -120,6 +120,13 @@ def test_without_profile_extension_the_person_lives_by_the_notes(make_services: 
     live(person(make_services, ask=ask, person="no_extension"))
     said = {v["profile"] for _, _, v in ask.asked if "profile" in v}
     assert said == {MARA.notes}
+    full = ScriptedAsk(type2_answers())
+    live(person(make_services, ask=full))
+    assert [_but_profile(*one) for one in full.asked] == [_but_profile(*one) for one in ask.asked]
+
+
+def _but_profile(prompt: str, at: Any, variables: dict[str, Any]) -> Any:
+    return prompt, at, {name: value for name, value in variables.items() if name != "profile"}
 
 
 def test_a_task_that_no_reflection_touched_keeps_its_reasons(make_services: MakeServices) -> None:
