@@ -137,7 +137,7 @@ def render(run: RunDir, album: Album) -> str:
             calibration=_calibration(records, evenings),
             mixed_up={
                 "activity": learned.by_activity(records, evenings),
-                "hour of day": learned.by_hour(records, evenings),
+                "hour": learned.by_hour(records, evenings),
             },
             album=album,
             offline=_offline_roles(run.info.get("models", {})),
