@@ -3,10 +3,10 @@
     python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,shuffled --out runs/learning
     python -m benchmarks.learning --humans spc-valid-0001,spc-valid-0002 --seeds 1 --methods ours:lora,frequency_prior
 
-Each seed lives with two of the people (seed 0 with the first two, and so on in turn), five days each, in one home,
-without pictures: first alone, and then these days again with each method's robot. Runs that are finished already are
-read, not done again. Prints a Markdown table: the mean predicate and judge F1 of each day over person-episodes, and
-last day minus first day, each with a 95 % bootstrap interval.
+Each seed lives with some of the people (by default two; seed 0 with the first two, and so on in turn), five days each,
+in one home, without pictures: first alone, and then these days again with each method's robot. Runs that are finished
+already are read, not done again. Prints a Markdown table: the mean predicate and judge F1 of each day over
+person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours, but the yes and no of each day reach
@@ -36,8 +36,6 @@ from evaluation import METHODS, register
 from evaluation.statistics import bootstrap_mean
 from memory.embeddings import bundled
 from models.classifiers import Kind, make_classifier
-
-PEOPLE_PER_SEED = 2
 
 
 class Shuffled:
@@ -84,6 +82,7 @@ def main() -> None:
     parser.add_argument("--methods", default="ours,random", help="comma-separated, each METHOD or METHOD:CLASSIFIER")
     parser.add_argument("--classifier-config", type=Path, help="recipe of lora-instruct")
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
+    parser.add_argument("--people-per-seed", type=int, default=2)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("runs/learning"))
     args = parser.parse_args()
@@ -114,11 +113,11 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         found: dict[str, Any] = json.loads((folder / "summary.json").read_text())
         return found
     people = args.humans.split(",") if args.humans else list(shipped_ids())
-    first = job.seed * PEOPLE_PER_SEED % len(people)
+    first = job.seed * args.people_per_seed % len(people)
     register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
     alone = job[:2] == ALONE
     config = Config(
-        humans=people[first : first + PEOPLE_PER_SEED],
+        humans=people[first : first + args.people_per_seed],
         collab=job.collab,
         days=args.days,
         method=job.method,
