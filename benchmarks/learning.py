@@ -5,8 +5,8 @@
 
 Each seed lives with some of the people (by default two; seed 0 with the first two, and so on in turn), five days each,
 in one home, without pictures: first alone, and then these days again with each method's robot. Runs that are finished
-already are read, not done again. Prints a Markdown table: the mean predicate and judge F1 of each day over
-person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
+already are read, not done again, and stopped ones go on. Prints a Markdown table: the mean predicate and judge F1 of
+each day over person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours, but the yes and no of each day reach
@@ -25,7 +25,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from coopera import Config, run_study
+from coopera import Config, resume_study, run_study
 from coopera.config import default_data_dir
 from coopera.humans import shipped_ids
 from core.hour import Example
@@ -112,9 +112,11 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
     if (folder / "summary.json").is_file():
         found: dict[str, Any] = json.loads((folder / "summary.json").read_text())
         return found
+    register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
+    if (folder / "config.yaml").is_file():
+        return resume_study(folder, report=False)
     people = args.humans.split(",") if args.humans else list(shipped_ids())
     first = job.seed * args.people_per_seed % len(people)
-    register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
     alone = job[:2] == ALONE
     config = Config(
         humans=people[first : first + args.people_per_seed],
@@ -128,7 +130,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         lived=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
         out=folder,
     )
-    return run_study(config)
+    return run_study(config, report=False)
 
 
 def _folder(out: Path, job: Job) -> Path:
