@@ -26,6 +26,7 @@ from graphs.own_robot import OwnRobot
 from graphs.person import PERSON_MODELS
 from graphs.services import nothing_was_told
 from memory import MemoryStream, Search, bundled
+from memory.ram import RamClient
 from models.budget import Meter
 from models.classifiers import Inputs, make_classifier
 from models.classifiers.instruction import Instruct
@@ -131,7 +132,7 @@ def open_services(
             method=method,
             people={persona.id: persona for persona in people.values()},
             home=_Homes(stack, config, embeddings),
-            stream=_Streams(stack, run.root / "memory", embeddings),
+            stream=_Streams(stack, run.root / "memory" if run.resumable else RamClient(), embeddings),
             embeddings=embeddings,
             learner=Learner(
                 {kind: _classifier(config, method, kind, embeddings, prompts.instruct) for kind in KINDS},
@@ -205,13 +206,13 @@ class _Homes:
 class _Streams:
     """Opens a memory stream at its first use and keeps it open."""
 
-    def __init__(self, stack: ExitStack, folder: Path, embeddings: Embeddings) -> None:
-        self._stack, self._folder, self._embeddings = stack, folder, embeddings
+    def __init__(self, stack: ExitStack, store: Path | RamClient, embeddings: Embeddings) -> None:
+        self._stack, self._store, self._embeddings = stack, store, embeddings
         self._open: dict[str, MemoryStream] = {}
 
     def __call__(self, name: str) -> MemoryStream:
         if name not in self._open:
-            self._open[name] = self._stack.enter_context(MemoryStream.open(self._folder, name, self._embeddings))
+            self._open[name] = self._stack.enter_context(MemoryStream.open(self._store, name, self._embeddings))
         return self._open[name]
 
 

@@ -129,21 +129,18 @@ def carry_out(
 
 
 def do_run(job: RunJob) -> None:
-    """Start a run, or go on with it, and leave its rows beside it; what is done already stays.
+    """Do a run, anew where it was stopped, and leave its rows beside it; what is done already stays.
 
     Raises:
         CooperaError: If the run fails.
     """
-    from coopera.study import resume_study, run_study  # noqa: PLC0415 - heavy
+    from coopera.study import run_study  # noqa: PLC0415 - heavy
 
     if _is_done(job):
         return
-    if (job.folder / "run.json").is_file():
-        if RunDir.open(job.folder).state != "finished":
-            resume_study(job.folder, report=False)
-    else:
-        shutil.rmtree(job.folder, ignore_errors=True)  # what a start left that was killed
-        run_study(job.config, report=False)
+    if not (job.folder / "run.json").is_file() or RunDir.open(job.folder).state != "finished":
+        shutil.rmtree(job.folder, ignore_errors=True)  # what was left by a start that was stopped
+        run_study(job.config, resumable=False)
     run = RunDir.open(job.folder)
     hours = run.hours()
     rows = rows_of(hours, run.evenings(), _activity(job.config), job.labels)

@@ -72,6 +72,7 @@ class RunDir:
         models: Mapping[str, str],
         knowledge: Mapping[str, str] | None = None,
         stop: Stop | None = None,
+        resumable: bool = True,
     ) -> Self:
         """Start a new run in `config.out`; nothing stays behind if that fails.
 
@@ -82,6 +83,7 @@ class RunDir:
             models: Identity of the model behind each role.
             knowledge: SHA of each household file of one's own, by the model that has it.
             stop: What else stops this run, besides the signals that it listens to itself.
+            resumable: Whether it keeps its memory and checkpoints on file.
 
         Raises:
             ConfigError: If the folder cannot be written, is not empty or holds another run.
@@ -89,7 +91,7 @@ class RunDir:
         if config.out is None:
             raise ConfigError("out: a folder for the run must be given.")
         root, made = config.out, claim.make_folder(config.out)
-        info = _info(prompts, models) | {"knowledge": dict(knowledge or {})}
+        info = _info(prompts, models) | {"knowledge": dict(knowledge or {}), "resumable": resumable}
         lock = None
         try:
             lock = claim.lock(root)
@@ -137,6 +139,8 @@ class RunDir:
         run = cls.open(path)
         if run.state == "finished":
             raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
+        if not run.resumable:
+            raise RunError(f"{path}: this run kept nothing to go on from, as those of a benchmark; start it anew.")
         claim.refuse_second_writer(path, run.info)
         run._lock = claim.lock(path)
         for half in path.rglob(".*.tmp"):  # what a killed writer left
@@ -160,6 +164,11 @@ class RunDir:
     def state(self) -> str:
         """State as run.json has it: running, stopped, failed or finished."""
         return str(self.info["state"])
+
+    @property
+    def resumable(self) -> bool:
+        """Whether its memory and checkpoints are on file; if not, a run that was stopped is done anew."""
+        return bool(self.info.get("resumable", True))
 
     def __enter__(self) -> Self:
         """Return the run; from now on Ctrl-C and `kill` stop it at its next step."""

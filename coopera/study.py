@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any, cast
 
 from langchain_core.runnables import RunnableConfig
+from langgraph.checkpoint.base import BaseCheckpointSaver
+from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 from langgraph.graph.state import CompiledStateGraph
@@ -59,7 +61,7 @@ def run_study(
     on_event: Callable[[Event], None] | None = None,
     ask_person: Interview = nobody,
     stop: Stop | None = None,
-    report: bool = True,
+    resumable: bool = True,
 ) -> dict[str, Any]:
     """Run a study from its first hour to its report.
 
@@ -69,7 +71,8 @@ def run_study(
         ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
-        report: Whether report.html is written at the end.
+        resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it
+            takes half the time, and is done anew where it does not reach its end.
 
     Returns:
         The content of summary.json.
@@ -78,8 +81,8 @@ def run_study(
         ConfigError: If the configuration is wrong; nothing is then written.
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
-    with new_run(config, stop) as (run, services):
-        return _carry_on(run, services, on_event, ask_person, report)
+    with new_run(config, stop, resumable) as (run, services):
+        return _carry_on(run, services, on_event, ask_person)
 
 
 def resume_study(
@@ -88,7 +91,6 @@ def resume_study(
     on_event: Callable[[Event], None] | None = None,
     ask_person: Interview = nobody,
     budget: Budget | None = None,
-    report: bool = True,
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
@@ -97,7 +99,6 @@ def resume_study(
         on_event: Told of each node that ends.
         ask_person: As for `run_study`.
         budget: What the run may spend in all, if not what it was begun with.
-        report: As for `run_study`.
 
     Raises:
         RunError: If the run is finished or still being written, or its prompts or household file have changed since.
@@ -111,11 +112,11 @@ def resume_study(
             raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
         told = open_told(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, told) as services:
-            return _carry_on(run, services, on_event, ask_person, report)
+            return _carry_on(run, services, on_event, ask_person)
 
 
 @contextmanager
-def new_run(config: Config, stop: Stop | None = None) -> Iterator[tuple[RunDir, Services]]:
+def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) -> Iterator[tuple[RunDir, Services]]:
     """Start a run directory and open its services, for scripts that drive a graph themselves.
 
     Raises:
@@ -134,6 +135,7 @@ def new_run(config: Config, stop: Stop | None = None) -> Iterator[tuple[RunDir, 
             models=specs,
             knowledge=knowledge_of(specs.values()),
             stop=stop,
+            resumable=resumable,
         )
         run = stack.enter_context(made)
         try:
@@ -180,11 +182,8 @@ def _carry_on(
     services: Services,
     on_event: Callable[[Event], None] | None,
     ask_person: Interview,
-    report: bool,
 ) -> dict[str, Any]:
-    with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
-        connection.execute("PRAGMA synchronous=NORMAL")  # what a power cut loses of it is done again
-        saver = SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
+    with _checkpoints(run) as saver:
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(_THREAD).values else {"schedule": plan_days(run.config)}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
@@ -194,9 +193,20 @@ def _carry_on(
             given = question.answered(_ask(run, question.question, ask_person))
             question = _stream(graph, services, given, scored, on_event)
     summary = run.finish()
-    if report:
+    if run.resumable:
         write_report(run)
     return summary
+
+
+@contextmanager
+def _checkpoints(run: RunDir) -> Iterator[BaseCheckpointSaver[Any]]:
+    serde = JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES))
+    if not run.resumable:
+        yield InMemorySaver(serde=serde)
+        return
+    with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
+        connection.execute("PRAGMA synchronous=NORMAL")  # what a power cut loses of it is done again
+        yield SqliteSaver(connection, serde=serde)
 
 
 def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:

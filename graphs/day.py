@@ -145,10 +145,15 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     hours = services.recorder.read_day(plan.day)
     history = services.memories("history", plan.episode, plan.person)
     history.forget_from(plan.episode_day * 24)
-    for hour in hours:
-        if hour.human is not None:
-            texts = [task.act.describe() for task in hour.human.tasks]
-            history.add(hour.human.intention.text, texts, plan.episode_day * 24 + hour.hour)
+    history.extend(
+        (
+            plan.episode_day * 24 + hour.hour,
+            hour.human.intention.text,
+            [task.act.describe() for task in hour.human.tasks],
+        )
+        for hour in hours
+        if hour.human is not None
+    )
     if not services.method.learns:
         return {"measured": {}}
     picture = state["pictures"].get(plan.person, Picture())

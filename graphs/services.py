@@ -6,7 +6,7 @@ its agent must not know: `RobotContext` holds neither the persona nor the person
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Protocol
@@ -26,7 +26,7 @@ from graphs.method import Method
 from graphs.own_robot import OwnRobot, Robot
 from graphs.person import FULL, PersonModel
 from graphs.real_person import Interview
-from memory import MemoryStream, Search
+from memory import MemoryStream, Record, Search
 
 
 class Memories(NamedTuple):
@@ -42,9 +42,13 @@ class Memories(NamedTuple):
 
     def add(self, intention: str, tasks: Sequence[str], now: int) -> None:
         """Append one hour."""
-        self.intentions.add([intention], now)
-        if tasks:
-            self.tasks.add(list(tasks), now)
+        self.extend([(now, intention, tasks)])
+
+    def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
+        """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""
+        told = list(hours)
+        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in told])
+        self.tasks.extend([Record(task, now, {}) for now, _, tasks in told for task in tasks])
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from chromadb.api import ClientAPI
     from chromadb.api.models.Collection import Collection
 
+    from memory.ram import RamClient
+
 _SPACE = "ip"
 _INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
 _FORMAT = 1
@@ -55,7 +57,7 @@ class Store:
         self._shared: dict[str, tuple[int, Any]] = {}
 
     @classmethod
-    def open(cls, where: Path | str | ClientAPI, *, create: bool = True) -> Store:
+    def open(cls, where: Path | str | ClientAPI | RamClient, *, create: bool = True) -> Store:
         """Open a folder, a server by URL, or a Chroma client of the caller's.
 
         Each is opened once per process, however many streams use it.

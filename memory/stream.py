@@ -28,6 +28,8 @@ from memory.store import Store
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
 
+    from memory.ram import RamClient
+
 DECAY = 0.95  # PAPER §3.2: per hour
 MAX_TEXT = 100_000
 """Characters per record or query."""
@@ -76,7 +78,7 @@ class MemoryStream:
     @classmethod
     def open(
         cls,
-        path_or_client: Path | str | ClientAPI,
+        path_or_client: Path | str | ClientAPI | RamClient,
         name: str,
         embeddings: Embeddings,
         decay: float = DECAY,
@@ -91,7 +93,7 @@ class MemoryStream:
 
         Args:
             path_or_client: Folder of the store; or URL of a Chroma server, such as "http://localhost:8000"; or a
-                Chroma client.
+                Chroma client, or a `memory.ram.RamClient`.
             name: The stream's name, free text of up to 200 characters, such as "human/mara/intentions".
             embeddings: What the records' and queries' vectors come from; always the same for one stream.
             decay: Factor per hour, in (0, 1]. It is not stored: a stream can be read with any.

@@ -13,6 +13,7 @@ from chromadb.config import Settings
 
 from core.errors import ConfigError, MemoryStoreError
 from memory import MemoryStream, bundled
+from memory.ram import RamClient
 from tests.memory.fakes import Letters
 
 
@@ -20,9 +21,10 @@ def texts_of(found: Sequence[tuple[str, ...]] | Sequence[object]) -> list[str]:
     return [record.text for record in found]  # type: ignore[attr-defined]
 
 
-@pytest.fixture
-def stream(tmp_path: Path) -> Iterator[MemoryStream]:
-    with MemoryStream.open(tmp_path / "store", "human/mara/intentions", Letters()) as opened:
+@pytest.fixture(params=["folder", "ram"])
+def stream(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[MemoryStream]:
+    where = tmp_path / "store" if request.param == "folder" else RamClient()
+    with MemoryStream.open(where, "human/mara/intentions", Letters()) as opened:
         yield opened
 
 
