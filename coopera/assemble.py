@@ -11,6 +11,7 @@ from typing import Any
 
 from langchain_core.embeddings import Embeddings
 
+from coopera.catalogues import tuned_model
 from coopera.config import Config
 from coopera.lived import open_lived
 from coopera.real_people import Told
@@ -22,7 +23,7 @@ from core.protocols import Ask, Classifier, Home, Reply, Role
 from evaluation import Measure, find_method
 from graphs import Method, Services
 from graphs.learning import KINDS, Kind, Learner
-from graphs.own_robot import OwnRobot
+from graphs.own_robot import MakeRobot, OwnRobot
 from graphs.person import PERSON_MODELS
 from graphs.services import nothing_was_told
 from memory import MemoryStream, Search, bundled
@@ -81,7 +82,8 @@ def open_ask(
     """
     return open_door(
         prompts=prompts or PromptLibrary(config.prompts),
-        specs=model_specs(config),
+        # a model that is finetuned is held by the robot itself, and twice would be once too often
+        specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
         seed=config.seed,
         embeddings=embeddings or open_embeddings(config),
         base_url=config.base_url,
@@ -142,7 +144,7 @@ def open_services(
             ),
             told_who=config.who == "known",
             hourly_traits=config.traits == "hourly",
-            own=OwnRobot(method.own, run, config.seed) if method.own else None,
+            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
@@ -155,6 +157,13 @@ def open_services(
             in_the_loop=config.human == "me",
             graded=config.feedback == "graded",
         )
+
+
+def _own_robot(config: Config, method: Method) -> MakeRobot | None:
+    """What takes the place of our graph, if anything does."""
+    if method.tunes and (model := tuned_model(config)):
+        return partial(method.tunes, model, config.classifier_config)
+    return method.own
 
 
 def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:

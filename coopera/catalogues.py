@@ -86,14 +86,23 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     )
 
 
-def _refuse_online(config: Config) -> None:
-    """Refuse a method that is defined for the offline model alone with another one."""
+def tuned_model(config: Config) -> str | None:
+    """The Hugging Face model that the method finetunes itself, if it does."""
     from evaluation import find_method  # noqa: PLC0415 - slow to import
 
-    if find_method(config.method).offline_only and not config.models.robot.startswith("offline"):
+    provider, _, name = config.models.robot.partition(":")
+    return name if provider == "huggingface" and find_method(config.method).tunes else None
+
+
+def _refuse_online(config: Config) -> None:
+    """Refuse a method that finetunes the robot's model where that model is on a server."""
+    from evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    here = config.models.robot.startswith(("offline", "huggingface:"))
+    if find_method(config.method).tunes and not here:
         raise ConfigError(
-            f"method: {config.method} is defined for the offline robot model alone so far, and the robot model here is "
-            f"{config.models.robot}; see evaluation/baselines.py."
+            f"method: {config.method} finetunes the robot's model in this process, which can be offline or "
+            f"huggingface:REPO-OR-FOLDER, and the robot model here is {config.models.robot}."
         )
 
 
@@ -160,7 +169,7 @@ def _refuse_what_comes_later(config: Config) -> None:
     if config.pictures == "video":
         need_video()
     if config.classifier_config is not None:
-        if config.classifier != "lora-instruct":
+        if config.classifier != "lora-instruct" and not tuned_model(config):
             raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")
         read_recipe(config.classifier_config)
     if config.prompts is not None and not config.prompts.is_dir():

@@ -48,7 +48,7 @@ class Habit:
 
     def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
         """Remember the day."""
-        self._past += _occasions(told)
+        self._past += occasions_of(told)
         return {"occasions": len(self._past)}
 
 
@@ -58,8 +58,8 @@ class Finetuned:
     PAPER §4.3 finetunes a language model. The offline model has no weights to finetune; what stands for it here is the
     same map from input to output, trained on the same evenings: multinomial logistic regression from the words of the
     percept and the hour to one of the intentions that were told, which is then carried out as on its most similar
-    occasion. It can only repeat what it was told, and it prefers what it was told often. With another robot model a run
-    of this method is refused (`coopera.catalogues`), since that model would not be the one that is finetuned.
+    occasion. It can only repeat what it was told, and it prefers what it was told often. With a robot model of Hugging
+    Face that model itself is finetuned (`evaluation.finetuned`).
     """
 
     def __init__(self) -> None:
@@ -71,7 +71,7 @@ class Finetuned:
         """Propose what was learned for such a sight at such an hour; before the first evening, nothing."""
         if not self._past:
             return Proposal(fallbacks=["nothing has been told yet"])
-        text = _shown(ctx.person, given["clock"], _sight(given["observation"]))
+        text = _shown(ctx.person, given["clock"], sight_of(given["observation"]))
         if self._model is None:  # one intention is all that was ever told
             return _propose(self._past[-1], 1.0)
         chances = dict(zip(self._model.classes_, self._model.predict_proba([text])[0], strict=True))
@@ -89,7 +89,7 @@ class Finetuned:
         from sklearn.linear_model import LogisticRegression  # noqa: PLC0415
         from sklearn.pipeline import make_pipeline  # noqa: PLC0415
 
-        self._past += _occasions(told)
+        self._past += occasions_of(told)
         labels = [one.intention for one in self._past]
         if len(set(labels)) > 1:
             texts = [_shown(one.person, one.clock, one.sight) for one in self._past]
@@ -101,12 +101,13 @@ class Finetuned:
         return {"occasions": len(self._past), "intentions": len(set(labels))}
 
 
-def _occasions(told: Told) -> list[Occasion]:
+def occasions_of(told: Told) -> list[Occasion]:
+    """The hours that the person told of in an evening."""
     return [
         Occasion(
             person=told.person,
             clock=Clock(day=told.day, hour=hour.hour),
-            sight=_sight(hour.robot.observation),
+            sight=sight_of(hour.robot.observation),
             intention=hour.intention,
             acts=list(hour.tasks[1:]),
         )
@@ -114,7 +115,8 @@ def _occasions(told: Told) -> list[Occasion]:
     ]
 
 
-def _sight(seen: Observation) -> str:
+def sight_of(seen: Observation) -> str:
+    """What was seen, in words."""
     percept = seen.percept.caption() if seen.percept else ""
     return f"{seen.first_task or ''} {percept}".strip()
 
@@ -129,11 +131,11 @@ def _propose(chosen: Occasion, probability: float) -> Proposal:
     intention = IntentionCandidate(text=chosen.intention, probability=probability, accepted=True)
     tasks = [
         TaskCandidate(intention=chosen.intention, thought="as before", act=act, probability=probability, accepted=True)
-        for act in map(_offer, chosen.acts)
+        for act in map(offer, chosen.acts)
     ]
     return Proposal(intentions=[intention], tasks=tasks)
 
 
-def _offer(act: Act) -> Act:
+def offer(act: Act) -> Act:
     """What a robot does for a person's act: the same, or bringing what it takes."""
     return HandOver(object=act.in_hand) if isinstance(act, FreeMotion) else act

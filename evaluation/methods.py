@@ -11,6 +11,7 @@ from importlib.metadata import EntryPoint, entry_points
 
 from core.errors import ConfigError
 from evaluation.baselines import Finetuned, Habit
+from evaluation.finetuned import FinetunedModel
 from graphs.method import Method
 
 GROUP = "coopera.methods"
@@ -24,8 +25,8 @@ METHODS: dict[str, Method] = {
         # PAPER §4.3, baselines: one intention and its tasks from the history in the prompt, nothing validated
         replace(OURS, name="direct_prompting", guesses=1, verdicts="accept", learns=False),
         Method(
-            name="direct_finetuning", traits=False, own=Finetuned, offline_only=True
-        ),  # see evaluation.baselines for what it learns
+            name="direct_finetuning", traits=False, own=Finetuned, tunes=FinetunedModel
+        ),  # see evaluation.baselines and evaluation.finetuned for what it learns
         replace(OURS, name="oracle", intentions="told", verdicts="accept", learns=False),
         replace(OURS, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
         replace(OURS, name="intention_agnostic", intentions="skipped"),

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from core.protocols import Classifier
-    from graphs.own_robot import MakeRobot
+    from graphs.own_robot import MakeRobot, Robot
 
 Kind: TypeAlias = Literal["intention", "task"]
 """What a classifier judges."""
@@ -32,11 +34,12 @@ class Method:
             nothing.
         learns: Whether the evening trains the classifiers, or one's own robot.
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
-        offline_only: Whether the method means something with the offline robot model alone.
         other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
         own: The class of a robot of one's own, which then takes the place of our graph (`graphs.own_robot`). Of the
             other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
+        tunes: Makes the robot that takes the place of `own` where the robot's model is one of Hugging Face: it
+            finetunes that model, given by its name, by a recipe (None: the shipped one). Models elsewhere are refused.
     """
 
     name: str
@@ -48,11 +51,11 @@ class Method:
     guesses: int | None = None
     verdicts: Literal["classifiers", "accept", "reject"] = "classifiers"
     learns: bool = True
-    offline_only: bool = False
     other_backbone: bool = False
     robot: bool = True
     judge: Callable[[Kind], Classifier] | None = None
     own: MakeRobot | None = None
+    tunes: Callable[[str, Path | None], Robot] | None = None
 
 
 class Numbers:

@@ -238,13 +238,29 @@ def _open(path: str, device: str, dtype: str, batch: int | None) -> HuggingFaceC
     except (OSError, ValueError, KeyError, ImportError, RuntimeError) as err:
         reason = " ".join(str(err).split())
         raise ConfigError(f"the model huggingface:{path} cannot be loaded: {reason}") from err
+    batch = batch or (_GPU_BATCH if place.type == "cuda" else 1)
+    return _chat(path, model, front, sees=sees, weights=_weights(path, config), batch=batch)
+
+
+def wrap(path: str, model: Any, tokenizer: Any) -> HuggingFaceChat:
+    """Make a chat model of a text model that is loaded already, such as one with adapters.
+
+    Raises:
+        ConfigError: If it is no chat model.
+    """
+    if not tokenizer.chat_template:
+        raise ConfigError(f"huggingface:{path} is no chat model: it has no chat template")
+    return _chat(path, model, tokenizer, sees=False, weights="", batch=1)
+
+
+def _chat(path: str, model: Any, front: Any, *, sees: bool, weights: str, batch: int) -> HuggingFaceChat:
     tokenizer = getattr(front, "tokenizer", front)
     tokenizer.padding_side = "left"
     ends = _ends(path, model, tokenizer)
     if tokenizer.pad_token_id is None:
         tokenizer.pad_token = tokenizer.convert_ids_to_tokens(ends[0])
-    loaded = _Loaded(path, model, front, sees, ends, _grammars(model, tokenizer, ends), _weights(path, config))
-    return HuggingFaceChat(loaded, batch or (_GPU_BATCH if place.type == "cuda" else 1))
+    loaded = _Loaded(path, model, front, sees, ends, _grammars(model, tokenizer, ends), weights)
+    return HuggingFaceChat(loaded, batch)
 
 
 def _place(path: str, device: str) -> torch.device:
