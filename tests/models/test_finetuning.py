@@ -29,7 +29,7 @@ def recipe(base: Path) -> Path:
     changes = {
         "learning_rate": 0.03,
         "accumulation": 4,
-        "epochs": 40,
+        "epochs": 80,
         "later_epochs": 5,
         "dropout": 0.0,
         "modules": MODULES,
