@@ -7,7 +7,7 @@ them.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,28 @@ from core.hour import HourRecord
 from core.household import Outcome
 
 LAYOUT = "v3.0"
-"""Of LeRobot's data sets."""
+"""Of LeRobot's data sets: its file names, and the columns and fields that its reader looks for."""
+_HOURS = {
+    **dict.fromkeys(("day", "episode", "episode_day", "hour"), "int64"),
+    **dict.fromkeys(("person", "scene", "status", "intention", "seen"), "string"),
+    **dict.fromkeys(("tasks", "acts", "frames", "robot_intentions", "robot_tasks"), "list of string"),
+    "robot_probability": "list of float64",
+    **dict.fromkeys(("robot_accepted", "robot_correct"), "list of bool_"),
+    **dict.fromkeys(("predicate_f1", "judge_f1"), "float64"),
+}
+_FRAMES = {
+    **dict.fromkeys(("index", "episode_index", "frame_index", "task_index", "observation.hour"), "int64"),
+    **dict.fromkeys(("timestamp", "action.metres"), "float32"),
+    **dict.fromkeys(("observation.intention", "observation.agent", "action"), "string"),
+    "next.success": "bool_",
+}
+_EPISODES = {
+    **dict.fromkeys(("episode_index", "length", "dataset_from_index", "dataset_to_index", "day"), "int64"),
+    **dict.fromkeys(("data/chunk_index", "data/file_index"), "int64"),
+    **dict.fromkeys(("person", "scene"), "string"),
+    "tasks": "list of string",
+}
+"""Columns by the name of their Arrow type: the same whatever a run holds, so that data sets can be put together."""
 
 
 def export(run: RunDir, out: Path) -> dict[str, Any]:
@@ -44,7 +65,7 @@ def export(run: RunDir, out: Path) -> dict[str, Any]:
 
 def _write_hours(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> int:
     rows = [_hour_row(hour) for hour in hours]
-    _table(folder / "data" / "train-00000-of-00001.parquet", rows)
+    _table(folder / "data" / "train-00000-of-00001.parquet", rows, _HOURS)
     write_atomic(folder / "README.md", _card(run, hours))
     return len(rows)
 
@@ -91,7 +112,7 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
                         "index": len(frames),
                         "episode_index": number,
                         "frame_index": len(frames) - begin,
-                        "timestamp": float(hour.hour * 3600 + len(frames) - begin),
+                        "timestamp": float(len(frames) - begin),
                         "task_index": tasks.setdefault(text, len(tasks)),
                         "observation.hour": hour.hour,
                         "observation.intention": intention,
@@ -107,6 +128,8 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
                 "episode_index": number,
                 "tasks": list(dict.fromkeys(said)),
                 "length": len(frames) - begin,
+                "data/chunk_index": 0,
+                "data/file_index": 0,
                 "dataset_from_index": begin,
                 "dataset_to_index": len(frames),
                 "person": first.person,
@@ -114,10 +137,11 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
                 "day": day,
             }
         )
-    _table(folder / "data" / "chunk-000" / "file-000.parquet", frames)
-    _table(folder / "meta" / "episodes" / "chunk-000" / "file-000.parquet", episodes)
-    _table(folder / "meta" / "tasks.parquet", [{"task_index": n, "task": text} for text, n in tasks.items()])
-    write_atomic(folder / "meta" / "info.json", canonical_json(_info(frames, episodes, tasks)))
+    _table(folder / "data" / "chunk-000" / "file-000.parquet", frames, _FRAMES)
+    _table(folder / "meta" / "episodes" / "chunk-000" / "file-000.parquet", episodes, _EPISODES)
+    rows = [{"task_index": n, "task": text} for text, n in tasks.items()]
+    _table(folder / "meta" / "tasks.parquet", rows, {"task_index": "int64", "task": "string"}, index="task")
+    write_atomic(folder / "meta" / "info.json", canonical_json(_info(run.config.robot, frames, episodes, tasks)))
     return len(frames)
 
 
@@ -128,16 +152,15 @@ def _outcomes(hour: HourRecord) -> Iterable[Outcome]:
     return [*mine[:1], *robot, *mine[1:]]
 
 
-def _info(frames: Sequence[Any], episodes: Sequence[Any], tasks: dict[str, int]) -> dict[str, Any]:
-    kinds = {int: "int64", float: "float32", str: "string", bool: "bool"}
-    features = {
-        name: {"dtype": kinds[type(value)], "shape": [1], "names": None}
-        for name, value in (frames[0] if frames else {}).items()
-    }
+def _info(robot: str, frames: Sequence[Any], episodes: Sequence[Any], tasks: dict[str, int]) -> dict[str, Any]:
+    features = {name: {"dtype": kind.removesuffix("_"), "shape": [1], "names": None} for name, kind in _FRAMES.items()}
     return {
         "codebase_version": LAYOUT,
-        "robot_type": "fetch",
-        "fps": 1,
+        "robot_type": robot,
+        "fps": 1,  # an act has no fixed length: time counts acts
+        "chunks_size": 1000,
+        "data_files_size_in_mb": 100,
+        "video_files_size_in_mb": 200,
         "total_episodes": len(episodes),
         "total_frames": len(frames),
         "total_tasks": len(tasks),
@@ -192,10 +215,27 @@ habits, errors and preferences are a simulation's. Persona texts keep the licenc
 """
 
 
-def _table(path: Path, rows: Sequence[dict[str, Any]]) -> None:
+def _table(path: Path, rows: Sequence[dict[str, Any]], columns: Mapping[str, str], *, index: str | None = None) -> None:
+    """Write rows as Parquet; `index` is the column that pandas takes for the rows' names."""
     pyarrow, parquet = _parquet()
+
+    def kind(name: str) -> Any:
+        inner = name.removeprefix("list of ")
+        made = getattr(pyarrow, inner)()
+        return made if inner == name else pyarrow.list_(made)
+
+    schema = pyarrow.schema([(name, kind(text)) for name, text in columns.items()])
+    if index is not None:
+        about = {"pandas_type": "unicode", "numpy_type": "object", "metadata": None}
+        named = {
+            "index_columns": [index],
+            "column_indexes": [],
+            "columns": [{"name": index, "field_name": index, **about}],
+            "pandas_version": "2.0.0",
+        }
+        schema = schema.with_metadata({"pandas": json.dumps(named)})
     path.parent.mkdir(parents=True, exist_ok=True)
-    parquet.write_table(pyarrow.Table.from_pylist(json.loads(json.dumps(list(rows)))), path)
+    parquet.write_table(pyarrow.Table.from_pylist(list(rows), schema=schema), path)
 
 
 def _parquet() -> tuple[Any, Any]:
