@@ -110,9 +110,9 @@ def test_a_whole_day_goes_well_with_a_tiny_model_though_a_third_of_all_calls_go_
     tmp_path: Path, data_dir: Path
 ) -> None:
     model = random_llava(tmp_path / "model", word_tokenizer(SEEING, "<image>"))
-    with serving("--faults", "0.3", "--hang", "20", "--model", str(model)) as url:
-        patient = CallSettings(**{**QUICK, "timeout": 15.0})
-        run = live(tmp_path / "run", data_dir, url, 13, calls=patient)
+    with serving("--faults", "0.3", "--hang", "30", "--model", str(model)) as url:
+        patient = CallSettings(**{**QUICK, "timeout": 25.0})
+        run = live(tmp_path / "run", data_dir, url, 13, calls=patient, collab=1)
         kinds = done(url)
     assert len(run.hours()) == 13
     assert_every_fault_is_on_record(run, kinds)
