@@ -86,6 +86,7 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
         "fallbacks": fallbacks(hours),
         "identified": _identified(hours),
         "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
+        "agreement": _agreement(hours, told),
     }
 
 
@@ -93,6 +94,18 @@ def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
     """How often the robot fell back, by what it says up to the colon or the first name in quotes."""
     said = [text for hour in hours if hour.robot for text in hour.robot.fallbacks]
     return dict(sorted(Counter(text.split(":")[0].split(' "')[0] for text in said).items()))
+
+
+def _agreement(hours: Iterable[HourRecord], told: Mapping[int, Evening]) -> dict[str, float | None]:
+    """L1 of each measure to the person's own answers, hour by hour; None where no hour has both."""
+    from evaluation.measures import by_person, l1  # noqa: PLC0415 - slow to import
+
+    scored = [(record, record.success) for record in hours if record.success and record.day in told]
+    people = [
+        by_person([item for item in told[record.day].feedback if item.hour == record.hour]).f1 for record, _ in scored
+    ]
+    found = {measure: l1([getattr(success, measure).f1 for _, success in scored], people) for measure in MEASURES}
+    return {measure: None if value is None else round(value, 6) for measure, value in found.items()}
 
 
 def _identified(hours: Iterable[HourRecord]) -> dict[str, int]:

@@ -20,7 +20,7 @@ from coopera.stopping import Stop
 from coopera.study import knowledge_of, resume_study
 from coopera.summary import summarise
 from core.errors import ConfigError, ModelCallError, RunError, StoppedError
-from core.hour import HourRecord, HumanHour
+from core.hour import FeedbackItem, HourRecord, HumanHour
 from prompts import PromptLibrary
 from tests.coopera.fake_run import fake_run
 
@@ -134,6 +134,18 @@ def test_the_summary_adds_up_the_hours_of_a_day(small_run: RunDir) -> None:
     evening = [call for one in small_run.evenings() for call in one.calls]
     assert summary["calls"] == len(calls) + len(evening)
     assert summary["tokens"] == sum(call.tokens_in + call.tokens_out for call in [*calls, *evening])
+
+
+def test_agreement_with_the_person_is_hour_by_hour(small_run: RunDir) -> None:
+    hours = [hour.model_copy(update={"day": 0}) for hour in small_run.hours() if hour.robot and hour.success][:2]
+    answers = [
+        FeedbackItem(hour=hour.hour, kind="task", text=t.act.describe(), accepted=bool(t.accepted), helpful=t.correct)
+        for hour in hours
+        for t in (hour.robot.tasks if hour.robot else [])
+    ]
+    evening = small_run.evenings()[0].model_copy(update={"day": 0, "feedback": answers})
+    assert summarise(small_run.config, hours, [evening])["agreement"]["predicate"] == 0
+    assert summarise(small_run.config, hours)["agreement"] == {"predicate": None, "judge": None}
 
 
 @pytest.mark.parametrize(
