@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -104,8 +103,7 @@ class FinetunedChat:
             CooperaError: If the folder cannot be written.
         """
         if self._learned is not None:
-            config = json.dumps(self._base().config, indent=1, sort_keys=True, default=_plain) + "\n"
-            replace_bytes(folder / CONFIG, config.encode())
+            replace_bytes(folder / CONFIG, self._base().config_file())
             replace_bytes(folder / WEIGHTS, save_tensors(self._learned))
         write_manifest(folder, {**self._identity(), "trained": self.trained})
 
@@ -169,8 +167,3 @@ class FinetunedChat:
     def _identity(self) -> dict[str, Any]:
         recipe = self._recipe.model_dump(exclude={"base", "devices", "verdicts"})
         return {"finetuned": self._base().name, "version": VERSION, "recipe": recipe}
-
-
-def _plain(value: object) -> object:
-    """What JSON does not know in peft's configuration: sets, and enumerations by their value."""
-    return sorted(value) if isinstance(value, set | frozenset) else getattr(value, "value", str(value))

@@ -107,6 +107,10 @@ class CausalBase:
         scores: Tensor = last[:, yes] - last[:, no]
         return scores
 
+    def config_file(self) -> bytes:
+        """The adapters' configuration as peft writes it."""
+        return (json.dumps(self.config, indent=1, sort_keys=True, default=_plain) + "\n").encode()
+
     def _ids(self, text: str) -> list[int]:
         ids: list[int] = self.tokenizer(text)["input_ids"]
         half = self.recipe.tokens // 2
@@ -157,3 +161,8 @@ def _answers(tokenizer: Any, base: str) -> tuple[int, int]:
     if not yes or not no or yes[0] == no[0]:
         raise ConfigError(f"base: the tokeniser of {base} does not tell Yes from No.")
     return int(yes[0]), int(no[0])
+
+
+def _plain(value: object) -> object:
+    """What JSON does not know in peft's configuration: sets, and enumerations by their value."""
+    return sorted(value) if isinstance(value, set | frozenset) else getattr(value, "value", str(value))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -155,8 +154,7 @@ class LoraInstructClassifier:
         manifest: dict[str, Any] = {**self._identity(), "trained": self._learned is not None}
         if self._learned is not None:
             base = self._base()
-            config = json.dumps(base.config, indent=1, sort_keys=True, default=_plain) + "\n"
-            replace_bytes(folder / CONFIG, config.encode())
+            replace_bytes(folder / CONFIG, base.config_file())
             replace_bytes(folder / WEIGHTS, save_tensors(self._learned))
             manifest |= {"scale": list(self._scale), "weights_of": base.name}
         write_manifest(folder, manifest)
@@ -192,8 +190,3 @@ class LoraInstructClassifier:
             "inputs": self._inputs.names,
             "recipe": self._recipe.model_dump(exclude={"base", "devices", "verdicts"}),
         }
-
-
-def _plain(value: object) -> object:
-    """What JSON does not know in peft's configuration: sets, and enumerations by their value."""
-    return sorted(value) if isinstance(value, set | frozenset) else getattr(value, "value", str(value))
