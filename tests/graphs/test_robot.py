@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import asyncio
 import inspect
+import threading
 from typing import Any, get_type_hints
 
 import pytest
@@ -51,6 +53,24 @@ def test_untrained_it_accepts_everything_and_imagines_tasks_once_per_intention(m
     ]
     draws = sorted(at.draw for name, at, _ in ask.asked if name == "robot/tasks_type2")
     assert draws == [0, 1, 2]
+
+
+def test_graphs_can_be_awaited_side_by_side_with_the_results_of_each_alone(make_services: MakeServices) -> None:
+    answers, together = type2_answers(), threading.Barrier(4, timeout=30)
+    said = answers["robot/intentions"]
+
+    def once_all_have_asked(variables: dict[str, Any]) -> dict[str, Any]:
+        together.wait()
+        return said(variables)
+
+    answers["robot/intentions"] = once_all_have_asked
+    contexts = [robot(make_services, ask=ScriptedAsk(answers)) for _ in range(4)]
+
+    async def live() -> list[Any]:
+        graph, given = build_robot_graph(), RobotInput(clock=TEN, observation=SEEN, picture=KNOWN)
+        return await asyncio.gather(*(graph.ainvoke(given, context=ctx) for ctx in contexts))  # type: ignore[arg-type]
+
+    assert [robot_hour(state) for state in asyncio.run(live())] == [watch(robot(make_services))] * 4
 
 
 def test_a_thing_imagined_for_two_intentions_counts_once_for_the_likelier(make_services: MakeServices) -> None:
