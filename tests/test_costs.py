@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,19 @@ from coopera import Config, run_study
 from coopera.cli import main
 from coopera.config import Models
 from coopera.rundir import RunDir
+from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
 from tests.test_household import truth
 
-SMALL: dict[str, Any] = {"days": 1, "hours": 2, "pictures": "none"}
+SMALL: dict[str, Any] = {"days": 1, "hours": 1, "pictures": "none"}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _letters() -> Iterator[None]:
+    """What is paid does not depend on how texts are compared."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("coopera.assemble.bundled", lambda path: LetterEmbeddings())
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -35,13 +45,13 @@ def study_like(run: Path, **more: Any) -> Path:
 def test_a_budget_stops_a_run_that_resumes_to_the_same_end(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = lived.parent / "stopped"
     study = study_like(lived)
-    assert main(["run", str(study), "--out", str(out), "--budget-calls", "16"]) == 1
+    assert main(["run", str(study), "--out", str(out), "--budget-calls", "8"]) == 1
     said = capsys.readouterr().err
-    assert "the budget of 16 calls is spent (16 calls" in said
+    assert "the budget of 8 calls is spent (8 calls" in said
     assert f"Continue with: coopera resume {out}" in said
     info = json.loads((out / "run.json").read_text())
     assert info["state"] == "stopped"
-    assert info["spent"]["calls"] == 16
+    assert info["spent"]["calls"] == 8
     assert main(["resume", str(out)]) == 1, "what is spent stays spent"
     assert main(["resume", str(out), "--budget-calls", "1000"]) == 0
     (out / "config.yaml").write_text((lived / "config.yaml").read_text())
