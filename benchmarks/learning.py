@@ -95,8 +95,9 @@ def main() -> None:
     jobs = [Job(*method, *rest) for method, *rest in product(methods, types, range(args.seeds))]
     lives = [Job(*ALONE, *rest) for rest in product(types, range(args.seeds))]
     with ProcessPoolExecutor(args.workers) as pool:
-        list(pool.map(_summary, [(args, life) for life in lives]))
-        summaries = list(pool.map(_summary, [(args, job) for job in jobs]))
+        each = map if args.workers == 1 else pool.map
+        list(each(_summary, [(args, life) for life in lives]))
+        summaries = list(each(_summary, [(args, job) for job in jobs]))
     for collab in types:
         print(f"\nCollaboration type {collab}\n")
         print("| method | measure | " + " | ".join(f"day {day + 1}" for day in range(args.days)) + " | last - first |")
