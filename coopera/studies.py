@@ -59,7 +59,8 @@ def run_studies(
     ended: dict[int, Ended] = {}
     spread = min(processes, at_once, len(jobs))
     if spread > 1:
-        _in_processes(jobs, at_once, spread, ended.__setitem__, on_event)
+        with Stop():  # `kill` is heard like Ctrl-C
+            _in_processes(jobs, at_once, spread, ended.__setitem__, on_event)
     else:
         _in_threads(jobs, at_once, ended.__setitem__, on_event)
     return [ended[number] for number, _ in jobs]
