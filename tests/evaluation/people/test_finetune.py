@@ -21,8 +21,8 @@ def tiny_bert(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 def test_a_finetuned_encoder_learns_who_is_who_whatever_the_labels(tiny_bert: str) -> None:
     learner = FinetunedEncoder(tiny_bert, recipe=FAST)
-    train = [["tea", "read"], ["tea", "rest"], ["soup", "run"], ["soup", "sing"]] * 3
-    test = [["tea", "sing"], ["soup", "rest"]]
+    train = [["tea", "read"], ["tea", "rest"], ["soup", "read"], ["soup", "rest"]] * 3
+    test = [["tea", "sing"], ["soup", "sing"]]
     answers = learner.people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
     assert answers == [4, 7]
     assert answers == FinetunedEncoder(tiny_bert, recipe=FAST).people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
