@@ -69,7 +69,7 @@ def last_day_table(rows: Sequence[Row], methods: Sequence[str], measure: str) ->
         ["method", *(f"S{setting} {_TYPES[collab]}" for setting, collab in places)],
         lines,
         "Mean over people's last days with a 95 % bootstrap interval clustered by person and home; n in parentheses. "
-        "Where n is 1 there is no interval.",
+        "Where all are of one person there is no interval.",
     )
 
 
@@ -78,7 +78,7 @@ def paper_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
     settings = sorted({row.setting for row in rows} & {"1", "2", "3", "4"})
     found = {setting: last_day([row for row in rows if row.setting == setting]) for setting in settings}
     lines: list[list[str]] = []
-    for method in [name for name in (*paper.LAST_DAY, *methods) if name in methods]:
+    for method in [name for name in (*paper.LAST_DAY, *methods) if settings and name in methods]:
         if method in [line[0] for line in lines]:
             continue
         cells = []
@@ -200,7 +200,7 @@ def _cell(cell: Cell | None) -> str:
     if cell is None:
         return NONE
     mean, low, high = cell.interval
-    return f"{mean:.3f} [{low:.3f}, {high:.3f}] ({cell.n})" if cell.n > 1 else f"{mean:.3f} (1)"
+    return f"{mean:.3f} [{low:.3f}, {high:.3f}] ({cell.n})" if low < high else f"{mean:.3f} ({cell.n})"
 
 
 def _line(cells: Sequence[str]) -> str:
