@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -56,6 +55,7 @@ POET = Life(
     ("pen", "notebook", "lamp", "eraser"),
     ("desk_1", "stove_1"),
 )
+OFTEN = ("ours", "intention_agnostic", "frequency_prior")  # ways of their own; the others leave something out of ours
 HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "told"]
 
 
@@ -151,11 +151,14 @@ def live(
         for day in range(days)
     ]
     build_study_graph().invoke({"schedule": schedule}, context=services)
-    prompts = [
-        (prompt, at, variables)
-        for prompt, at, variables in ask.asked
-        if prompt.startswith("robot/") and not variables.get("evening")
-    ]
+    prompts = sorted(
+        (
+            (prompt, at, variables)
+            for prompt, at, variables in ask.asked
+            if prompt.startswith("robot/") and not variables.get("evening")
+        ),
+        key=lambda asked: asked[:2],  # tasks are imagined in threads, in any order
+    )
     lived = [hour.robot for hour in services.recorder.read_day(days - 1)]
     assert len(lived) == len(hours)
     assert all(lived)
@@ -167,8 +170,9 @@ def live(
     return Told(prompts, judged, given, said)
 
 
+@pytest.mark.parametrize("collab", [1, 2])
 @pytest.mark.parametrize(
-    ("method", "collab"), [*product(HIDING, [2]), *product(["ours", "intention_agnostic", "frequency_prior"], [1])]
+    "method", [name if name in OFTEN else pytest.param(name, marks=pytest.mark.slow) for name in HIDING]
 )
 def test_before_the_evening_nothing_that_was_not_seen_reaches_the_robot(
     make_services: MakeServices, tmp_path: Path, method: str, collab: Collab
