@@ -23,7 +23,7 @@ def command(out: Path, *more: str) -> list[str]:
 
 
 def results(out: Path) -> dict[str, str]:
-    return {name: (out / "results" / name).read_text().replace(out.name, "NAME") for name in RESULTS}
+    return {name: (out / "results" / name).read_text().removeprefix(f"# Results of {out.name}\n") for name in RESULTS}
 
 
 @pytest.mark.slow
