@@ -16,7 +16,7 @@ from simulation.plans import Ground, Placed, Plan, Play, UnableError, Watch, all
 from simulation.rotations import wrapped
 from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState
-from simulation.walking import walk
+from simulation.walking import walk_to_deed
 
 STEPPED_ON = ("treadmill", "shower", "rug")
 """Furniture that the person acts on, not in front of."""
@@ -45,10 +45,8 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     target = ground.fixed(act.target)
     motion = ground.motions.match(act.motion, ground.search)
     person, used = _placed(ground, plan, target, motion)
-    if watch is not None:
-        pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
-        watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
-    walk(ground, plan, "human", person.spot, carries=act.in_hand)
+    pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
+    walk_to_deed(ground, plan, Placed(*person.place, person.yaw, pose), person.spot, watch, act.in_hand)
     spot = plan.state.person.spot
     place = spot if person.place == person.spot else person.place
     person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": act.in_hand})

@@ -34,7 +34,7 @@ from simulation.plans import (
 from simulation.rotations import Array, about_z
 from simulation.scene import Point, SceneObject
 from simulation.state import HomeState, PersonState, ThingState
-from simulation.walking import walk
+from simulation.walking import walk, walk_to_deed
 
 _FAR_REACH = 1.0
 _TRIES = 24
@@ -127,9 +127,11 @@ def go_to_reach(
             continue
         mark = plan.mark()
         try:
-            if watch is not None:
-                watch(plan, Placed(stand.x, stand.y, stand.yaw, posture), (stand.x, stand.y))
-            walk(ground, plan, agent, (stand.x, stand.y), carries=errand.carries)
+            if agent == "human":
+                deed = Placed(stand.x, stand.y, stand.yaw, posture)
+                walk_to_deed(ground, plan, deed, (stand.x, stand.y), watch, errand.carries)
+            else:
+                walk(ground, plan, agent, (stand.x, stand.y), carries=errand.carries)
         except UnableError:
             plan.rewind(mark)
             continue

@@ -6,7 +6,7 @@ import math
 
 from core.household import Agent
 from simulation.navigation import RADIUS, Disc, Route
-from simulation.plans import Ground, Plan, UnableError, Walk, discs, other, stand_up
+from simulation.plans import Ground, Placed, Plan, UnableError, Walk, Watch, discs, other, stand_up
 from simulation.scene import Point
 
 _THERE = 0.02
@@ -48,6 +48,24 @@ def walk(ground: Ground, plan: Plan, agent: Agent, goal: Point, carries: str | N
         plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, last)})
     else:
         plan.state = plan.state.with_robot(spot=last)
+
+
+def walk_to_deed(
+    ground: Ground, plan: Plan, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
+) -> None:
+    """Add the person's walk to a deed; a robot that is to see it goes ahead, and comes back if it had to step aside.
+
+    Raises:
+        UnableError: If there is no way.
+    """
+    if watch is None:
+        walk(ground, plan, "human", goal, carries)
+        return
+    watch(plan, deed, goal)
+    place = plan.state.robot.spot
+    walk(ground, plan, "human", goal, carries)
+    if plan.state.robot.spot != place:
+        watch(plan, deed, goal)
 
 
 def _in_the_way(route: Route, taken: list[Disc]) -> Disc | None:

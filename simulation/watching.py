@@ -56,6 +56,8 @@ class Watcher:
                 walk(self.ground, plan, "robot", place)
             except UnableError:  # it cannot get there: it watches from where it is
                 plan.steps, plan.state = steps, state
+            if math.dist(person.spot, spot) < 0.05 and plan.state.person.spot != person.spot:
+                plan.steps, plan.state = steps, state  # who is at the deed already is not sent away
             plan.metres = metres
         x, y = plan.state.robot.spot
         yaw = math.atan2(deed.y - y, deed.x - x)

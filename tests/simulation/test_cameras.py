@@ -90,6 +90,17 @@ def test_the_robot_goes_to_where_it_sees_the_person_and_keeps_out_of_the_way(hom
     assert state.robot.yaw == pytest.approx(towards)
 
 
+def test_a_robot_that_had_to_let_the_person_pass_comes_back_to_see_the_deed() -> None:
+    with World(load_scene("maple"), frame_size=(96, 72)) as world:
+        person = world.state.person.model_copy(update={"spot": (8.7, 2.1), "place": (8.7, 2.1), "yaw": 0.8})
+        world.state = world.state.model_copy(update={"person": person}).with_robot(spot=(7.95, 2.5))
+        act = FreeMotion(target_id=0, target="dining_table_1", in_hand="tea bag", motion="pour a drink")
+        assert world.perform("human", act, record=True).ok
+        assert min(persons_share(world, world._recording.shots[0].deed)) > 0.01
+        person, robot = world.state.person, world.state.robot
+        assert math.dist(person.spot, robot.spot) >= 0.55
+
+
 def test_frames_are_named_and_ordered_robot_first_and_change_nothing(home, tmp_path) -> None:
     home.perform("human", put("mug_1", "dining_table_1"), record=True)
     before = home.snapshot()
