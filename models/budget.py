@@ -24,20 +24,23 @@ class Meter:
         with self._lock:
             return Spent(calls=self._calls, tokens=self._tokens)
 
-    def check(self) -> None:
-        """Go on, or not.
+    def begin(self) -> None:
+        """Count a call that is about to be made, so that calls made at once do not share the last one allowed.
 
         Raises:
-            BudgetError: If the budget is spent.
+            BudgetError: If the budget is spent; the call must not be made.
         """
-        spent = self.spent
-        for name in ("calls", "tokens"):
-            limit, used = getattr(self._budget, name), getattr(spent, name)
-            if limit is not None and used >= limit:
-                raise BudgetError(f"the budget of {limit} {name} is spent ({spent.calls} calls, {spent.tokens} tokens)")
-
-    def add(self, tokens: int) -> None:
-        """Count a call."""
         with self._lock:
+            spent = {"calls": self._calls, "tokens": self._tokens}
+            for name, used in spent.items():
+                limit = getattr(self._budget, name)
+                if limit is not None and used >= limit:
+                    raise BudgetError(
+                        f"the budget of {limit} {name} is spent ({self._calls} calls, {self._tokens} tokens)"
+                    )
             self._calls += 1
+
+    def end(self, tokens: int) -> None:
+        """Count what a call took."""
+        with self._lock:
             self._tokens += tokens

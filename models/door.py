@@ -283,13 +283,13 @@ class Door:
                 name=talk.rendered.reply,
             )
             if self.meter is not None:
-                self.meter.check()
+                self.meter.begin()
             try:
                 answer = backend.ask(request, talk.fault)
             except ModelCallError as err:
                 raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
             if self.meter is not None:
-                self.meter.add(answer.tokens_in + answer.tokens_out)
+                self.meter.end(answer.tokens_in + answer.tokens_out)
             if key is not None:
                 talk.fresh.append((key, answer))
         talk.tokens_in += answer.tokens_in

@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+import pytest
+
+from core.errors import BudgetError
+from models.budget import Meter
+from models.settings import Budget, Spent
+
+
+def test_calls_made_at_once_do_not_share_the_last_one_allowed() -> None:
+    meter = Meter(Budget(calls=3), Spent(calls=1, tokens=5))
+    meter.begin()
+    meter.begin()
+    with pytest.raises(BudgetError, match=r"the budget of 3 calls is spent \(3 calls, 5 tokens\)"):
+        meter.begin()
+    assert meter.spent == Spent(calls=3, tokens=5)
+
+
+def test_a_budget_of_tokens_ends_with_the_call_that_reaches_it() -> None:
+    meter = Meter(Budget(tokens=10))
+    meter.begin()
+    meter.end(9)
+    meter.begin()
+    meter.end(9)
+    with pytest.raises(BudgetError, match=r"the budget of 10 tokens is spent \(2 calls, 18 tokens\)"):
+        meter.begin()
