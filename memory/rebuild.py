@@ -79,32 +79,32 @@ def repair(folder: Path, embeddings: Embeddings | None = None) -> list[Repaired]
             if identity(given) != model:
                 raise MemoryStoreError(f"{folder}: was written with the embeddings {model!r}, not {identity(given)!r}")
         _exchange(folder, salvages, models)
-    return [_outcome(salvage) for salvage in salvages]
+    return [Repaired(one.stream, len(one.records), one.missing, one.altered) for one in salvages]
 
 
-def heal(damage: DamagedMemoryError, embeddings: Embeddings) -> None:
+def heal(found: DamagedMemoryError, embeddings: Embeddings) -> None:
     """Rebuild a store whose last writer was killed, provided that nothing of it is lost by that.
 
     Args:
-        damage: How it was found; names the store.
+        found: The damage; names the store.
         embeddings: Those of one of its streams; those of other streams are found by their name.
 
     Raises:
         DamagedMemoryError: The damage, if a record is missing or altered, or if a stream's embeddings are unknown.
         MemoryStoreError: If the store is in use, or the texts cannot be read.
     """
-    folder = Path(damage.where)
+    folder = Path(found.where)
     with locked(folder):
         salvages = _salvage(folder)
         if any(salvage.missing or salvage.altered for salvage in salvages):
-            raise damage
+            raise found
         models = {identity(embeddings): embeddings}
         try:
             models |= {salvage.model: by_identity(salvage.model) for salvage in salvages if salvage.model not in models}
         except MemoryStoreError as err:
-            raise damage from err
+            raise found from err
         kept = _exchange(folder, salvages, models)
-    _LOG.warning("%s: %s, after a crash; rebuilt from its texts without loss (kept: %s)", folder, damage.what, kept)
+    _LOG.warning("%s: %s, after a crash; rebuilt from its texts without loss (kept: %s)", folder, found.what, kept)
 
 
 def _exchange(folder: Path, salvages: list[_Salvage], models: Mapping[str, Embeddings]) -> Path:
@@ -132,11 +132,6 @@ def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> None:
             log.append(texts, vectors, [record.hour for record in page], [record.metadata for record in page])
     finally:
         store.close()
-
-
-def _outcome(salvage: _Salvage) -> Repaired:
-    """Tell what became of a stream."""
-    return Repaired(salvage.stream, len(salvage.records), salvage.missing, salvage.altered)
 
 
 def _salvage(folder: Path) -> list[_Salvage]:
