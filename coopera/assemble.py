@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from coopera.real_people import Told
 from coopera.rundir import RunDir
 from core.hour import ModelCall
 from core.household import SceneId
+from core.lazy import made_once
 from core.people import Persona
 from core.protocols import Ask, Classifier, Home, Reply, Role
 from evaluation import Measure, find_method
@@ -52,7 +53,7 @@ def open_embeddings(config: Config) -> Embeddings:
     return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
 
 
-@lru_cache(maxsize=2)
+@made_once(2)
 def _embeddings(cache: Path) -> Embeddings:
     return bundled(cache)
 

@@ -1,14 +1,19 @@
-"""Packages whose names load when they are first used, so that a heavy room costs nothing until it is entered."""
+"""What is heavy waits until it is needed, and is then made once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache, update_wrapper
 from importlib import import_module
-from typing import Any
+from threading import RLock
+from typing import Any, Generic, ParamSpec, TypeVar
+
+Given = ParamSpec("Given")
+Thing = TypeVar("Thing")
 
 
 def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return a package's `__getattr__`.
+    """Return a package's `__getattr__`: its names load when they are first used, so an unused room costs nothing.
 
     Args:
         package: Its `__name__`.
@@ -21,3 +26,30 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
         return getattr(import_module(homes[name]), name)
 
     return load
+
+
+class Made(Generic[Given, Thing]):
+    """A function that makes each thing once, by what it is made of, and keeps the last so many.
+
+    Threads that ask for the same at once get the same: one makes it and the others wait, where under `lru_cache` each
+    would make its own (studies start together, and neither weights nor a server's gate may be there twice).
+    """
+
+    def __init__(self, make: Callable[Given, Thing], most: int | None) -> None:
+        """Wrap what makes a thing; `most` of them are kept, or all."""
+        update_wrapper(self, make)
+        self._kept, self._lock = lru_cache(maxsize=most)(make), RLock()
+
+    def __call__(self, *args: Given.args, **kwargs: Given.kwargs) -> Thing:
+        """Return the thing, made now if need be."""
+        with self._lock:
+            return self._kept(*args, **kwargs)  # type: ignore[arg-type]
+
+    def forget(self) -> None:
+        """Let go of everything made so far."""
+        self._kept.cache_clear()
+
+
+def made_once(most: int | None = None) -> Callable[[Callable[Given, Thing]], Made[Given, Thing]]:
+    """Return the decorator for `Made`."""
+    return lambda make: Made(make, most)

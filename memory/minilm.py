@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import threading
-from functools import cache
 from importlib.metadata import version
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from core.lazy import made_once
 
 Vector: TypeAlias = npt.NDArray[np.float32]
 
@@ -43,7 +44,7 @@ class MiniLM:
         return vector
 
 
-@cache
+@made_once()
 def shared() -> MiniLM:
     """Return the process's one encoder, loading it at the first call (some seconds)."""
     return MiniLM()

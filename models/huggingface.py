@@ -8,7 +8,6 @@ state is read or changed.
 from __future__ import annotations
 
 import base64
-import functools
 import io
 import threading
 from collections.abc import Mapping, Sequence
@@ -36,6 +35,7 @@ from transformers import (
 from typing_extensions import override
 
 from core.errors import ConfigError, ModelCallError
+from core.lazy import made_once
 from models.batching import Batcher
 from models.constrained import Drawing, Grammars, Row
 from models.settings import CallSettings
@@ -219,7 +219,7 @@ def open_model(path: str, settings: CallSettings | None = None) -> HuggingFaceCh
         return _open(path, chosen.device, chosen.dtype, chosen.batch)
 
 
-@functools.lru_cache(maxsize=4)
+@made_once(4)
 def _open(path: str, device: str, dtype: str, batch: int | None) -> HuggingFaceChat:
     safe: dict[str, Any] = {"trust_remote_code": False}
     place = _place(path, device)

@@ -6,7 +6,6 @@ doubles each time, or as long as the server's Retry-After asks for. Every failur
 
 from __future__ import annotations
 
-import functools
 import itertools
 import threading
 import time
@@ -19,6 +18,7 @@ from email.utils import parsedate_to_datetime
 from typing import TypeVar
 
 from core.errors import ModelCallError
+from core.lazy import made_once
 from models.settings import CallSettings
 
 Answer = TypeVar("Answer")
@@ -77,7 +77,7 @@ def share_pace(processes: int) -> None:
     _sharing = processes
 
 
-@functools.lru_cache(maxsize=64)
+@made_once(64)
 def gate_to(server: str, at_once: int, per_minute: int | None) -> Gate:
     """The one gate that all studies of this process pass on their way to a server."""
     return Gate(max(1, at_once // _sharing), None if per_minute is None else max(1, per_minute // _sharing))

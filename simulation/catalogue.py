@@ -6,7 +6,6 @@ thing: a plain box whose top is its surface.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
@@ -15,6 +14,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from core.errors import ConfigError
 from core.household import plain
+from core.lazy import made_once
 from core.people import Frozen
 from simulation.categories import DYNAMIC, STATIC
 from simulation.scene import SceneObject
@@ -135,7 +135,7 @@ class Rest(NamedTuple):
     heading: float
 
 
-@lru_cache(maxsize=1)
+@made_once()
 def catalogue() -> Catalogue:
     """Return the shipped catalogue.
 

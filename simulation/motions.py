@@ -6,7 +6,7 @@ import json
 import math
 import re
 from collections.abc import Callable
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -15,6 +15,7 @@ import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from core.errors import ConfigError
+from core.lazy import made_once
 from core.people import Frozen
 from simulation.rotations import Array
 
@@ -150,7 +151,7 @@ def _stem(word: str) -> str:
     return word.rstrip("e") if len(word) > 3 else word
 
 
-@cache
+@made_once()
 def load_library(folder: Path = FOLDER) -> Library:
     """Read motions.yaml and motion_keys.yaml.
 

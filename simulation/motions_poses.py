@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from core.errors import ConfigError
+from core.lazy import made_once
 from simulation.humanoid import ANKLE, MOUTH, SIDES, STANDING, Aim, Frames, Side, solve
 from simulation.motions import Clip, HandPath, Keys, Motion, Posture, along
 from simulation.rotations import Array
-from simulation.smplx import read_capture, retarget
 
 WORKTOP = 0.9
 """Height of the surface a standing person works at where there is none (metres)."""
@@ -34,7 +33,7 @@ class Setting(NamedTuple):
     posture: Posture = "stand"
 
 
-@cache
+@made_once()
 def clip(name: str) -> Clip:
     """The shipped clip of that name, or that of a file with SMPL-X parameters; read once.
 
@@ -44,6 +43,8 @@ def clip(name: str) -> Clip:
     path = Path(name)
     if path.suffix not in (".npy", ".npz"):
         return Clip.shipped(name)
+    from simulation.smplx import read_capture, retarget  # noqa: PLC0415 - heavy, and few have such files
+
     capture = read_capture(path)
     try:
         poses = retarget(capture)

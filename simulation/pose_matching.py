@@ -9,11 +9,11 @@ of coming or going, since people walk to what they do. Which motion was played i
 
 from __future__ import annotations
 
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
+from core.lazy import made_once
 from simulation.humanoid import blend, forward
 from simulation.humanoid_reach import carrying, reaching, standing
 from simulation.motions import Library, Motion
@@ -99,7 +99,7 @@ class PoseMatcher:
         return self._takes[int(self._take[best])].motion
 
 
-@cache
+@made_once()
 def matcher(library: Library) -> PoseMatcher:
     """The matcher of a library, made once."""
     return PoseMatcher(library)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import json
 import threading
@@ -16,6 +15,7 @@ from torch import Tensor
 from transformers import AutoModelForCausalLM, AutoTokenizer
 
 from core.errors import ConfigError
+from core.lazy import made_once
 from models.classifiers.instruction import TAIL, InstructRecipe
 from models.classifiers.text import Kind
 
@@ -121,7 +121,7 @@ class CausalBase:
         return {name: found[name].detach().cpu().clone().contiguous() for name in sorted(found)}
 
 
-@functools.lru_cache(maxsize=1)
+@made_once(1)
 def open_base(recipe_json: str) -> CausalBase:
     """Load a base once in a process, for all classifiers that share a recipe (as JSON, so that it can be a key)."""
     return CausalBase(InstructRecipe.model_validate_json(recipe_json))

@@ -6,7 +6,6 @@ import io
 import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
 from core.errors import CooperaError
 from core.hour import Example
+from core.lazy import made_once
 from memory.embeddings import as_array
 from models.classifiers.calibration import Scale, scale
 from models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
@@ -180,7 +180,7 @@ class KernelClassifier:
         return probe
 
 
-@cache
+@made_once()
 def _threads() -> Any:
     """Return the handle on numpy's and scipy's threads (slow to look up); on one thread sums have one order."""
     return ThreadpoolController()

@@ -7,7 +7,6 @@ not always the same ones, so that several readings differ as much as the text le
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Annotated
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from core.big_five_test import ITEMS
+from core.lazy import made_once
 from core.people import TRAITS, BigFive, Frozen
 from core.replies import BigFiveReply, BigFiveTestReply
 from models.offline.sense import CommonSense
@@ -95,7 +95,7 @@ def _impression(near: NDArray[np.float64]) -> dict[str, float]:
     return {trait: 3.0 + SPREAD * (raw[trait] - norms[trait].mean) / norms[trait].sd for trait in TRAITS}
 
 
-@lru_cache(maxsize=1)
+@made_once()
 def shipped_norms() -> Norms:
     """Return the norms in traits.yaml beside this file."""
     text = (Path(__file__).parent / "traits.yaml").read_text(encoding="utf-8")

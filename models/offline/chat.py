@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Hashable, Mapping
-from functools import lru_cache
 from threading import RLock
 from typing import Any
 
@@ -19,6 +18,7 @@ from typing_extensions import override
 
 from core.asks import ASKS
 from core.errors import ModelCallError
+from core.lazy import made_once
 from core.protocols import Role
 from core.replies import REPLIES
 from models.offline.human import Human
@@ -33,7 +33,7 @@ RULES = "3"
 _SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}
 
 
-@lru_cache(maxsize=4)
+@made_once(4)
 def _common_sense(embeddings: Embeddings) -> CommonSense:
     """What the roles share, and all runs of a process that compare texts in the same way."""
     return CommonSense(shipped(), embeddings)

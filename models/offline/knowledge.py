@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import AfterValidator, Field, ValidationError, ValidationInfo, field_validator
 
 from core.errors import ConfigError
+from core.lazy import made_once
 from core.people import TRAITS, BigFive, Frozen
 
 SHIPPED = Path(__file__).parent / "household.yaml"
@@ -204,7 +205,7 @@ def _parsed(kind: type[Read], data: Any, path: Path) -> Read:
         raise ConfigError(f"{path}: {_first_problem(err, data)}") from err
 
 
-@lru_cache(maxsize=1)
+@made_once()
 def shipped() -> Household:
     """Return the household file that comes with the package."""
     return load()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,6 +11,7 @@ import numpy as np
 import yaml
 from pydantic import Field
 
+from core.lazy import made_once
 from core.people import BigFive, Frozen
 from core.replies import ProfileReply
 from models.offline.big_five import infer
@@ -85,7 +85,7 @@ def extension(sense: CommonSense, said: Sequence[str], rng: np.random.Generator)
     return added
 
 
-@lru_cache(maxsize=1)
+@made_once()
 def shipped_aspects() -> tuple[Aspect, ...]:
     """Return the aspects of a life, from aspects.yaml beside this file."""
     text = (Path(__file__).parent / "aspects.yaml").read_text(encoding="utf-8")
