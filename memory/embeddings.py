@@ -54,7 +54,7 @@ class CachedEmbeddings(Embeddings):
         self.misses = 0
         self._encode = encode
         self._ram: dict[str, Vector] = {}
-        self._lock = threading.RLock()
+        self._lock, self._encoding = threading.RLock(), threading.Lock()
         self._disk = _Disk(cache, model_id) if cache is not None else None
 
     @override
@@ -80,37 +80,39 @@ class CachedEmbeddings(Embeddings):
             self._disk = None
 
     def _vectors(self, texts: Sequence[str]) -> list[Vector]:
-        """Return each text's vector, in order, from RAM, from disk, or by encoding it."""
-        found: dict[str, Vector] = {}
+        """Return each text's vector, in order, from RAM, from disk, or by encoding it.
+
+        What is there is not held up by what another thread is encoding.
+        """
+        asked = list(dict.fromkeys(map(_checked, texts)))
         with self._lock:
-            missing = []
-            for text in dict.fromkeys(map(_checked, texts)):
-                vector = self._ram.get(text)
-                if vector is None:
-                    missing.append(text)
-                else:
-                    found[text] = vector
-            if missing:
-                found |= (new := self._found_or_made(missing))
-                self._remember(new)
+            found = self._there(asked)
+        for text in asked:
+            if text not in found:
+                with self._encoding:
+                    made = self._ram.get(text)
+                    found[text] = self._made(text) if made is None else made
         return [found[text] for text in texts]
 
-    def _found_or_made(self, texts: Sequence[str]) -> dict[str, Vector]:
-        """Return vectors that are not in RAM."""
-        found = self._disk.read(texts) if self._disk is not None else {}
-        for text in texts:
-            if text not in found:
-                found[text] = self._fresh(text)
-                if self._disk is not None:
-                    self._disk.write(text, found[text])
+    def _there(self, texts: Sequence[str]) -> dict[str, Vector]:
+        """Return the vectors that are in RAM or on disk."""
+        found = {text: self._ram[text] for text in texts if text in self._ram}
+        if self._disk is not None and (missing := [text for text in texts if text not in found]):
+            found |= (read := self._disk.read(missing))
+            self._remember(read)
         return found
 
-    def _fresh(self, text: str) -> Vector:
+    def _made(self, text: str) -> Vector:
+        """Encode a text, and remember its vector."""
         vector = self._encode(text)
         if vector.dtype != np.float32 or vector.ndim != 1 or not np.isfinite(vector).all():
             raise MemoryStoreError(f"{self.model_id}: the encoder gave no finite float32 vector for {text[:60]!r}")
         vector.setflags(write=False)
-        self.misses += 1
+        with self._lock:
+            self.misses += 1
+            self._remember({text: vector})
+            if self._disk is not None:
+                self._disk.write(text, vector)
         return vector
 
     def _remember(self, found: dict[str, Vector]) -> None:

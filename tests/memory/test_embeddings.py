@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +90,27 @@ def test_a_text_is_encoded_once_and_then_found_on_disk(tmp_path: Path) -> None:
     second = CachedEmbeddings(encode_length, "lengths", tmp_path / "deep" / "cache.sqlite")
     np.testing.assert_array_equal(second.array(["three", "one"]), first.array(["three", "one"]))
     assert second.misses == 0
+
+
+def test_what_is_known_is_not_held_up_by_what_another_thread_is_encoding(tmp_path: Path) -> None:
+    slow, begun = threading.Event(), threading.Event()
+
+    def encode(text: str) -> Vector:
+        if text == "slow":
+            begun.set()
+            assert slow.wait(20)
+        return encode_length(text)
+
+    embeddings = CachedEmbeddings(encode, "lengths", tmp_path / "c.sqlite")
+    embeddings.array(["known"])
+    with ThreadPoolExecutor() as pool:
+        both = [pool.submit(embeddings.array, ["slow"]) for _ in range(2)]
+        assert begun.wait(20)
+        np.testing.assert_array_equal(embeddings.array(["known"])[0], encode_length("known"))
+        slow.set()
+        for one in both:
+            np.testing.assert_array_equal(one.result(20)[0], encode_length("slow"))
+    assert embeddings.misses == 2
 
 
 def test_another_model_does_not_get_the_first_one_s_vectors(tmp_path: Path) -> None:
