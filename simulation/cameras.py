@@ -25,6 +25,7 @@ _WATCH = (1.4, 3.6)
 _COMFORT = 2.3
 _KEEP_OFF = 0.9
 _GLANCES = 3
+_AT_ONCE = 48
 _LOOKS = 8
 _SMALL, _LARGE = (48, 36), 0.04
 """Small pictures by which cameras are compared, and the share of one that is as much of a person as is wanted."""
@@ -145,17 +146,25 @@ def _best_sight(
     eyes = np.stack(
         (cells[:, 0] + ahead * np.cos(towards), cells[:, 1] + ahead * np.sin(towards), high + 0 * away), axis=1
     )
-    stage.hide(focus.ignore)
-    share = seen_share(stage, eyes, body_points(person))
-    stage.unhide(focus.ignore)
     side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
     drive = np.hypot(cells[:, 0] - start[0], cells[:, 1] - start[1])
-    score = 3 * share - 0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
-    seeing = np.flatnonzero(share > 0.2)
-    best = [int(seeing[i]) for i in _best_apart(cells[seeing], score[seeing], allowed)]
+    convenience = -0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
+    points, share, score = body_points(person), np.zeros(len(cells)), convenience
+    best: list[int] = []
+    left = np.argsort(-convenience, kind="stable")
+    stage.hide(focus.ignore)
+    while len(left):  # rays cost most: none for what cannot be better than the best, however much is seen from there
+        some, left = left[:_AT_ONCE], left[_AT_ONCE:]
+        share[some] = seen_share(stage, eyes[some], points)
+        score = 3 * share + convenience
+        seeing = np.flatnonzero(share > 0.2)
+        best = [int(seeing[i]) for i in _best_apart(cells[seeing], score[seeing], allowed)]
+        if len(best) == _GLANCES and len(left) and score[best[-1]] > 3 + convenience[left[0]] + 1e-5:
+            break
+    stage.unhide(focus.ignore)
     if not best:
         return None
-    aim = body_points(person)[1]
+    aim = points[1]
     cameras = [Camera(_point(eyes[i]), _point(aim), ROBOT_FOV) for i in best]
     return _floor(cells[best[_clearest(stage, cameras, score[best])]])
 
