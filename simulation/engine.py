@@ -6,6 +6,7 @@ import ctypes
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes.util import find_library
@@ -17,26 +18,31 @@ from typing import Any, Literal
 from core.errors import ConfigError
 
 _SHIPPED = "pybullet_data/"
+_QUIET = threading.RLock()
 Renderer = Literal["tiny", "egl"]
 """Tiny needs nothing; EGL is faster with large pictures and needs the system's libEGL. Their pixels differ."""
 
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Let the process's standard output and error lead nowhere: the engine and its EGL plugin write to both."""
-    sys.stdout.flush()
-    sys.stderr.flush()
-    kept, sink = (os.dup(1), os.dup(2)), os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(sink, 1)
-        os.dup2(sink, 2)
-        yield
-    finally:
-        ctypes.CDLL(None).fflush(None)  # what C has buffered goes nowhere, too
-        for number, copy in enumerate(kept, 1):
-            os.dup2(copy, number)
-            os.close(copy)
-        os.close(sink)
+    """Let the process's standard output and error lead nowhere: the engine and its EGL plugin write to both.
+
+    One thread at a time: another would take the way into nowhere for the one to go back to.
+    """
+    with _QUIET:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        kept, sink = (os.dup(1), os.dup(2)), os.open(os.devnull, os.O_WRONLY)
+        try:
+            os.dup2(sink, 1)
+            os.dup2(sink, 2)
+            yield
+        finally:
+            ctypes.CDLL(None).fflush(None)  # what C has buffered goes nowhere, too
+            for number, copy in enumerate(kept, 1):
+                os.dup2(copy, number)
+                os.close(copy)
+            os.close(sink)
 
 
 def _quietly(name: str) -> Any:
