@@ -112,8 +112,8 @@ def _in_processes(
             here, there = context.Pipe()
             share = jobs[n::processes]
             threads = at_once // processes + (n < at_once % processes)
-            given = {"at_once": threads, "processes": processes, "events": on_event is not None, "parent": os.getpid()}
-            process = context.Process(target=_serve, args=(there, share), kwargs=given, daemon=True)
+            given = {"at_once": threads, "which": n, "of": processes, "events": on_event is not None}
+            process = context.Process(target=_serve, args=(there, share, os.getpid()), kwargs=given, daemon=True)
             process.start()
             there.close()
             staff[here] = process, {number for number, _ in share}
@@ -143,17 +143,27 @@ def _hear(
             if event is None:
                 left.remove(number)
                 end(number, found)
+                if not left:  # what is left of it is to end, which need not be waited for
+                    del staff[pipe]
             elif on_event is not None:
                 on_event(number, event)
 
 
 def _serve(
-    pipe: Connection, jobs: Sequence[tuple[int, Config]], *, at_once: int, processes: int, events: bool, parent: int
+    pipe: Connection,
+    jobs: Sequence[tuple[int, Config]],
+    parent: int,
+    *,
+    at_once: int,
+    which: int,
+    of: int,
+    events: bool,
 ) -> None:
     """The life of a process: its share of the studies, in threads; every event and end is told."""
     if not die_with(parent):
         return
-    share_pace(processes)
+    share_pace(of)
+    _share_cores(which, of)
 
     def tell(number: int, event: Event) -> None:
         pipe.send((number, event, None))
@@ -162,3 +172,9 @@ def _serve(
         _in_threads(jobs, at_once, lambda number, found: pipe.send((number, None, found)), tell if events else None)
     except KeyboardInterrupt:
         return
+
+
+def _share_cores(which: int, of: int) -> None:
+    """Keep a process to its share of the cores, where the system can: threads that take turns lose time in between."""
+    if hasattr(os, "sched_setaffinity") and (cores := sorted(os.sched_getaffinity(0))[which::of]):
+        os.sched_setaffinity(0, cores)
