@@ -1,6 +1,6 @@
 """Eight studies at once against one after the other, at a server that answers every request after 200 ms.
 
-    python -m benchmarks.concurrency [--studies 8] [--hours 13] [--latency 0.2] [--processes 2]
+    python -m benchmarks.concurrency [--studies 8] [--days 2] [--hours 13] [--latency 0.2] [--processes 2]
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
 the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
@@ -28,6 +28,7 @@ def main() -> None:
     """Print both times and their ratio."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=8)
+    parser.add_argument("--days", type=int, default=2)
     parser.add_argument("--hours", type=int, default=13)
     parser.add_argument("--latency", type=float, default=0.2)
     parser.add_argument("--processes", type=int, default=os.cpu_count())
@@ -40,7 +41,7 @@ def main() -> None:
             return [
                 Config(
                     humans=[person],
-                    days=1,
+                    days=given.days,
                     hours=given.hours,
                     pictures="none",
                     seed=n,
@@ -56,9 +57,10 @@ def main() -> None:
         def at_once(name: str, processes: int) -> list[Ended]:
             return run_studies(studies(name), at_once=given.studies, processes=processes)
 
-        at_once("warm", 1)  # every text is encoded once, as in any second run
+        at_once("warm", given.processes)  # every text is encoded once, as in any second run
         before = len(done(url))
-        print(f"{given.studies} studies of {given.hours} hours, {given.latency:g} s a request; {os.cpu_count()} cores")
+        size = f"{given.studies} studies of {given.days} x {given.hours} hours"
+        print(f"{size}, {given.latency:g} s a request; {os.cpu_count()} cores", flush=True)
         single = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
         print(f"requests: {len(done(url)) - before}")
         for processes in sorted({1, given.processes}):
