@@ -1,6 +1,6 @@
 """Eight studies at once against one after the other, at a server that answers every request after 200 ms.
 
-    python -m benchmarks.concurrency [--studies 8] [--days 2] [--hours 13] [--latency 0.2] [--processes 2]
+    python -m benchmarks.concurrency [--studies 8] [--days 2] [--hours 13] [--latency 0.2] [--processes 1 2]
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
 the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
@@ -9,6 +9,7 @@ the processors: what homes compute takes turns in each process. The time that th
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import resource
 import tempfile
@@ -31,7 +32,7 @@ def main() -> None:
     parser.add_argument("--days", type=int, default=2)
     parser.add_argument("--hours", type=int, default=13)
     parser.add_argument("--latency", type=float, default=0.2)
-    parser.add_argument("--processes", type=int, default=os.cpu_count())
+    parser.add_argument("--processes", type=int, nargs="+", default=sorted({1, os.cpu_count() or 1}))
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, serving("--latency", str(given.latency)) as url:
         root = Path(folder)
@@ -57,13 +58,13 @@ def main() -> None:
         def at_once(name: str, processes: int) -> list[Ended]:
             return run_studies(studies(name), at_once=given.studies, processes=processes)
 
-        at_once("warm", given.processes)  # every text is encoded once, as in any second run
+        at_once("warm", max(given.processes))  # every text is encoded once, as in any second run
         before = len(done(url))
         size = f"{given.studies} studies of {given.days} x {given.hours} hours"
         print(f"{size}, {given.latency:g} s a request; {os.cpu_count()} cores", flush=True)
         single = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
         print(f"requests: {len(done(url)) - before}")
-        for processes in sorted({1, given.processes}):
+        for processes in given.processes:
             name = f"at once in {processes} process{'es' if processes > 1 else ''}"
             together = _timed(name, lambda name=name, processes=processes: at_once(name, processes))
             print(f"{name}: {single / together:.1f} times as fast")
@@ -74,7 +75,7 @@ def main() -> None:
 
 def _timed(name: str, work: Callable[[], list[Ended]]) -> float:
     """Do the work, print what it took, and return its seconds; an error of a study ends the benchmark."""
-    started, cpu = time.perf_counter(), _cpu_seconds()
+    cpu, started = _cpu_seconds(), time.perf_counter()
     ended = work()
     seconds = time.perf_counter() - started
     print(f"{name}: {seconds:.1f} s, of processor time {_cpu_seconds() - cpu:.1f} s", flush=True)
@@ -86,6 +87,8 @@ def _timed(name: str, work: Callable[[], list[Ended]]) -> float:
 
 def _cpu_seconds() -> float:
     """Of this process and those that it has ended, but not of the server."""
+    for process in multiprocessing.active_children():
+        process.join()
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(one.ru_utime + one.ru_stime for one in used)
 

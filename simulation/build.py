@@ -18,6 +18,7 @@ from simulation.scene import Room, Scene, SceneObject, rgb_of
 from simulation.shapes import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
 
 WALL_HEIGHT = 2.4
+_UNSEEN = -1
 _KIND = {
     "box": pybullet.GEOM_BOX,
     "cylinder": pybullet.GEOM_CYLINDER,
@@ -31,6 +32,8 @@ class BuiltHome:
     """A home's bodies in one pybullet client."""
 
     client: int
+    drawn: bool = True
+    """Whether bodies can be seen; rays hit them in any case."""
     rooms: dict[str, int] = field(default_factory=dict)
     """Body of each room, by its name."""
     bodies: dict[str, int] = field(default_factory=dict)
@@ -51,10 +54,14 @@ class BuiltHome:
 
     def add(self, name: str, cls: str, size: Size, colour: Colour) -> int:
         """Add one more thing (out of the magic box) far below the floor, to be moved into sight; returns its body."""
-        body = _body(self.client, parts_of(cls, size, colour), size)
+        body = _body(self.client, self.visual(parts_of(cls, size, colour)), size)
         self.bodies[name], self.names[body] = body, name
         self.move(name, (0.0, 0.0, -50.0), 0.0)
         return body
+
+    def visual(self, parts: list[Part]) -> int:
+        """What a body of some parts looks like, for pybullet."""
+        return _visual(self.client, parts) if self.drawn else _UNSEEN
 
     def remove(self, name: str) -> None:
         """Take a thing that was added out of the world again."""
@@ -63,25 +70,30 @@ class BuiltHome:
         pybullet.removeBody(body, physicsClientId=self.client)
 
 
-def build(scene: Scene, client: int) -> BuiltHome:
-    """Create all bodies of a home in a connected pybullet client, rooms first, then objects in the scene's order."""
-    home = BuiltHome(client)
+def build(scene: Scene, client: int, *, drawn: bool = True) -> BuiltHome:
+    """Create all bodies of a home in a connected pybullet client, rooms first, then objects in the scene's order.
+
+    What they look like takes most of the time; where only rays are wanted, they need not be `drawn`.
+    """
+    home = BuiltHome(client, drawn)
     walls = scene.walls()
     for room in scene.rooms:
-        home.rooms[room.name] = _room_body(client, room, walls if scene.stage is None else [])
+        home.rooms[room.name] = _room_body(home, room, walls if scene.stage is None else [])
     for start in range(0, len(scene.stage or []), MOST_PARTS):
-        _stage_body(client, walls[start : start + MOST_PARTS])
+        _stage_body(home, walls[start : start + MOST_PARTS])
     for thing in scene.objects:
-        drawn = _mesh_visual(client, thing, scene.meshes) if thing.mesh and scene.meshes is not None else None
-        body = _body(client, parts_of(thing.cls, thing.size, thing.rgb), thing.size, drawn)
+        if drawn and thing.mesh and scene.meshes is not None:
+            visual = _mesh_visual(client, thing, scene.meshes)
+        else:
+            visual = home.visual(parts_of(thing.cls, thing.size, thing.rgb))
+        body = _body(client, visual, thing.size)
         home.bodies[thing.name], home.names[body] = body, thing.name
         home.move(thing.name, thing.position, thing.yaw)
     return home
 
 
-def _body(client: int, parts: list[Part], size: Size, drawn: int | None = None) -> int:
-    """One body of several coloured parts, or of what was drawn instead, with a box around it for rays."""
-    visual = _visual(client, parts) if drawn is None else drawn
+def _body(client: int, visual: int, size: Size) -> int:
+    """One body that looks like something, with a box around it for rays."""
     half = [size[0] / 2, size[1] / 2, size[2] / 2]
     hull = pybullet.createCollisionShape(
         pybullet.GEOM_BOX, halfExtents=half, collisionFramePosition=[0, 0, half[2]], physicsClientId=client
@@ -128,7 +140,7 @@ def _mesh_visual(client: int, thing: SceneObject, folder: Path) -> int:
     )
 
 
-def _room_body(client: int, room: Room, walls: list[Wall]) -> int:
+def _room_body(home: BuiltHome, room: Room, walls: list[Wall]) -> int:
     """Floor and walls of a room, in the colours of its kind; each wall is half of what two rooms share."""
     kind = catalogue().rooms.get(room.kind)
     floor = rgb_of(kind.floor) if kind else (0.7, 0.66, 0.6)
@@ -142,27 +154,27 @@ def _room_body(client: int, room: Room, walls: list[Wall]) -> int:
             x, y, along = piece
             size = (along, WALL_THICKNESS / 2) if wall.axis == "x" else (WALL_THICKNESS / 2, along)
             kit.box((x - cx, y - cy, 0), (*size, WALL_HEIGHT), shade(paint, 0.94 if wall.axis == "x" else 1.0))
-    return _boxes(client, kit.parts[:MOST_PARTS], (cx, cy))
+    return _boxes(home, kit.parts[:MOST_PARTS], (cx, cy))
 
 
-def _stage_body(client: int, walls: list[Wall]) -> int:
+def _stage_body(home: BuiltHome, walls: list[Wall]) -> int:
     """Some walls of an imported home, as they stand."""
     kit = Kit((1.0, 1.0, WALL_HEIGHT), WHITE)
     for wall in walls:
         b = wall.bounds
         paint = shade(WHITE, 0.88 if wall.axis == "x" else 0.94)
         kit.box(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, 0), (b.x1 - b.x0, b.y1 - b.y0, WALL_HEIGHT), paint)
-    return _boxes(client, kit.parts, (0.0, 0.0))
+    return _boxes(home, kit.parts, (0.0, 0.0))
 
 
-def _boxes(client: int, parts: list[Part], at: Point) -> int:
+def _boxes(home: BuiltHome, parts: list[Part], at: Point) -> int:
     """One body of boxes that are seen and hit as they are."""
-    visual = _visual(client, parts)
+    visual = home.visual(parts)
     solid = pybullet.createCollisionShapeArray(
         shapeTypes=[pybullet.GEOM_BOX for _ in parts],
         halfExtents=[list(part.half) for part in parts],
         collisionFramePositions=[list(part.position) for part in parts],
-        physicsClientId=client,
+        physicsClientId=home.client,
     )
     return int(
         pybullet.createMultiBody(
@@ -170,7 +182,7 @@ def _boxes(client: int, parts: list[Part], at: Point) -> int:
             baseCollisionShapeIndex=solid,
             baseVisualShapeIndex=visual,
             basePosition=[*at, 0],
-            physicsClientId=client,
+            physicsClientId=home.client,
         )
     )
 

@@ -53,17 +53,19 @@ def _quietly(name: str) -> Any:
 pybullet: Any = sys.modules.get("pybullet") or _quietly("pybullet")
 
 
-def load_urdf(path: Path, client: int) -> int:
+def load_urdf(path: Path, client: int, *, drawn: bool = True) -> int:
     """Load a body with a fixed base; a mesh named "pybullet_data/…" comes from what ships with pybullet."""
     text = path.read_text(encoding="utf-8")
+    given = {"useFixedBase": True, "physicsClientId": client}
+    given["flags"] = 0 if drawn else pybullet.URDF_IGNORE_VISUAL_SHAPES
     if _SHIPPED not in text:
-        return int(pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client))
+        return int(pybullet.loadURDF(str(path), **given))
     data = str(import_module("pybullet_data").getDataPath())
     with tempfile.TemporaryDirectory() as folder:
         whole = Path(folder) / path.name
         text = text.replace('filename="', f'filename="{path.parent}/').replace(f"{path.parent}/{_SHIPPED}", f"{data}/")
         whole.write_text(text, encoding="utf-8")
-        return int(pybullet.loadURDF(str(whole), useFixedBase=True, physicsClientId=client))
+        return int(pybullet.loadURDF(str(whole), **given))
 
 
 def start_renderer(name: Renderer, client: int) -> int:

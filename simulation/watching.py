@@ -17,16 +17,27 @@ from simulation.walking import walk
 
 
 class Watcher:
-    """Owns the stage of a home; made at the first recording."""
+    """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
 
     def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
-        """Start pybullet and build the home in it."""
+        """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
         self.ground = ground
-        self.stage = Stage(ground.scene, ground.robot, renderer)
+        self.stage = Stage(ground.scene, ground.robot, renderer=None)
+        self._renderer = renderer
+        self._drawn: Stage | None = None
 
     def close(self) -> None:
         """Give pybullet back."""
         self.stage.close()
+        if self._drawn is not None:
+            self._drawn.close()
+
+    @property
+    def drawn(self) -> Stage:
+        """The stage that pictures are taken of."""
+        if self._drawn is None:
+            self._drawn = Stage(self.ground.scene, self.ground.robot, self._renderer)
+        return self._drawn
 
     def watch(self, plan: Plan, deed: Placed, spot: Point) -> None:
         """Add to a plan: the robot drives to where it will see a deed of the person, out of their way.
@@ -74,9 +85,9 @@ class Watcher:
             if index not in views:
                 views[index] = self._view(recording, shot.at(shot.deed))
             moment = shot.at(within)
-            self.stage.show(recording.state, moment)
-            pictures["robot"].append(self.stage.picture(robot_camera(self.stage.body, moment.robot), size)[0])
-            pictures["human"].append(self.stage.picture(views[index], size)[0])
+            self.drawn.show(recording.state, moment)
+            pictures["robot"].append(self.drawn.picture(robot_camera(self.drawn.body, moment.robot), size)[0])
+            pictures["human"].append(self.drawn.picture(views[index], size)[0])
         return pictures
 
     def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
@@ -88,13 +99,13 @@ class Watcher:
             if index not in views:
                 views[index] = self._view(recording, shot.at(shot.deed))
             moment = shot.at(within)
-            self.stage.show(recording.state, moment)
-            eyes = (robot_camera(self.stage.body, moment.robot), views[index])
-            yield np.concatenate([self.stage.picture(camera, size)[0] for camera in eyes], axis=1)
+            self.drawn.show(recording.state, moment)
+            eyes = (robot_camera(self.drawn.body, moment.robot), views[index])
+            yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in eyes], axis=1)
 
     def _view(self, recording: Recording, moment: Moment) -> Camera:
-        self.stage.show(recording.state, moment)
-        return view_camera(self.stage, self.ground.scene, self._focus(moment.person))
+        self.drawn.show(recording.state, moment)
+        return view_camera(self.drawn, self.ground.scene, self._focus(moment.person))
 
     def _focus(self, person: Placed) -> Focus:
         """The person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""

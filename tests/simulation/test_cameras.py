@@ -16,7 +16,9 @@ from core.errors import ConfigError, SimulationError
 from core.household import FreeMotion
 from simulation.cameras import robot_camera
 from simulation.catalogue import catalogue
+from simulation.robot import load_robot
 from simulation.scene import load_scene
+from simulation.stage import Stage
 from simulation.things import LOOKS_LIKE, shape_of
 from simulation.video import need_video
 from simulation.world import World
@@ -35,8 +37,8 @@ def persons_share(world: World, tick: int) -> tuple[float, float]:
     index, within = recording.find(tick)
     camera = watcher._view(recording, recording.shots[index].at(recording.shots[index].deed))
     moment = recording.shots[index].at(within)
-    watcher.stage.show(recording.state, moment)
-    stage = watcher.stage
+    stage = watcher.drawn
+    stage.show(recording.state, moment)
     masks = [stage.picture(one, (64, 48))[1] for one in (robot_camera(stage.body, moment.robot), camera)]
     robot, third = (float((mask == stage.person).mean()) for mask in masks)
     return robot, third
@@ -195,13 +197,25 @@ def test_video_without_its_encoder_says_what_to_install(monkeypatch) -> None:
         need_video()
 
 
-def test_a_renderer_that_is_not_to_be_had_is_refused_in_a_sentence(monkeypatch) -> None:
+def test_a_renderer_that_is_not_to_be_had_is_refused_in_a_sentence(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr("simulation.engine.find_library", lambda name: None)
-    with (
-        World(flat(), renderer="egl") as world,
-        pytest.raises(ConfigError, match=r"egl is not to be had on this machine .* choose tiny"),
-    ):
+    with World(flat(), renderer="egl") as world:
         world.perform("human", put("book_1", "dining_table_1"), record=True)
+        with pytest.raises(ConfigError, match=r"egl is not to be had on this machine .* choose tiny"):
+            world.frames(1, tmp_path)
+
+
+def test_rays_hit_what_is_not_drawn_as_they_hit_what_is() -> None:
+    scene, robot = flat(), load_robot("fetch")
+    drawn, bare = Stage(scene, robot), Stage(scene, robot, renderer=None)
+    rng = np.random.default_rng(0)
+    room = np.array((*scene.bounds[:2], 0.0)), np.array((*scene.bounds[2:], 2.0))
+    starts, ends = (rng.uniform(*room, size=(2000, 3)) for _ in range(2))
+    hits = drawn.rays(starts, ends)
+    assert len(set(hits.tolist())) > 10
+    assert bare.rays(starts, ends).tolist() == hits.tolist()
+    drawn.close()
+    bare.close()
 
 
 _EGL = """
