@@ -1,22 +1,26 @@
 """What it costs to hold a model of this process to a reply's schema: the same tiny model, free and held, in turns.
 
-    python -m benchmarks.constrained [--rounds 5]
+    python -m benchmarks.constrained [--rounds 5] [--vocabulary 128000]
 
 The model is a random Llama of some thousand weights, whose network costs next to nothing, so the share is far above
-what a real model pays. The vocabulary is small too (about 1,700 tokens); a mask's time grows with it.
+what a real model pays: look at the difference in milliseconds. A mask's time grows with the vocabulary; one as large as
+Llama 3's is made up by adding random words to the small one.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import statistics
 import tempfile
 import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import torch
-from transformers import LlamaConfig, LlamaForCausalLM
+from tokenizers import Tokenizer
+from transformers import LlamaConfig, LlamaForCausalLM, PreTrainedTokenizerFast
 
 from core.asks import ASKS
 from core.replies import REPLIES
@@ -33,9 +37,16 @@ def main() -> None:
     """Print milliseconds per token, free and held, and the time to compile a schema."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=5)
-    rounds: int = parser.parse_args().rounds
+    parser.add_argument("--vocabulary", type=int, default=128_000)
+    given = parser.parse_args()
     torch.set_num_threads(1)
-    words = word_tokenizer()
+    small = word_tokenizer()
+    for words in (small, enlarged(small, given.vocabulary)):
+        measure(words, given.rounds)
+
+
+def measure(words: PreTrainedTokenizerFast, rounds: int) -> None:
+    """Print what holding costs with one tokenizer."""
     started = time.perf_counter()
     grammars = Grammars(words, len(words), [1])
     print(f"reading a tokenizer of {len(words):,} tokens, once: {time.perf_counter() - started:.2f} s")
@@ -55,6 +66,20 @@ def main() -> None:
             ms = [1000 * statistics.median(times) for times in (free, held)]
             said = f"free {ms[0]:.2f}, held {ms[1]:.2f} ms a token ({ms[1] / ms[0]:.2f} times)"
             print(f"{name}: {said}; compiling its schema {1000 * compiled:.1f} ms")
+
+
+def enlarged(words: PreTrainedTokenizerFast, size: int) -> PreTrainedTokenizerFast:
+    """A tokenizer of so many tokens: random words of 2 to 10 letters are added, half of them with a space before."""
+    data, rng = json.loads(words.backend_tokenizer.to_str()), np.random.default_rng(0)
+    vocabulary = data["model"]["vocab"]
+    while len(vocabulary) < size:
+        letters = rng.choice(list("abcdefghijklmnopqrstuvwxyz"), size=rng.integers(2, 11))
+        vocabulary.setdefault("".join(["\u0120", *letters][rng.integers(2) :]), len(vocabulary))
+    large = PreTrainedTokenizerFast(
+        tokenizer_object=Tokenizer.from_str(json.dumps(data)), bos_token=words.bos_token, eos_token=words.eos_token
+    )
+    large.chat_template = words.chat_template
+    return large
 
 
 def _per_token(model: Any, seed: int, schema: dict[str, Any] | None) -> float:
