@@ -43,6 +43,7 @@ from models.settings import CallSettings
 _GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}
 _LOADING = threading.Lock()
+_AS_TENSORS: dict[str, Any] = {"return_tensors": "pt", "padding": True}
 _FAILURES = (RuntimeError, ValueError, LookupError, TypeError, OSError, TemplateError)
 
 
@@ -163,8 +164,7 @@ class HuggingFaceChat(BaseChatModel):
             add_generation_prompt=True,
             tokenize=True,
             return_dict=True,
-            return_tensors="pt",
-            padding=True,
+            **({"processor_kwargs": _AS_TENSORS} if self.sees else _AS_TENSORS),
         ).to(loaded.model.device)
         lengths = [int(length) for length in given["attention_mask"].sum(dim=1)]
         rows = [self._row(question, length) for question, length in zip(questions, lengths, strict=True)]
