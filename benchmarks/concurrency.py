@@ -15,6 +15,7 @@ import resource
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from coopera import Config
@@ -66,7 +67,7 @@ def main() -> None:
         print(f"requests: {len(done(url)) - before}")
         for processes in given.processes:
             name = f"at once in {processes} process{'es' if processes > 1 else ''}"
-            together = _timed(name, lambda name=name, processes=processes: at_once(name, processes))
+            together = _timed(name, partial(at_once, name, processes))
             print(f"{name}: {single / together:.1f} times as fast")
             for n in range(given.studies):
                 same = [(root / run / str(n) / "metrics.csv").read_bytes() for run in ("single", name)]

@@ -85,7 +85,7 @@ def enlarged(words: PreTrainedTokenizerFast, size: int) -> PreTrainedTokenizerFa
 def _per_token(model: Any, seed: int, schema: dict[str, Any] | None) -> float:
     started = time.process_time()
     reply = model.invoke("Hello.", temperature=1.0, seed=seed, max_tokens=96, schema=schema)
-    return (time.process_time() - started) / reply.usage_metadata["output_tokens"]
+    return (time.process_time() - started) / int(reply.usage_metadata["output_tokens"])
 
 
 if __name__ == "__main__":

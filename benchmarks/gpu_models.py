@@ -144,7 +144,7 @@ def write_seeing(folder: Path, size: str) -> str:
     pixels = {"height": PIXELS[size], "width": PIXELS[size]}
     eyes = MllamaImageProcessor(size=pixels, max_image_tiles=4)
     MllamaProcessor(image_processor=eyes, tokenizer=words, chat_template=words.chat_template).save_pretrained(folder)
-    config = MllamaConfig(vision_config=eye, text_config=own, image_token_index=words.convert_tokens_to_ids(IMAGE))
+    config = MllamaConfig(vision_config=eye, text_config=own, image_token_index=words.vocab[IMAGE])
     return _written(MllamaForConditionalGeneration, config, folder)
 
 

@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw
 from coopera.home_statistics import draw
 from core.household import plain
 from simulation.build import BuiltHome
-from simulation.catalogue import catalogue
+from simulation.catalogue import FixedClass, MovableClass, catalogue
 from simulation.engine import pybullet
 from simulation.overview import inside, overview, picture
 from simulation.scene import Scene, list_scenes, load_scene, rgb_of
@@ -25,7 +25,7 @@ _FOV = 32.0
 
 def sheet() -> Image.Image:
     """Every class of the catalogue from the front and above, each as large as fits, with its name."""
-    kinds = [*catalogue().fixed.items(), *catalogue().movable.items()]
+    kinds: list[tuple[str, FixedClass | MovableClass]] = [*catalogue().fixed.items(), *catalogue().movable.items()]
     rows = -(-len(kinds) // _COLUMNS)
     whole = Image.new("RGB", (_COLUMNS * _THUMB[0], rows * (_THUMB[1] + _LINE)), "white")
     pen = ImageDraw.Draw(whole)

@@ -86,14 +86,16 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("runs/learning"))
     args = parser.parse_args()
-    types = [int(collab) for collab in args.collab.split(",")]
-    methods = [tuple(f"{method}:kernel".split(":")[:2]) for method in args.methods.split(",")]
+    known: dict[str, Collab] = {"1": 1, "2": 2}
+    types = [known[collab] for collab in args.collab.split(",")]
+    methods = [f"{method}:kernel".split(":")[:2] for method in args.methods.split(",")]
     if args.classifier_config is None and any(classifier == "lora-instruct" for _, classifier in methods):
         from benchmarks.tiny_mistral import tiny_recipe  # noqa: PLC0415 - torch is heavy
 
         args.classifier_config = tiny_recipe(args.out / "tiny-mistral")
-    jobs = [Job(*method, *rest) for method, *rest in product(methods, types, range(args.seeds))]
-    lives = [Job(*ALONE, *rest) for rest in product(types, range(args.seeds))]
+    seeds = range(args.seeds)
+    jobs = [Job(method, judge, collab, seed) for (method, judge), collab, seed in product(methods, types, seeds)]
+    lives = [Job(*ALONE, collab, seed) for collab, seed in product(types, seeds)]
     with ProcessPoolExecutor(args.workers) as pool:
         each = map if args.workers == 1 else pool.map
         list(each(_summary, [(args, life) for life in lives]))
@@ -115,7 +117,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         return found
     register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
     if (folder / "config.yaml").is_file():
-        return resume_study(folder, report=False)
+        return resume_study(folder)
     people = args.humans.split(",") if args.humans else list(shipped_ids())
     first = job.seed * args.people_per_seed % len(people)
     alone = job[:2] == ALONE
@@ -131,7 +133,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         lived=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
         out=folder,
     )
-    return run_study(config, report=False)
+    return run_study(config)
 
 
 def _folder(out: Path, job: Job) -> Path:
