@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 import io
-import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,7 +41,6 @@ from models.settings import CallSettings
 
 _GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}
-_LOADING = threading.Lock()
 _AS_TENSORS: dict[str, Any] = {"return_tensors": "pt", "padding": True}
 _FAILURES = (RuntimeError, ValueError, LookupError, TypeError, OSError, TemplateError)
 
@@ -215,8 +213,7 @@ def open_model(path: str, settings: CallSettings | None = None) -> HuggingFaceCh
         ConfigError: If it cannot be loaded, or is no chat model.
     """
     chosen = settings or CallSettings()
-    with _LOADING:
-        return _open(path, chosen.device, chosen.dtype, chosen.batch)
+    return _open(path, chosen.device, chosen.dtype, chosen.batch)
 
 
 @made_once(4)

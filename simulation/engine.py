@@ -56,8 +56,8 @@ pybullet: Any = sys.modules.get("pybullet") or _quietly("pybullet")
 def load_urdf(path: Path, client: int, *, drawn: bool = True) -> int:
     """Load a body with a fixed base; a mesh named "pybullet_data/…" comes from what ships with pybullet."""
     text = path.read_text(encoding="utf-8")
-    given = {"useFixedBase": True, "physicsClientId": client}
-    given["flags"] = 0 if drawn else pybullet.URDF_IGNORE_VISUAL_SHAPES
+    flags = 0 if drawn else pybullet.URDF_IGNORE_VISUAL_SHAPES
+    given = {"useFixedBase": True, "physicsClientId": client, "flags": flags}
     if _SHIPPED not in text:
         return int(pybullet.loadURDF(str(path), **given))
     data = str(import_module("pybullet_data").getDataPath())
