@@ -1,6 +1,6 @@
 """Measure the norms by which the offline model reads the Big Five, over the distinct first profiles of a corpus.
 
-python -m benchmarks.big_five_norms synthetic_persona_chat_valid.csv > models/offline/traits.yaml
+python -m benchmarks.big_five_norms synthetic_persona_chat_valid.csv > models/offline/human/traits.yaml
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ from pathlib import Path
 
 import numpy as np
 
-from coopera.config import default_data_dir
-from coopera.persona_import import read_rows
-from core.people import TRAITS
-from core.randomness import rng_at
-from memory import bundled
-from models.offline.big_five import nearest, raw_scores
-from models.offline.knowledge import shipped
-from models.offline.persona import profile
-from models.offline.sense import CommonSense
+from coopera.config.schema import default_data_dir
+from coopera.core.people import TRAITS
+from coopera.core.randomness import rng_at
+from coopera.memory import bundled
+from coopera.models.offline.household.knowledge import shipped
+from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.human.big_five import nearest, raw_scores
+from coopera.models.offline.human.persona import profile
+from coopera.people.import_chat import read_rows
 
 HEAD = """\
-# What is usual among published personas, by which the offline model reads the Big Five (models/offline/big_five.py):
+# What is usual among published personas, by which models/offline/human/big_five.py reads the Big Five:
 # traits: mean and standard deviation of the raw score; items: of the nearest sentence's cosine, in the test's order.
 # Measured by benchmarks/big_five_norms.py over the {count} distinct first profiles of {name}.
 """

@@ -26,13 +26,13 @@ from langchain_core.embeddings import Embeddings
 
 from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Lived, Robot, draw_person, live_day
-from core.hour import Example
-from core.protocols import Classifier
-from graphs.replay import keep
-from memory.embeddings import bundled
-from models.classifiers import CLASSIFIERS, Inputs, Kind, make_classifier
-from models.classifiers.calibration import score_at
-from prompts import PromptLibrary
+from coopera.core.hour import Example
+from coopera.core.protocols import Classifier
+from coopera.graphs.rehearsal import keep
+from coopera.memory.embeddings import bundled
+from coopera.models.classifiers import CLASSIFIERS, Inputs, Kind, make_classifier
+from coopera.models.classifiers.calibration import score_at
+from coopera.prompts import PromptLibrary
 
 DAYS = 5
 FIRST_TEST_PERSON = 1000

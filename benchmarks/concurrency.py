@@ -19,10 +19,10 @@ from functools import partial
 from pathlib import Path
 
 from coopera import Config
-from coopera.config import Models
-from coopera.humans import shipped_ids
-from coopera.studies import Ended, run_studies
-from core.errors import CooperaError
+from coopera.config.schema import Models
+from coopera.core.errors import CooperaError
+from coopera.people.shipped import shipped_ids
+from coopera.studies.several import Ended, run_studies
 from tests.serving import done, serving
 
 

@@ -22,12 +22,12 @@ import torch
 from tokenizers import Tokenizer
 from transformers import LlamaConfig, LlamaForCausalLM, PreTrainedTokenizerFast
 
-from core.asks import ASKS
-from core.replies import REPLIES
-from models.constrained import Grammars
-from models.huggingface import open_model
-from models.schemas import enforced_schema
-from prompts.examples import examples
+from coopera.core.asks import ASKS
+from coopera.core.replies import REPLIES
+from coopera.models.constrained import Grammars
+from coopera.models.huggingface import open_model
+from coopera.models.schemas import enforced_schema
+from coopera.prompts.examples import examples
 from tests.tiny import LLAMA, word_tokenizer
 
 PROMPTS = ("human/intention", "human/tasks_type1", "robot/tasks_type2", "judge/tasks")

@@ -3,8 +3,8 @@
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
 Evenings are those of one person of the toy household: what the robot imagined in the day, and what is kept of earlier
-days (`graphs.replay`), so that day 50 is known without living 50 days. Seconds are of the processor, of one thread;
-growth is the last day's by those of day 5, or of the first day asked for after it.
+days (`coopera.graphs.rehearsal`), so that day 50 is known without living 50 days. Seconds are of the processor, of one
+thread; growth is the last day's by those of day 5, or of the first day asked for after it.
 `lora-instruct` runs on a random model of Mistral's architecture (--hidden, --layers): its seconds are those of that
 size; its ratio to sampling is between two ways of asking the same model, with random weights that seldom end a text
 early, which is the sampling's worst case.
@@ -23,13 +23,13 @@ from langchain_core.embeddings import Embeddings
 
 from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Robot, draw_person, live_day
-from core.hour import Example
-from graphs.replay import keep
-from memory.embeddings import bundled
-from models.classifiers import CLASSIFIERS, Kind, make_classifier
-from models.classifiers.causal import open_base
-from models.classifiers.instruction import read_recipe
-from prompts import PromptLibrary
+from coopera.core.hour import Example
+from coopera.graphs.rehearsal import keep
+from coopera.memory.embeddings import bundled
+from coopera.models.classifiers import CLASSIFIERS, Kind, make_classifier
+from coopera.models.classifiers.causal import open_base
+from coopera.models.classifiers.instruction import read_recipe
+from coopera.prompts import PromptLibrary
 
 PERSON = 1000
 FULL = 5  # from this day on there are as many examples as an evening takes, so that it should grow no longer

@@ -33,16 +33,16 @@ from transformers import (
 )
 
 from benchmarks.constrained import enlarged
-from core.asks import ASKS
-from core.hour import ModelCall
-from core.protocols import Role
-from core.randomness import Address
-from core.replies import REPLIES
-from models.door import open_door
-from models.settings import CallSettings
-from prompts import PromptLibrary
-from prompts.examples import examples
-from simulation import World, load_scene
+from coopera.core.asks import ASKS
+from coopera.core.hour import ModelCall
+from coopera.core.protocols import Role
+from coopera.core.randomness import Address
+from coopera.core.replies import REPLIES
+from coopera.models.door import open_door
+from coopera.models.settings import CallSettings
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
+from coopera.simulation import World, load_scene
 from tests.fakes import LetterEmbeddings
 from tests.tiny import SEEING, TEXT, word_tokenizer
 

@@ -20,15 +20,15 @@ from pathlib import Path
 
 import numpy as np
 
-from core.errors import SimulationError
-from core.household import Act, Agent, FreeMotion, HandOver, PickPlace
-from simulation import World, list_scenes, load_scene
-from simulation.catalogue import blocks
-from simulation.check import check
-from simulation.navigation import RADIUS, clearance, obstacle_boxes
-from simulation.placing import free_places
-from simulation.plans import Walk
-from simulation.robot import ROBOTS
+from coopera.core.errors import SimulationError
+from coopera.core.household import Act, Agent, FreeMotion, HandOver, PickPlace
+from coopera.simulation import World, list_scenes, load_scene
+from coopera.simulation.acts.free_places import free_places
+from coopera.simulation.acts.home_check import check
+from coopera.simulation.acts.navigation import RADIUS, clearance, obstacle_boxes
+from coopera.simulation.acts.plans import Walk
+from coopera.simulation.bodies.robot import ROBOTS
+from coopera.simulation.homes.catalogue import blocks
 
 AGENTS: tuple[Agent, Agent] = ("human", "robot")
 HOURS, TASKS = 13, 5

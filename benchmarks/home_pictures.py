@@ -10,13 +10,13 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from coopera.home_statistics import draw
-from core.household import plain
-from simulation.build import BuiltHome
-from simulation.catalogue import FixedClass, MovableClass, catalogue
-from simulation.engine import pybullet
-from simulation.overview import inside, overview, picture
-from simulation.scene import Scene, list_scenes, load_scene, rgb_of
+from coopera.core.household import plain
+from coopera.homes.statistics import draw
+from coopera.simulation.homes.catalogue import FixedClass, MovableClass, catalogue
+from coopera.simulation.homes.scene import Scene, list_scenes, load_scene, rgb_of
+from coopera.simulation.making.overview import inside, overview, picture
+from coopera.simulation.sight.build import BuiltHome
+from coopera.simulation.sight.engine import pybullet
 
 DOCS = Path(__file__).parents[1] / "docs"
 _THUMB, _LINE, _COLUMNS = (132, 118), 14, 12

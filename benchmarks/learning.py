@@ -26,16 +26,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from coopera import Config, resume_study, run_study
-from coopera.config import default_data_dir
-from coopera.humans import shipped_ids
-from core.hour import Example
-from core.household import Collab
-from core.protocols import Classifier
-from core.randomness import rng_at
-from evaluation import METHODS, register
-from evaluation.statistics import bootstrap_mean
-from memory.embeddings import bundled
-from models.classifiers import Kind, make_classifier
+from coopera.config.schema import default_data_dir
+from coopera.core.hour import Example
+from coopera.core.household import Collab
+from coopera.core.protocols import Classifier
+from coopera.core.randomness import rng_at
+from coopera.evaluation import METHODS, register
+from coopera.evaluation.statistics import bootstrap_mean
+from coopera.memory.embeddings import bundled
+from coopera.models.classifiers import Kind, make_classifier
+from coopera.people.shipped import shipped_ids
 
 
 class Shuffled:

@@ -32,10 +32,10 @@ from langchain_core.documents import Document
 from langchain_core.embeddings import Embeddings
 from typing_extensions import override
 
-from memory import MemoryStream, Record, bundled
-from memory.embeddings import unit
-from memory.minilm import Vector, shared
-from memory.scan import ArrayRows, top
+from coopera.memory import MemoryStream, Record, bundled
+from coopera.memory.embeddings import unit
+from coopera.memory.minilm import Vector, shared
+from coopera.memory.scan import ArrayRows, top
 
 DECAY = 0.95
 K = 5

@@ -13,16 +13,16 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from core.household import SceneId
-from simulation.motion_folder import load_motions
-from simulation.motions import Motion
-from simulation.motions_poses import Setting, pose_at
-from simulation.plans import Placed
-from simulation.recording import Held, Moment
-from simulation.robot import load_robot
-from simulation.scene import Room, Scene, SceneObject
-from simulation.stage import Camera, Stage
-from simulation.state import HomeState, PersonState, RobotState
+from coopera.core.household import SceneId
+from coopera.simulation.acts.plans import Placed
+from coopera.simulation.acts.state import HomeState, PersonState, RobotState
+from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.motions.library import Motion
+from coopera.simulation.motions.poses import Setting, pose_at
+from coopera.simulation.motions.user_folder import load_motions
+from coopera.simulation.sight.recording import Held, Moment
+from coopera.simulation.sight.stage import Camera, Stage
 
 TILE = (104, 132)
 COLUMNS = 4

@@ -13,12 +13,12 @@ from collections import Counter
 
 import numpy as np
 
-from core.household import FreeMotion, PerceptErrors, PickPlace, SceneId
-from core.randomness import rng_at
-from models.offline.knowledge import shipped
-from simulation import World, load_scene
-from simulation.motions import load_library
-from simulation.pose_matching import TIDYING, matcher
+from coopera.core.household import FreeMotion, PerceptErrors, PickPlace, SceneId
+from coopera.core.randomness import rng_at
+from coopera.models.offline.household.knowledge import shipped
+from coopera.simulation import World, load_scene
+from coopera.simulation.motions.library import load_library
+from coopera.simulation.sight.pose_matching import TIDYING, matcher
 
 HOMES = "maple,oak,pine,rowan,willow"
 

@@ -11,10 +11,10 @@ from tokenizers import Tokenizer, decoders, pre_tokenizers, trainers
 from tokenizers.models import BPE
 from transformers import MistralConfig, MistralForCausalLM, PreTrainedTokenizerFast
 
-from core.hour import Example
-from core.people import BigFive, PersonId
-from models.classifiers.instruction import SHIPPED
-from prompts import PromptLibrary
+from coopera.core.hour import Example
+from coopera.core.people import BigFive, PersonId
+from coopera.models.classifiers.instruction import SHIPPED
+from coopera.prompts import PromptLibrary
 
 RATE = 5e-3
 """Learning rate for a model so small; 1e-5, the paper's for 7 billion weights, would not move it."""

@@ -18,10 +18,10 @@ import numpy.typing as npt
 import yaml
 from langchain_core.embeddings import Embeddings
 
-from core.hour import Example
-from core.people import TRAITS, BigFive, PersonId
-from core.randomness import rng_at
-from memory.embeddings import as_array
+from coopera.core.hour import Example
+from coopera.core.people import TRAITS, BigFive, PersonId
+from coopera.core.randomness import rng_at
+from coopera.memory.embeddings import as_array
 
 HOURS = range(9, 22)
 SIGHT = 0.85

@@ -7,25 +7,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.lazy import lazy_names
+try:
+    from coopera.core.lazy import lazy_names
+    from coopera.core.version import __version__ as __version__
+except ModuleNotFoundError as err:
+    raise ImportError(
+        f"{__path__[0]}/core is not the folder that belongs there: this copy of coopera lost its symbolic links. "
+        "Clone it again with git (on Windows with core.symlinks=true), or install it from its wheel."
+    ) from err
 
 if TYPE_CHECKING:
-    from coopera.config import Config
-    from coopera.conformance import check_method
-    from coopera.rundir import RunDir
-    from coopera.studies import run_studies
-    from coopera.study import resume_study, run_study
+    from coopera.checks.method import check_method
+    from coopera.config.schema import Config
+    from coopera.rundir.directory import RunDir
+    from coopera.studies.several import run_studies
+    from coopera.studies.study import resume_study, run_study
 
 __all__ = ["Config", "RunDir", "check_method", "resume_study", "run_studies", "run_study"]
-__version__ = "0.1.0"
 
 _HOME = {
-    "Config": "coopera.config",
-    "check_method": "coopera.conformance",
-    "RunDir": "coopera.rundir",
-    "run_studies": "coopera.studies",
-    "resume_study": "coopera.study",
-    "run_study": "coopera.study",
+    "Config": "coopera.config.schema",
+    "check_method": "coopera.checks.method",
+    "RunDir": "coopera.rundir.directory",
+    "run_studies": "coopera.studies.several",
+    "resume_study": "coopera.studies.study",
+    "run_study": "coopera.studies.study",
 }
 
-__getattr__ = lazy_names(__name__, _HOME)
+__getattr__, __dir__ = lazy_names(__name__, _HOME)

@@ -7,8 +7,20 @@ from collections.abc import Sequence
 
 import typer
 
-from coopera.commands import analyse, benchmark, humans, memory, models, prompts, replay, reports, run, scenes, sharing
-from core.errors import ConfigError, CooperaError
+from coopera.commands import (
+    analyse,
+    benchmark,
+    humans,
+    memory,
+    models,
+    prompts,
+    replay,
+    reports,
+    run,
+    scenes,
+    sharing,
+)
+from coopera.core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
     name="coopera",

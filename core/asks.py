@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-from core.protocols import Role
+from coopera.core.protocols import Role
 
 _MEMORY = ("recalled_intentions", "recalled_tasks")
 _PERSON = ("person", "name", "big_five", "profile")  # `person` is the id

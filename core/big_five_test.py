@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from core.people import TRAITS, BigFive
+from coopera.core.people import TRAITS, BigFive
 
 BIN = 0.5  # PAPER App. B: bins of 0.5 on the scale from 1 to 5
 TRIALS = 5  # PAPER App. B: five inference trials

@@ -6,9 +6,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from core.clock import Clock
-from core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
-from core.people import BigFive, Frozen, PersonId, Picture
+from coopera.core.clock import Clock
+from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
+from coopera.core.people import BigFive, Frozen, PersonId, Picture
 
 
 class Reasons(Frozen):

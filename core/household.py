@@ -6,7 +6,7 @@ from typing import Annotated, Literal, NewType, TypeAlias
 
 from pydantic import Field
 
-from core.people import Frozen
+from coopera.core.people import Frozen
 
 SceneId = NewType("SceneId", str)
 Agent: TypeAlias = Literal["human", "robot"]

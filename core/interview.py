@@ -6,8 +6,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from core.household import Collab
-from core.people import Frozen, PersonId
+from coopera.core.household import Collab
+from coopera.core.people import Frozen, PersonId
 
 MOST_STEPS = 8
 """Steps of one hour at most, as many as a model's reply may have tasks."""

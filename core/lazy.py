@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from functools import lru_cache, update_wrapper
 from importlib import import_module
@@ -12,20 +13,29 @@ Given = ParamSpec("Given")
 Thing = TypeVar("Thing")
 
 
-def lazy_names(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return a package's `__getattr__`: its names load when they are first used, so an unused room costs nothing.
+def lazy_names(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+    """Return a package's `__getattr__` and `__dir__`: its names load when first used, so an unused room costs nothing.
+
+    In a clone a room can also be imported by its folder's name (`from graphs import build_day_graph`). It then hands
+    on the very same objects, and has no modules of its own: those exist once, as `coopera.graphs.…`.
 
     Args:
         package: Its `__name__`.
         homes: Public name -> the module that defines it.
     """
+    module = sys.modules[package]
+    if not package.startswith("coopera"):
+        module.__path__ = []
 
     def load(name: str) -> Any:
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         return getattr(import_module(homes[name]), name)
 
-    return load
+    def names() -> list[str]:
+        return sorted({*vars(module), *homes})
+
+    return load, names
 
 
 class Made(Generic[Given, Thing]):

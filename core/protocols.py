@@ -8,10 +8,10 @@ from typing import Any, Literal, Protocol, TypeVar
 
 import numpy as np
 
-from core.hour import Evening, Example, HourRecord, ModelCall
-from core.household import Act, Agent, ObjectMap, Outcome, Percept, SceneId
-from core.people import Frozen
-from core.randomness import Address
+from coopera.core.hour import Evening, Example, HourRecord, ModelCall
+from coopera.core.household import Act, Agent, ObjectMap, Outcome, Percept, SceneId
+from coopera.core.people import Frozen
+from coopera.core.randomness import Address
 
 Reply = TypeVar("Reply", bound=Frozen)
 Role = Literal["human", "robot", "judge"]

@@ -10,8 +10,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from core.household import FreeMotion, HandOver, PickPlace
-from core.people import BigFive, Frozen
+from coopera.core.household import FreeMotion, HandOver, PickPlace
+from coopera.core.people import BigFive, Frozen
 
 Sentence = Annotated[str, Field(min_length=1, max_length=300)]
 Reason = Annotated[str, Field(max_length=400)]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.lazy import lazy_names
+from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from evaluation.counts import count, pool
-    from evaluation.methods import METHODS, find_method, known_methods, register
-    from evaluation.settings import SETTINGS, episode, schedule
-    from evaluation.success import Measure
+    from coopera.evaluation.counts import count, pool
+    from coopera.evaluation.methods import METHODS, find_method, known_methods, register
+    from coopera.evaluation.settings import SETTINGS, episode, schedule
+    from coopera.evaluation.success import Measure
 
 __all__ = [
     "METHODS",
@@ -26,16 +26,16 @@ __all__ = [
 ]
 
 _HOMES = {
-    "METHODS": "evaluation.methods",
-    "SETTINGS": "evaluation.settings",
-    "Measure": "evaluation.success",
-    "count": "evaluation.counts",
-    "find_method": "evaluation.methods",
-    "known_methods": "evaluation.methods",
-    "pool": "evaluation.counts",
-    "register": "evaluation.methods",
-    "episode": "evaluation.settings",
-    "schedule": "evaluation.settings",
+    "METHODS": "coopera.evaluation.methods",
+    "SETTINGS": "coopera.evaluation.settings",
+    "Measure": "coopera.evaluation.success",
+    "count": "coopera.evaluation.counts",
+    "find_method": "coopera.evaluation.methods",
+    "known_methods": "coopera.evaluation.methods",
+    "pool": "coopera.evaluation.counts",
+    "register": "coopera.evaluation.methods",
+    "episode": "coopera.evaluation.settings",
+    "schedule": "coopera.evaluation.settings",
 }
 
-__getattr__ = lazy_names(__name__, _HOMES)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from langchain_core.embeddings import Embeddings
 
-from memory import Search
+from coopera.memory import Search
 
 GROUPS: dict[str, str] = {
     "cook or bake": "cook a meal or bake something in the kitchen",

@@ -6,12 +6,12 @@ from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import NamedTuple
 
-from core.hour import Help
-from evaluation.comparing import Comparison, Unit, clustered_mean, compare
-from evaluation.counts import pool
-from evaluation.measures import help_score, l1, pool_help
-from evaluation.results import Row
-from evaluation.statistics import Interval
+from coopera.core.hour import Help
+from coopera.evaluation.comparing import Comparison, Unit, clustered_mean, compare
+from coopera.evaluation.counts import pool
+from coopera.evaluation.measures import help_score, l1, pool_help
+from coopera.evaluation.results import Row
+from coopera.evaluation.statistics import Interval
 
 MEASURES = ("predicate", "judge", "people", "help")
 

@@ -9,12 +9,12 @@ import warnings
 from collections import Counter
 from typing import Any, NamedTuple
 
-from core.clock import Clock, hour_label
-from core.hour import IntentionCandidate, Observation, Proposal, TaskCandidate, Told
-from core.household import Act, FreeMotion, HandOver
-from core.people import PersonId
-from graphs.robot import RobotInput
-from graphs.services import RobotContext
+from coopera.core.clock import Clock, hour_label
+from coopera.core.hour import IntentionCandidate, Observation, Proposal, TaskCandidate, Told
+from coopera.core.household import Act, FreeMotion, HandOver
+from coopera.core.people import PersonId
+from coopera.graphs.robot import RobotInput
+from coopera.graphs.services import RobotContext
 
 
 class Occasion(NamedTuple):
@@ -59,7 +59,7 @@ class Finetuned:
     same map from input to output, trained on the same evenings: multinomial logistic regression from the words of the
     percept and the hour to one of the intentions that were told, which is then carried out as on its most similar
     occasion. It can only repeat what it was told, and it prefers what it was told often. With a robot model of Hugging
-    Face that model itself is finetuned (`evaluation.finetuned`).
+    Face that model itself is finetuned (`coopera.evaluation.finetuned`).
     """
 
     def __init__(self) -> None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from evaluation.statistics import Interval
+from coopera.evaluation.statistics import Interval
 
 ALPHA = 0.05
 POWER = 0.8

@@ -6,9 +6,9 @@ import io
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from core.clock import hour_label
-from evaluation.analysis import curve
-from evaluation.results import Row
+from coopera.core.clock import hour_label
+from coopera.evaluation.analysis import curve
+from coopera.evaluation.results import Row
 
 COLOURS = ("#c1121f", "#1d70b8", "#222222", "#7a7a7a", "#2a9d8f", "#e9a23b", "#8338ec", "#6a994e", "#bc6c25", "#a2d2ff")
 _STYLE: Any = {

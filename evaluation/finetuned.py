@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, TypeAdapter, ValidationError
 
-from core.clock import Clock, hour_label
-from core.errors import CooperaError
-from core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
-from core.household import Collab, HandOver, PickPlace
-from core.people import Frozen, PersonId
-from evaluation.baselines import Occasion, occasions_of, offer, sight_of
-from graphs.robot import RobotInput
-from graphs.services import RobotContext
-from models.classifiers.state import replace_bytes
-from models.parsing import BadReplyError, read_reply
-from models.schemas import enforced_schema
+from coopera.core.clock import Clock, hour_label
+from coopera.core.errors import CooperaError
+from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.household import Collab, HandOver, PickPlace
+from coopera.core.people import Frozen, PersonId
+from coopera.evaluation.baselines import Occasion, occasions_of, offer, sight_of
+from coopera.graphs.robot import RobotInput
+from coopera.graphs.services import RobotContext
+from coopera.models.classifiers.state import replace_bytes
+from coopera.models.parsing import BadReplyError, read_reply
+from coopera.models.schemas import enforced_schema
 
 if TYPE_CHECKING:
-    from models.finetuning import FinetunedChat
+    from coopera.models.finetuning import FinetunedChat
 
 _PAST = "past.json"
 _OCCASIONS = TypeAdapter(list[Occasion])
@@ -53,8 +53,8 @@ class FinetunedModel:
     """
 
     def __init__(self, model: str, recipe: Path | None = None) -> None:
-        """Load the model; see `models.finetuning.FinetunedChat`."""
-        from models.finetuning import FinetunedChat  # noqa: PLC0415 - heavy
+        """Load the model; see `coopera.models.finetuning.FinetunedChat`."""
+        from coopera.models.finetuning import FinetunedChat  # noqa: PLC0415 - heavy
 
         self._chat: FinetunedChat = FinetunedChat(model, recipe)
         self._past: list[Occasion] = []

@@ -13,10 +13,10 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field, ValidationError
 
-from core.clock import HOURS_PER_DAY
-from core.errors import ConfigError
-from core.people import Frozen
-from evaluation.settings import SETTINGS
+from coopera.core.clock import HOURS_PER_DAY
+from coopera.core.errors import ConfigError
+from coopera.core.people import Frozen
+from coopera.evaluation.settings import SETTINGS
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_+-]{0,39}$")]
 Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from core.hour import Counts, FeedbackItem, Help, HourRecord
-from core.household import Outcome
-from evaluation.counts import count
+from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord
+from coopera.core.household import Outcome
+from coopera.evaluation.counts import count
 
 
 def help_given(outcomes: Sequence[Outcome], useful: Sequence[Sequence[bool]], *, remaining: int) -> Help:

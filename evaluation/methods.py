@@ -1,6 +1,6 @@
 """The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here.
 
-Methods of other packages join by an entry point in the group `coopera.methods`; see `graphs.own_robot`.
+Methods of other packages join by an entry point in the group `coopera.methods`; see `coopera.graphs.own_robot`.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from importlib.metadata import EntryPoint, entry_points
 
-from core.errors import ConfigError
-from evaluation.baselines import Finetuned, Habit
-from evaluation.finetuned import FinetunedModel
-from graphs.method import Method
+from coopera.core.errors import ConfigError
+from coopera.evaluation.baselines import Finetuned, Habit
+from coopera.evaluation.finetuned import FinetunedModel
+from coopera.graphs.method import Method
 
 GROUP = "coopera.methods"
 
@@ -26,7 +26,7 @@ METHODS: dict[str, Method] = {
         replace(OURS, name="direct_prompting", guesses=1, verdicts="accept", learns=False),
         Method(
             name="direct_finetuning", traits=False, own=Finetuned, tunes=FinetunedModel
-        ),  # see evaluation.baselines and evaluation.finetuned for what it learns
+        ),  # see coopera.evaluation.baselines and coopera.evaluation.finetuned for what it learns
         replace(OURS, name="oracle", intentions="told", verdicts="accept", learns=False),
         replace(OURS, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
         replace(OURS, name="intention_agnostic", intentions="skipped"),

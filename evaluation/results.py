@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 from pydantic import Field, ValidationError
 
-from core.errors import ConfigError
-from core.hour import Counts, Evening, HourRecord
-from core.people import Frozen
-from evaluation.measures import by_person
+from coopera.core.errors import ConfigError
+from coopera.core.hour import Counts, Evening, HourRecord
+from coopera.core.people import Frozen
+from coopera.evaluation.measures import by_person
 
 FORMAT = 1
 """Raised whenever a column changes its meaning; readers refuse other numbers."""

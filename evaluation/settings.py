@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import product
 from typing import TypeVar
 
-from core.clock import FIRST_HOUR, HOURS_PER_DAY
-from core.errors import ConfigError
-from core.hour import DayPlan
-from core.household import Collab, SceneId
-from core.people import PersonId
+from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
+from coopera.core.errors import ConfigError
+from coopera.core.hour import DayPlan
+from coopera.core.household import Collab, SceneId
+from coopera.core.people import PersonId
 
 Id = TypeVar("Id", bound=str)
 

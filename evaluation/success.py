@@ -16,14 +16,14 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 from numpy.typing import NDArray
 
-from core.errors import ModelOutputError
-from core.hour import Intention, Success, Task, TaskCandidate
-from core.household import Act, FreeMotion, HandOver, Outcome, PickPlace, plain
-from core.protocols import Ask, Home
-from core.randomness import Address
-from core.replies import VerdictsReply
-from evaluation.counts import count
-from evaluation.measures import help_given
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import Intention, Success, Task, TaskCandidate
+from coopera.core.household import Act, FreeMotion, HandOver, Outcome, PickPlace, plain
+from coopera.core.protocols import Ask, Home
+from coopera.core.randomness import Address
+from coopera.core.replies import VerdictsReply
+from coopera.evaluation.counts import count
+from coopera.evaluation.measures import help_given
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """Scores an hour by both measures; implements `graphs.services.Score`."""
+    """Scores an hour by both measures; implements `coopera.graphs.services.Score`."""
 
     ask: Ask
     embeddings: Embeddings

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from evaluation import paper
-from evaluation.analysis import Cell, agreement, comparisons, curve, effort, generalisation, last_day
-from evaluation.results import Row
+from coopera.evaluation import paper
+from coopera.evaluation.analysis import Cell, agreement, comparisons, curve, effort, generalisation, last_day
+from coopera.evaluation.results import Row
 
 REFERENCE = "ours"
 FRESH = "untrained"

@@ -12,11 +12,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from coopera.config import Config, Models
-from coopera.study import new_run, plan_days
-from graphs import build_human_graph
-from graphs.hour import human_context
-from graphs.human import human_hour
+from coopera.config.schema import Config, Models
+from coopera.graphs import build_human_graph
+from coopera.graphs.hour import human_context
+from coopera.graphs.human import human_hour
+from coopera.studies.study import new_run, plan_days
 
 
 def main(person: str = "joan", collab: str = "2", model: str = "offline", base_url: str | None = None) -> None:

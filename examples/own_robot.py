@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from coopera import Config, check_method, run_study
-from core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
-from core.household import FreeMotion, HandOver
-from evaluation import register
-from graphs import Method, RobotContext
-from graphs.robot import RobotInput
+from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.household import FreeMotion, HandOver
+from coopera.evaluation import register
+from coopera.graphs import Method, RobotContext
+from coopera.graphs.robot import RobotInput
 
 
 class Habits:

@@ -8,9 +8,9 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from coopera.config import Config
-from coopera.study import new_run, plan_days
-from graphs import build_day_graph, first_day
+from coopera.config.schema import Config
+from coopera.graphs import build_day_graph, first_day
+from coopera.studies.study import new_run, plan_days
 
 
 def main() -> None:

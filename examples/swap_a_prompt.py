@@ -12,8 +12,8 @@ import tempfile
 from pathlib import Path
 
 from coopera import Config, run_study
-from coopera.rundir import RunDir
-from prompts.loader import SHIPPED
+from coopera.prompts.loader import SHIPPED
+from coopera.rundir.directory import RunDir
 
 NAME = "human/intention"
 

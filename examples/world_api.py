@@ -8,8 +8,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from core.household import FreeMotion, HandOver, PickPlace
-from simulation import World, load_scene
+from coopera.core.household import FreeMotion, HandOver, PickPlace
+from coopera.simulation import World, load_scene
 
 
 def main() -> None:

@@ -12,8 +12,8 @@ from typing import Any
 
 from langchain_core.messages import AIMessage, HumanMessage, ToolCall
 
-from simulation import World, load_scene
-from simulation.tools import world_tools
+from coopera.simulation import World, load_scene
+from coopera.simulation.tools import world_tools
 
 GOAL = "Put one mug on the coffee table in the living room, then tell me where it is."
 WRITTEN = [

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.lazy import lazy_names
+from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from graphs.day import build_day_graph, first_day
-    from graphs.human import build_human_graph
-    from graphs.method import Method
-    from graphs.robot import build_robot_graph
-    from graphs.services import HumanContext, RobotContext, Services
-    from graphs.study import STATE_TYPES, build_study_graph
+    from coopera.graphs.day import build_day_graph, first_day
+    from coopera.graphs.human import build_human_graph
+    from coopera.graphs.method import Method
+    from coopera.graphs.robot import build_robot_graph
+    from coopera.graphs.services import HumanContext, RobotContext, Services
+    from coopera.graphs.study import STATE_TYPES, build_study_graph
 
 __all__ = [
     "STATE_TYPES",
@@ -28,16 +28,16 @@ __all__ = [
 ]
 
 _HOMES = {
-    "STATE_TYPES": "graphs.study",
-    "HumanContext": "graphs.services",
-    "Method": "graphs.method",
-    "RobotContext": "graphs.services",
-    "Services": "graphs.services",
-    "build_day_graph": "graphs.day",
-    "build_human_graph": "graphs.human",
-    "build_robot_graph": "graphs.robot",
-    "build_study_graph": "graphs.study",
-    "first_day": "graphs.day",
+    "STATE_TYPES": "coopera.graphs.study",
+    "HumanContext": "coopera.graphs.services",
+    "Method": "coopera.graphs.method",
+    "RobotContext": "coopera.graphs.services",
+    "Services": "coopera.graphs.services",
+    "build_day_graph": "coopera.graphs.day",
+    "build_human_graph": "coopera.graphs.human",
+    "build_robot_graph": "coopera.graphs.robot",
+    "build_study_graph": "coopera.graphs.study",
+    "first_day": "coopera.graphs.day",
 }
 
-__getattr__ = lazy_names(__name__, _HOMES)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from core.errors import ModelOutputError
-from core.hour import Task
-from core.household import Act, FreeMotion, ObjectMap, PickPlace, plain
-from core.protocols import Home
-from memory import Search
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import Task
+from coopera.core.household import Act, FreeMotion, ObjectMap, PickPlace, plain
+from coopera.core.protocols import Home
+from coopera.memory import Search
 
 _NOTHING = {"none", "nothing", "n/a", "na", "null", "no object", "empty"}
 

@@ -16,20 +16,20 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
-from core.household import SceneId
-from core.interview import Question
-from core.people import PersonId, Picture
-from core.randomness import Address
-from core.replies import GradesReply, VerdictsReply
-from graphs.hour import build_hour_graph, human_context
-from graphs.human import as_tasks, when, who
-from graphs.learning import told_of
-from graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
-from graphs.services import Services
-from graphs.traits import revise, told
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
+from coopera.core.household import SceneId
+from coopera.core.interview import Question
+from coopera.core.people import PersonId, Picture
+from coopera.core.randomness import Address
+from coopera.core.replies import GradesReply, VerdictsReply
+from coopera.graphs.hour import build_hour_graph, human_context
+from coopera.graphs.human import as_tasks, when, who
+from coopera.graphs.learning import told_of
+from coopera.graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
+from coopera.graphs.services import Services
+from coopera.graphs.traits import revise, told
 
 
 class DayInput(TypedDict):

@@ -16,20 +16,27 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
-from core.household import Outcome
-from core.people import PersonId, Picture
-from core.protocols import Home
-from core.randomness import Address
-from graphs.human import HumanInput, HumanState, build_human_graph, human_hour
-from graphs.identity import identify, sight
-from graphs.lived import Shown
-from graphs.robot import OracleInput, RobotInput, RobotState, build_own_robot_graph, build_robot_graph, robot_hour
-from graphs.services import HumanContext, RobotContext, Services
-from graphs.traits import guesses, revise
-from simulation.state import digest
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
+from coopera.core.household import Outcome
+from coopera.core.people import PersonId, Picture
+from coopera.core.protocols import Home
+from coopera.core.randomness import Address
+from coopera.graphs.earlier_life import Shown
+from coopera.graphs.human import HumanInput, HumanState, build_human_graph, human_hour
+from coopera.graphs.identity import identify, sight
+from coopera.graphs.robot import (
+    OracleInput,
+    RobotInput,
+    RobotState,
+    build_own_robot_graph,
+    build_robot_graph,
+    robot_hour,
+)
+from coopera.graphs.services import HumanContext, RobotContext, Services
+from coopera.graphs.traits import guesses, revise
+from coopera.simulation.acts.state import digest
 
 
 class HourInput(TypedDict):

@@ -12,12 +12,12 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
-from core.clock import Clock, hour_label
-from core.errors import ModelOutputError
-from core.hour import Found, HumanHour, Intention, Reasons, Recalled, Reflection, Task, TaskVerdict
-from core.household import ObjectMap, plain
-from core.randomness import Address
-from core.replies import (
+from coopera.core.clock import Clock, hour_label
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import Found, HumanHour, Intention, Reasons, Recalled, Reflection, Task, TaskVerdict
+from coopera.core.household import ObjectMap, plain
+from coopera.core.randomness import Address
+from coopera.core.replies import (
     DayReply,
     FreeMotionReflectionReply,
     FreeMotionReply,
@@ -25,11 +25,11 @@ from core.replies import (
     PickPlaceReflectionReply,
     PickPlaceReply,
 )
-from graphs.checks import findings, repair
-from graphs.method import Numbers
-from graphs.recall import as_memory, as_variables, recall_both
-from graphs.services import HumanContext
-from graphs.stated import Draft, chosen, fill, stated_intention, stated_steps
+from coopera.graphs.checks import findings, repair
+from coopera.graphs.method import Numbers
+from coopera.graphs.recall import as_memory, as_variables, recall_both
+from coopera.graphs.services import HumanContext
+from coopera.graphs.stated import Draft, chosen, fill, stated_intention, stated_steps
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflectionReply]] = {
@@ -238,12 +238,12 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 
 def when(clock: Clock) -> dict[str, Any]:
-    """The time variables of `core.asks`."""
+    """The time variables of `coopera.core.asks`."""
     return {"time": clock.label, "hour": clock.hour, "weekday": clock.weekday, "day": clock.day}
 
 
 def who(ctx: HumanContext) -> dict[str, Any]:
-    """The person variables of `core.asks`; only the person's own prompts get them."""
+    """The person variables of `coopera.core.asks`; only the person's own prompts get them."""
     persona = ctx.persona
     return {
         "person": persona.id,

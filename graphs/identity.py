@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from core.clock import Clock
-from core.hour import Observation
-from core.people import PersonId
-from graphs.services import Memories
+from coopera.core.clock import Clock
+from coopera.core.hour import Observation
+from coopera.core.people import PersonId
+from coopera.graphs.services import Memories
 
 NEAREST = 10
 """Memories of each person that a sight is compared with."""

@@ -11,14 +11,14 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import ValidationError
 
-from core.clock import Clock
-from core.errors import CooperaError, LearningError, RunError
-from core.hour import DayPlan, Example, FeedbackItem, HourRecord, Told, ToldHour
-from core.people import PersonId, Picture
-from core.protocols import Classifier, Recorder
-from core.randomness import seed_at
-from graphs.method import Kind
-from graphs.replay import keep
+from coopera.core.clock import Clock
+from coopera.core.errors import CooperaError, LearningError, RunError
+from coopera.core.hour import DayPlan, Example, FeedbackItem, HourRecord, Told, ToldHour
+from coopera.core.people import PersonId, Picture
+from coopera.core.protocols import Classifier, Recorder
+from coopera.core.randomness import seed_at
+from coopera.graphs.method import Kind
+from coopera.graphs.rehearsal import keep
 
 __all__ = ["EXAMPLES", "KEPT", "KINDS", "Kind", "Learner", "Mode", "example", "labelled", "told_of"]
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from core.protocols import Classifier
-    from graphs.own_robot import MakeRobot, Robot
+    from coopera.core.protocols import Classifier
+    from coopera.graphs.own_robot import MakeRobot, Robot
 
 Kind: TypeAlias = Literal["intention", "task"]
 """What a classifier judges."""
@@ -36,8 +36,8 @@ class Method:
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
         other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
-        own: The class of a robot of one's own, which then takes the place of our graph (`graphs.own_robot`). Of the
-            other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
+        own: The class of a robot of one's own, which then takes the place of our graph (`coopera.graphs.own_robot`).
+            Of the other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
         tunes: Makes the robot that takes the place of `own` where the robot's model is one of Hugging Face: it
             finetunes that model, given by its name, by a recipe (None: the shipped one). Models elsewhere are refused.
     """

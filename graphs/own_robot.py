@@ -15,7 +15,7 @@ choice of `coopera run --method`:
 The rules: within an hour a robot knows its `RobotInput` and its `RobotContext` and nothing else. Between hours it
 changes nothing in itself, since an interrupted hour is done again, perhaps in another process: what it guessed earlier
 today is in `ctx.guesses`, what it was told on earlier days in `ctx.history`. What `learn` makes of the same evenings
-in the same order with the same seeds is the same. Every draw comes from `core.randomness`.
+in the same order with the same seeds is the same. Every draw comes from `coopera.core.randomness`.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, runtime_checkable
 
 from pydantic import ValidationError
 
-from core.errors import CooperaError, RunError
-from core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
-from core.household import Collab
-from core.protocols import Recorder
-from core.randomness import seed_at
+from coopera.core.errors import CooperaError, RunError
+from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.household import Collab
+from coopera.core.protocols import Recorder
+from coopera.core.randomness import seed_at
 
 if TYPE_CHECKING:
-    from graphs.robot import RobotInput
-    from graphs.services import RobotContext
+    from coopera.graphs.robot import RobotInput
+    from coopera.graphs.services import RobotContext
 
 _LOG = logging.getLogger(__name__)
 TOLD = "told.json"
@@ -150,7 +150,9 @@ def checked(proposal: Proposal, collab: Collab, method: str) -> Proposal:
         RunError: Naming the method, the candidate and what was expected.
     """
     if not isinstance(proposal, Proposal):
-        raise RunError(f"method {method}: help must return a core.hour.Proposal, not {type(proposal).__name__}.")
+        raise RunError(
+            f"method {method}: help must return a coopera.core.hour.Proposal, not {type(proposal).__name__}."
+        )
     once: dict[str, TaskCandidate] = {}
     for task in proposal.tasks:
         if task.act.kind != _ACT[collab]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from core.people import Persona
+from coopera.core.people import Persona
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ from typing import NamedTuple, TypeAlias, TypeVar
 
 from langgraph.types import interrupt
 
-from core.household import Collab, FreeMotion, ObjectMap, PickPlace, plain
-from core.interview import MOST_STEPS, Answer, Question
-from core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.core.household import Collab, FreeMotion, ObjectMap, PickPlace, plain
+from coopera.core.interview import MOST_STEPS, Answer, Question
+from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
 
 Interview: TypeAlias = Callable[[Question], Answer]
 Read = TypeVar("Read")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Literal
 
-from core.clock import Clock, hour_label
-from core.hour import Recalled
-from graphs.method import Numbers
-from graphs.services import Memories
-from memory import MemoryStream
+from coopera.core.clock import Clock, hour_label
+from coopera.core.hour import Recalled
+from coopera.graphs.method import Numbers
+from coopera.graphs.services import Memories
+from coopera.memory import MemoryStream
 
 Kind = Literal["intention", "task"]
 
@@ -31,7 +31,7 @@ def best(recalled: Iterable[Recalled]) -> list[Recalled]:
 
 
 def as_variables(recalled: Iterable[Recalled], now: Clock) -> dict[str, list[dict[str, Any]]]:
-    """The variables `recalled_intentions` and `recalled_tasks` of `core.asks`."""
+    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`."""
     memories = list(recalled)
     return {
         f"recalled_{kind}s": [as_memory(m.text, m.hour, now) for m in memories if m.kind == kind]

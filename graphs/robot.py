@@ -17,19 +17,19 @@ from langgraph.runtime import Runtime
 from langgraph.types import Send
 from typing_extensions import TypedDict
 
-from core.clock import Clock
-from core.errors import ModelOutputError, RunError
-from core.hour import Example, IntentionCandidate, Observation, Reasons, Recalled, RobotHour, TaskCandidate
-from core.household import Outcome
-from core.people import Picture
-from core.randomness import Address
-from core.replies import HandOverReply, IntentionsReply, PickPlaceReply
-from graphs.human import when
-from graphs.learning import Kind, example
-from graphs.method import Numbers
-from graphs.own_robot import checked
-from graphs.recall import as_variables, best, recall_both
-from graphs.services import RobotContext
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError, RunError
+from coopera.core.hour import Example, IntentionCandidate, Observation, Reasons, Recalled, RobotHour, TaskCandidate
+from coopera.core.household import Outcome
+from coopera.core.people import Picture
+from coopera.core.randomness import Address
+from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
+from coopera.graphs.human import when
+from coopera.graphs.learning import Kind, example
+from coopera.graphs.method import Numbers
+from coopera.graphs.own_robot import checked
+from coopera.graphs.recall import as_variables, best, recall_both
+from coopera.graphs.services import RobotContext
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
 
@@ -122,7 +122,7 @@ def propose(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]
     """Ask a robot of one's own. Reads the input; writes `recalled`, `intentions`, `tasks` and `fallbacks`.
 
     Raises:
-        RunError: If what it proposes breaks the rules of `graphs.own_robot`.
+        RunError: If what it proposes breaks the rules of `coopera.graphs.own_robot`.
     """
     ctx = runtime.context
     if ctx.own is None:

@@ -14,19 +14,19 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
-from core.clock import Clock
-from core.hour import DayPlan, Intention, LoggedHour, SearchSizes, Success, Task, TaskCandidate
-from core.household import Collab, Outcome, SceneId
-from core.people import Persona, PersonId
-from core.protocols import Ask, Home, Recorder
-from core.randomness import Address, rng_at
-from graphs.learning import Learner
-from graphs.lived import Lived
-from graphs.method import Method
-from graphs.own_robot import OwnRobot, Robot
-from graphs.person import FULL, PersonModel
-from graphs.real_person import Interview
-from memory import MemoryStream, Record, Search
+from coopera.core.clock import Clock
+from coopera.core.hour import DayPlan, Intention, LoggedHour, SearchSizes, Success, Task, TaskCandidate
+from coopera.core.household import Collab, Outcome, SceneId
+from coopera.core.people import Persona, PersonId
+from coopera.core.protocols import Ask, Home, Recorder
+from coopera.core.randomness import Address, rng_at
+from coopera.graphs.earlier_life import Lived
+from coopera.graphs.learning import Learner
+from coopera.graphs.method import Method
+from coopera.graphs.own_robot import OwnRobot, Robot
+from coopera.graphs.person import FULL, PersonModel
+from coopera.graphs.real_person import Interview
+from coopera.memory import MemoryStream, Record, Search
 
 
 class Memories(NamedTuple):
@@ -100,7 +100,7 @@ def nothing_was_told(_plan: DayPlan, _clock: Clock) -> None:
 
 
 class Score(Protocol):
-    """The measure of an hour; `evaluation.success` has the real one."""
+    """The measure of an hour; `coopera.evaluation.success` has the real one."""
 
     def __call__(
         self,
@@ -152,7 +152,7 @@ class Services:
     interview: Interview | None = None
     """How the node that runs now asks the person; set by the day graph."""
     told_who: bool = True
-    """Whether the robot is told whom it is with, or guesses it (`graphs.identity`)."""
+    """Whether the robot is told whom it is with, or guesses it (`coopera.graphs.identity`)."""
     hourly_traits: bool = False
     """Whether the robot revises its picture of the person each hour, from its own guesses, or in the evening alone."""
     own: OwnRobot | None = None

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeAlias
 
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import Found, Intention
-from core.interview import Question
-from core.replies import FreeMotionDraft, PickPlaceDraft
-from graphs.method import Numbers
-from graphs.real_person import ask_until_read, read_choice, read_intention, read_steps
-from graphs.services import HumanContext
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import Found, Intention
+from coopera.core.interview import Question
+from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.graphs.method import Numbers
+from coopera.graphs.real_person import ask_until_read, read_choice, read_intention, read_steps
+from coopera.graphs.services import HumanContext
 
 Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
 

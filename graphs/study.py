@@ -12,13 +12,13 @@ from langgraph.runtime import Runtime
 from langgraph.types import Command, StateSnapshot
 from typing_extensions import TypedDict
 
-from core.clock import Clock
-from core.hour import DayPlan, FeedbackItem
-from core.household import SceneId
-from core.interview import Answer, Question
-from core.people import BigFive, PersonId, Picture
-from graphs.day import build_day_graph
-from graphs.services import Services
+from coopera.core.clock import Clock
+from coopera.core.hour import DayPlan, FeedbackItem
+from coopera.core.household import SceneId
+from coopera.core.interview import Answer, Question
+from coopera.core.people import BigFive, PersonId, Picture
+from coopera.graphs.day import build_day_graph
+from coopera.graphs.services import Services
 
 STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, Picture)
 """The classes that stand in checkpoints; a checkpointer's serialiser must be given them."""

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from core.clock import Clock
-from core.hour import HourRecord, RobotHour
-from core.people import Picture
-from core.protocols import Ask
-from core.randomness import Address
-from core.replies import TraitsReply
-from graphs.recall import as_memory
+from coopera.core.clock import Clock
+from coopera.core.hour import HourRecord, RobotHour
+from coopera.core.people import Picture
+from coopera.core.protocols import Ask
+from coopera.core.randomness import Address
+from coopera.core.replies import TraitsReply
+from coopera.graphs.recall import as_memory
 
 
 class Past(NamedTuple):

@@ -4,33 +4,33 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.lazy import lazy_names
+from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
-    from memory.log import Record
-    from memory.rebuild import Repaired, repair
-    from memory.retriever import MemoryRetriever
-    from memory.search import Search
-    from memory.store import streams
-    from memory.stream import MemoryStream, Recollection
-    from memory.transfer import export_jsonl, import_jsonl
+    from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
+    from coopera.memory.log import Record
+    from coopera.memory.rebuild import Repaired, repair
+    from coopera.memory.retriever import MemoryRetriever
+    from coopera.memory.search import Search
+    from coopera.memory.store import streams
+    from coopera.memory.stream import MemoryStream, Recollection
+    from coopera.memory.transfer import export_jsonl, import_jsonl
 
 _HOMES = {
-    "CachedEmbeddings": "memory.embeddings",
-    "MemoryRetriever": "memory.retriever",
-    "MemoryStream": "memory.stream",
-    "Recollection": "memory.stream",
-    "Record": "memory.log",
-    "Repaired": "memory.rebuild",
-    "Search": "memory.search",
-    "as_array": "memory.embeddings",
-    "bundled": "memory.embeddings",
-    "export_jsonl": "memory.transfer",
-    "hugging_face": "memory.embeddings",
-    "import_jsonl": "memory.transfer",
-    "repair": "memory.rebuild",
-    "streams": "memory.store",
+    "CachedEmbeddings": "coopera.memory.embeddings",
+    "MemoryRetriever": "coopera.memory.retriever",
+    "MemoryStream": "coopera.memory.stream",
+    "Recollection": "coopera.memory.stream",
+    "Record": "coopera.memory.log",
+    "Repaired": "coopera.memory.rebuild",
+    "Search": "coopera.memory.search",
+    "as_array": "coopera.memory.embeddings",
+    "bundled": "coopera.memory.embeddings",
+    "export_jsonl": "coopera.memory.transfer",
+    "hugging_face": "coopera.memory.embeddings",
+    "import_jsonl": "coopera.memory.transfer",
+    "repair": "coopera.memory.rebuild",
+    "streams": "coopera.memory.store",
 }
 
 __all__ = [
@@ -50,4 +50,4 @@ __all__ = [
     "streams",
 ]
 
-__getattr__ = lazy_names(__name__, _HOMES)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
-from core.errors import ConfigError, MemoryStoreError
+from coopera.core.errors import ConfigError, MemoryStoreError
 
 if TYPE_CHECKING:
     import httpx

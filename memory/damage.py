@@ -1,4 +1,4 @@
-"""Whether a store can be read at all, asked of a process of its own (`memory.probe`)."""
+"""Whether a store can be read at all, asked of a process of its own (`coopera.memory.probe`)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from core.errors import MemoryStoreError
+from coopera.core.errors import MemoryStoreError
 
 _PATIENCE = 600.0  # seconds, for a store of a million records
 
@@ -22,9 +22,9 @@ def damage(folder: Path, *, everything: bool = False) -> str | None:
     Raises:
         MemoryStoreError: If there is no answer within ten minutes.
     """
-    root = str(Path(__file__).resolve().parents[1])
+    root = str(Path(__file__).absolute().parents[2])  # what holds coopera/, in a clone and in site-packages
     paths = [root, *filter(None, [os.environ.get("PYTHONPATH")])]
-    command = [sys.executable, "-m", "memory.probe", str(folder), *(["--all"] if everything else [])]
+    command = [sys.executable, "-m", "coopera.memory.probe", str(folder), *(["--all"] if everything else [])]
     try:
         done = subprocess.run(
             command,

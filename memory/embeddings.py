@@ -14,9 +14,9 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 from typing_extensions import override
 
-from core.errors import ConfigError, MemoryStoreError
-from memory import minilm
-from memory.minilm import Vector
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory import minilm
+from coopera.memory.minilm import Vector
 
 _LOG = logging.getLogger(__name__)
 _HUGGING_FACE = "Hugging Face "

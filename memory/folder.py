@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
-from core.errors import ConfigError, MemoryStoreError
+from coopera.core.errors import ConfigError, MemoryStoreError
 
 CHROMA = "chroma.sqlite3"
 _LOCK = "writer.lock"

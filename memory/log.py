@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from core.errors import MemoryStoreError
-from memory.client import translated
-from memory.folder import DamagedMemoryError
-from memory.minilm import Vector
-from memory.numbering import Numbering, position_of
-from memory.scan import BLOCK, Block
+from coopera.core.errors import MemoryStoreError
+from coopera.memory.client import translated
+from coopera.memory.folder import DamagedMemoryError
+from coopera.memory.minilm import Vector
+from coopera.memory.numbering import Numbering, position_of
+from coopera.memory.scan import BLOCK, Block
 
 if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection

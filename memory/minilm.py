@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from core.lazy import made_once
+from coopera.core.lazy import made_once
 
 Vector: TypeAlias = npt.NDArray[np.float32]
 

@@ -1,4 +1,4 @@
-"""Look at a store in a process of its own: `python -m memory.probe FOLDER [--all]`.
+"""Look at a store in a process of its own: `python -m coopera.memory.probe FOLDER [--all]`.
 
 Chroma's index is native code, and a damaged index file can end the process that reads it. So a store that was not
 closed properly, or was copied, is first opened here, where nothing is lost if that happens. Ends with status 0 if the
@@ -12,12 +12,12 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from core.errors import MemoryStoreError
-from memory.client import open_client
-from memory.folder import DamagedMemoryError
-from memory.log import Log
-from memory.scan import BLOCK
-from memory.store import Store
+from coopera.core.errors import MemoryStoreError
+from coopera.memory.client import open_client
+from coopera.memory.folder import DamagedMemoryError
+from coopera.memory.log import Log
+from coopera.memory.scan import BLOCK
+from coopera.memory.store import Store
 
 _HEADER = struct.Struct("<iQQQQQQiIQQQdQ")  # of the index library in Chroma 1.5
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from memory.minilm import Vector
+from coopera.memory.minilm import Vector
 
 
 @dataclass(slots=True)

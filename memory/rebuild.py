@@ -20,13 +20,13 @@ from typing import Any, NamedTuple
 
 from langchain_core.embeddings import Embeddings
 
-from core.errors import ConfigError, MemoryStoreError
-from memory.damage import damage
-from memory.embeddings import as_array, by_identity, identity, unit
-from memory.folder import CHROMA, DamagedMemoryError, locked, repaired
-from memory.log import Log, Record, restored
-from memory.numbering import Numbering, position_of
-from memory.store import Store
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory.damage import damage
+from coopera.memory.embeddings import as_array, by_identity, identity, unit
+from coopera.memory.folder import CHROMA, DamagedMemoryError, locked, repaired
+from coopera.memory.log import Log, Record, restored
+from coopera.memory.numbering import Numbering, position_of
+from coopera.memory.store import Store
 
 _LOG = logging.getLogger(__name__)
 _PAGE = 500

@@ -10,7 +10,7 @@ from langchain_core.retrievers import BaseRetriever
 from pydantic import ConfigDict, Field
 from typing_extensions import override
 
-from memory.stream import MemoryStream
+from coopera.memory.stream import MemoryStream
 
 
 class MemoryRetriever(BaseRetriever):

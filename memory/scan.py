@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from memory.minilm import Vector
+from coopera.memory.minilm import Vector
 
 BLOCK = 512
 """Records per block: what is read at once."""

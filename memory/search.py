@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
-from core.errors import ConfigError
-from memory.embeddings import as_array, unit
+from coopera.core.errors import ConfigError
+from coopera.memory.embeddings import as_array, unit
 
 
 class Search:

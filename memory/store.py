@@ -14,16 +14,16 @@ from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeVar
 
-from core.errors import ConfigError, MemoryStoreError
-from memory.client import connect, disconnect, open_client, translated
-from memory.damage import damage
-from memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal, unseal, was_closed
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory.client import connect, disconnect, open_client, translated
+from coopera.memory.damage import damage
+from coopera.memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal, unseal, was_closed
 
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
     from chromadb.api.models.Collection import Collection
 
-    from memory.ram import RamClient
+    from coopera.memory.ram import RamClient
 
 _SPACE = "ip"
 _INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}

@@ -1,7 +1,7 @@
 """The memory stream: what a person did, recalled by recency x relevance.
 
 PAPER §3.2 (Memory Retrieval): the score of a memory is its cosine with the query times decay^(hours ago). The result is
-exactly the best k, and the time to find them does not grow with the number of records (see `memory.scan`).
+exactly the best k, and the time to find them does not grow with the number of records (see `coopera.memory.scan`).
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from langchain_core.embeddings import Embeddings
 
-from core.errors import ConfigError, MemoryStoreError
-from memory.embeddings import as_array, identity, unit
-from memory.folder import DamagedMemoryError
-from memory.log import Log, Record
-from memory.minilm import Vector
-from memory.rebuild import heal
-from memory.scan import top
-from memory.store import Store
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory.embeddings import as_array, identity, unit
+from coopera.memory.folder import DamagedMemoryError
+from coopera.memory.log import Log, Record
+from coopera.memory.minilm import Vector
+from coopera.memory.rebuild import heal
+from coopera.memory.scan import top
+from coopera.memory.store import Store
 
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
 
-    from memory.ram import RamClient
+    from coopera.memory.ram import RamClient
 
 DECAY = 0.95  # PAPER §3.2: per hour
 MAX_TEXT = 100_000
@@ -93,7 +93,7 @@ class MemoryStream:
 
         Args:
             path_or_client: Folder of the store; or URL of a Chroma server, such as "http://localhost:8000"; or a
-                Chroma client, or a `memory.ram.RamClient`.
+                Chroma client, or a `coopera.memory.ram.RamClient`.
             name: The stream's name, free text of up to 200 characters, such as "human/mara/intentions".
             embeddings: What the records' and queries' vectors come from; always the same for one stream.
             decay: Factor per hour, in (0, 1]. It is not stored: a stream can be read with any.

@@ -14,10 +14,10 @@ from typing import Any
 
 from pydantic import Field, StrictInt, ValidationError
 
-from core.errors import ConfigError
-from core.people import Frozen
-from memory.log import Record
-from memory.stream import MAX_TEXT, MemoryStream
+from coopera.core.errors import ConfigError
+from coopera.core.people import Frozen
+from coopera.memory.log import Record
+from coopera.memory.stream import MAX_TEXT, MemoryStream
 
 _KIND = "coopera memory stream"
 _VERSION = 1

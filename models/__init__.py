@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from core.lazy import lazy_names
+from typing import TYPE_CHECKING
 
-_WHERE = {
-    "Door": "models.door",
-    "OfflineChatModel": "models.offline.chat",
-    "open_door": "models.door",
+from coopera.core.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from coopera.models.door import Door, open_door
+    from coopera.models.offline.chat import OfflineChatModel
+
+__all__ = ["Door", "OfflineChatModel", "open_door"]
+
+_HOMES = {
+    "Door": "coopera.models.door",
+    "OfflineChatModel": "coopera.models.offline.chat",
+    "open_door": "coopera.models.door",
 }
-"""Public name -> the module that defines it. To re-export a name, add it here."""
 
-__all__ = sorted(_WHERE)
-
-__getattr__ = lazy_names(__name__, _WHERE)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -21,12 +21,12 @@ from langchain_core.exceptions import ModelError
 from langchain_core.language_models import BaseChatModel
 from langchain_core.messages import AIMessage, BaseMessage
 
-from core.errors import ConfigError, ModelCallError
-from core.protocols import Role
-from models.cache import CachedReply
-from models.replay import Past
-from models.settings import CallSettings, Structure
-from models.transport import Line, RefusedError, Sleep, gate_to, wait
+from coopera.core.errors import ConfigError, ModelCallError
+from coopera.core.protocols import Role
+from coopera.models.cache import CachedReply
+from coopera.models.replay import Past
+from coopera.models.settings import CallSettings, Structure
+from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
@@ -186,10 +186,10 @@ def household_file(spec: str) -> Path | None:
 
 
 def _offline(spec: str, role: Role, embeddings: Embeddings) -> Backend:
-    offline = importlib.import_module("models.offline.chat")
-    knowledge = importlib.import_module("models.offline.knowledge")
+    offline = importlib.import_module("coopera.models.offline.chat")
+    knowledge = importlib.import_module("coopera.models.offline.household.knowledge")
     if spec == "offline:words":
-        embeddings = importlib.import_module("models.offline.words").WordEmbeddings()
+        embeddings = importlib.import_module("coopera.models.offline.household.words").WordEmbeddings()
     own = household_file(spec)
     if own is not None and not own.is_file():
         raise ConfigError(f'the model "{spec}" is unknown: there is no such file, and a model may be {_HELP}')
@@ -199,7 +199,7 @@ def _offline(spec: str, role: Role, embeddings: Embeddings) -> Backend:
 
 
 def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
-    model = importlib.import_module("models.huggingface").open_model(name, settings)
+    model = importlib.import_module("coopera.models.huggingface").open_model(name, settings)
     constrained = model.constrains and settings.structure != "text"
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import Future
 from typing import Generic, TypeVar
 
-from core.errors import ModelCallError
+from coopera.core.errors import ModelCallError
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import threading
 
-from core.errors import BudgetError
-from models.settings import Budget, Spent
+from coopera.core.errors import BudgetError
+from coopera.models.settings import Budget, Spent
 
 
 class Meter:

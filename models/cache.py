@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from core.errors import RunError
+from coopera.core.errors import RunError
 
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
 

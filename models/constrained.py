@@ -16,7 +16,7 @@ from llguidance import LLMatcher, LLTokenizer
 from llguidance.hf import from_tokenizer
 from transformers import LogitsProcessor
 
-from core.errors import ModelCallError
+from coopera.core.errors import ModelCallError
 
 _COMPILED = 256  # schemas kept: one differs from another by the objects that it names
 _ESCAPES = 'nt"\\'  # no \uXXXX: half a surrogate pair would be no text

@@ -17,18 +17,18 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
-from core.errors import ModelCallError, ModelOutputError, RunError
-from core.hour import ModelCall
-from core.protocols import Prompts, Rendered, Reply, Role
-from core.randomness import Address, seed_at
-from models.backends import Backend, Request, open_backends
-from models.budget import Meter
-from models.cache import CachedReply, ReplyCache, key_of
-from models.parsing import BadReplyError, read_reply
-from models.replay import SCHEMA_FOLLOWS, Past
-from models.schemas import enforced_schema, schema_of, strays
-from models.settings import CallSettings
-from models.transport import Sleep, wait
+from coopera.core.errors import ModelCallError, ModelOutputError, RunError
+from coopera.core.hour import ModelCall
+from coopera.core.protocols import Prompts, Rendered, Reply, Role
+from coopera.core.randomness import Address, seed_at
+from coopera.models.backends import Backend, Request, open_backends
+from coopera.models.budget import Meter
+from coopera.models.cache import CachedReply, ReplyCache, key_of
+from coopera.models.parsing import BadReplyError, read_reply
+from coopera.models.replay import SCHEMA_FOLLOWS, Past
+from coopera.models.schemas import enforced_schema, schema_of, strays
+from coopera.models.settings import CallSettings
+from coopera.models.transport import Sleep, wait
 
 SHOWN = 4000  # characters of a bad reply that the model is shown again
 STRAYS = 5  # things out of place that a model is told of at once
@@ -57,7 +57,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
 
     Args:
         prompts: The prompt folder.
-        specs: Model of each role (`models.backends`); a role that is not there is played by the offline model.
+        specs: Model of each role (`coopera.models.backends`); a role that is not there is played by the offline model.
         seed: The run's seed; each call's seed derives from it and the call's address.
         embeddings: What the offline model compares texts with.
         base_url: Where an OpenAI-compatible server listens.
@@ -119,7 +119,7 @@ class _Talk:
 
 @dataclass(slots=True)
 class Door:
-    """The one door; implements `core.protocols.Ask`. Threads may call it at the same time."""
+    """The one door; implements `coopera.core.protocols.Ask`. Threads may call it at the same time."""
 
     prompts: Prompts
     backends: Mapping[Role, Backend]

@@ -14,13 +14,13 @@ from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 
-from core.errors import CooperaError
-from models.classifiers.causal import CausalBase, open_base
-from models.classifiers.evening import must_be_finite, one_thread
-from models.classifiers.instruction import InstructRecipe, read_recipe
-from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Kind
-from models.huggingface import HuggingFaceChat, wrap
+from coopera.core.errors import CooperaError
+from coopera.models.classifiers.causal import CausalBase, open_base
+from coopera.models.classifiers.evening import must_be_finite, one_thread
+from coopera.models.classifiers.instruction import InstructRecipe, read_recipe
+from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
+from coopera.models.classifiers.text import Kind
+from coopera.models.huggingface import HuggingFaceChat, wrap
 
 VERSION = 1
 WEIGHTS, CONFIG = "adapter_model.safetensors", "adapter_config.json"  # as peft names and reads them

@@ -1,8 +1,8 @@
 """Hugging Face models in this process: text models, and models that look at pictures, as one LangChain chat model.
 
 Weights are loaded once, prompts that arrive together are answered together, and a reply is held to its JSON schema
-while it is decoded (`models.constrained`). Sampling draws from a generator of the call's own seed, so no global random
-state is read or changed.
+while it is decoded (`coopera.models.constrained`). Sampling draws from a generator of the call's own seed, so no global
+random state is read or changed.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from transformers import (
 )
 from typing_extensions import override
 
-from core.errors import ConfigError, ModelCallError
-from core.lazy import made_once
-from models.batching import Batcher
-from models.constrained import Drawing, Grammars, Row
-from models.settings import CallSettings
+from coopera.core.errors import ConfigError, ModelCallError
+from coopera.core.lazy import made_once
+from coopera.models.batching import Batcher
+from coopera.models.constrained import Drawing, Grammars, Row
+from coopera.models.settings import CallSettings
 
 _GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from core.protocols import Reply
+from coopera.core.protocols import Reply
 
 MAX_STARTS = 200
 MAX_TEXT = 200_000  # characters

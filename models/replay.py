@@ -8,11 +8,11 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from core.asks import ASKS
-from core.errors import ConfigError, ModelCallError
-from core.hour import ModelCall
-from core.protocols import Role
-from core.randomness import Address
+from coopera.core.asks import ASKS
+from coopera.core.errors import ConfigError, ModelCallError
+from coopera.core.hour import ModelCall
+from coopera.core.protocols import Role
+from coopera.core.randomness import Address
 
 SCHEMA_FOLLOWS = "\n\nAnswer with one JSON object and nothing else. It must fit this JSON schema:"
 """What the door writes between a prompt and the schema of its reply."""

@@ -12,7 +12,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from core.people import Frozen
+from coopera.core.people import Frozen
 
 _OBJECTS = {
     "PickPlace": {"object": "movable", "receptacle": "fixed"},

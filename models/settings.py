@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
-from core.people import Frozen
+from coopera.core.people import Frozen
 
 Seconds = Annotated[float, Field(gt=0, le=86_400, allow_inf_nan=False)]
 Structure: TypeAlias = Literal["auto", "json_schema", "tools", "json_object", "text"]

@@ -17,9 +17,9 @@ from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 from typing import TypeVar
 
-from core.errors import ModelCallError
-from core.lazy import made_once
-from models.settings import CallSettings
+from coopera.core.errors import ModelCallError
+from coopera.core.lazy import made_once
+from coopera.models.settings import CallSettings
 
 Answer = TypeVar("Answer")
 Sleep = Callable[[float], None]

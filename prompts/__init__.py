@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from prompts.loader import PromptLibrary, check
-
-_HOMES = {"PromptLibrary": "prompts.loader", "check": "prompts.loader"}
+    from coopera.prompts.loader import PromptLibrary, check
 
 __all__ = ["PromptLibrary", "check"]
 
+_HOMES = {"PromptLibrary": "coopera.prompts.loader", "check": "coopera.prompts.loader"}
 
-def __getattr__(name: str) -> Any:
-    """Load a public name with its first use, so that importing the package costs nothing."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

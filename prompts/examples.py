@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from core.asks import INSTRUCTION, PROMPTS
-from core.big_five_test import ITEMS
+from coopera.core.asks import INSTRUCTION, PROMPTS
+from coopera.core.big_five_test import ITEMS
 
 _ACTS_1 = [
     {"object_id": 52, "object": "book_2", "receptacle_id": 3, "receptacle": "coffee_table_1"},
@@ -191,7 +191,7 @@ def examples(name: str) -> list[Mapping[str, Any]]:
     """Variables to fill a prompt with, a full example first.
 
     Args:
-        name: One of `core.asks.PROMPTS`.
+        name: One of `coopera.core.asks.PROMPTS`.
     """
     if name == INSTRUCTION:
         return [_INSTRUCTION, _INSTRUCTION | {**dict.fromkeys(("intention", "profile", "big_five"), ""), **_UNKNOWN}]

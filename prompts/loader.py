@@ -1,14 +1,14 @@
 """The prompt folder: every file read and checked before the first model call, and filled when asked for.
 
 A prompt is a Markdown file `<role>/<name>.md`: YAML front matter between two lines of `---`, then a template
-(`prompts.sandbox`). The front matter has exactly these keys:
+(`coopera.prompts.sandbox`). The front matter has exactly these keys:
 
 - `id`: the prompt's name, as its path says;
 - `version`: a whole number from 1, raised when the wording changes, since that changes results;
 - `model_role`: human, robot or judge: whose language model answers; or classifier, for the text that one is tuned on;
-- `reply`: the type of the answer, from `core.replies`; its JSON schema is added by the door, not written here;
+- `reply`: the type of the answer, from `coopera.core.replies`; its JSON schema is added by the door, not written here;
 - `temperature`: 0 to 2;
-- `inputs`: the variables that the template uses, from `core.asks`;
+- `inputs`: the variables that the template uses, from `coopera.core.asks`;
 - `paper`: where the paper has this prompt, or "ours".
 """
 
@@ -26,14 +26,14 @@ from typing import Annotated, Any, Literal
 import yaml
 from pydantic import Field, ValidationError
 
-from core.asks import ASKS, INSTRUCTION, PROMPTS
-from core.clock import hour_label
-from core.errors import PromptError
-from core.hour import Example
-from core.people import Frozen
-from core.protocols import Rendered, Role
-from prompts.examples import examples
-from prompts.sandbox import Template, compile_template
+from coopera.core.asks import ASKS, INSTRUCTION, PROMPTS
+from coopera.core.clock import hour_label
+from coopera.core.errors import PromptError
+from coopera.core.hour import Example
+from coopera.core.people import Frozen
+from coopera.core.protocols import Rendered, Role
+from coopera.prompts.examples import examples
+from coopera.prompts.sandbox import Template, compile_template
 
 SHIPPED = Path(__file__).parent
 MAX_BYTES = 65_536
@@ -64,7 +64,7 @@ class Prompt:
 
 
 class PromptLibrary:
-    """All prompts, shipped ones and those of a folder that replaces some; implements `core.protocols.Prompts`."""
+    """All prompts, the shipped ones and a folder's that replace them; implements `coopera.core.protocols.Prompts`."""
 
     def __init__(self, overlay: Path | None = None) -> None:
         """Read and check every file, filling each with example variables.
@@ -90,7 +90,7 @@ class PromptLibrary:
 
         Args:
             name: Such as "human/intention".
-            variables: At least the declared inputs, and only what `core.asks` has for this prompt.
+            variables: At least the declared inputs, and only what `coopera.core.asks` has for this prompt.
 
         Raises:
             PromptError: Naming file and line.

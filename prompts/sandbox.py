@@ -17,7 +17,7 @@ from jinja2 import Template as JinjaTemplate
 from jinja2.meta import find_undeclared_variables
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
-from core.errors import PromptError
+from coopera.core.errors import PromptError
 
 MAX_RANGE = 100
 MAX_NUMBER = 1000

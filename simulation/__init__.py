@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.lazy import lazy_names
+from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from simulation.scene import Scene, list_scenes, load_scene
-    from simulation.world import World
+    from coopera.simulation.homes.scene import Scene, list_scenes, load_scene
+    from coopera.simulation.world import World
 
 __all__ = ["Scene", "World", "list_scenes", "load_scene"]
 
 _HOMES = {
-    "Scene": "simulation.scene",
-    "list_scenes": "simulation.scene",
-    "load_scene": "simulation.scene",
-    "World": "simulation.world",
+    "Scene": "coopera.simulation.homes.scene",
+    "list_scenes": "coopera.simulation.homes.scene",
+    "load_scene": "coopera.simulation.homes.scene",
+    "World": "coopera.simulation.world",
 }
 
-__getattr__ = lazy_names(__name__, _HOMES)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

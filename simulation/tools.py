@@ -11,9 +11,9 @@ from collections.abc import Callable
 
 from langchain_core.tools import BaseTool, StructuredTool
 
-from core.household import Agent, FreeMotion, HandOver
-from simulation.primitives import Result
-from simulation.world import World
+from coopera.core.household import Agent, FreeMotion, HandOver
+from coopera.simulation.acts.primitives import Result
+from coopera.simulation.world import World
 
 
 def world_tools(world: World, agent: Agent = "robot") -> list[BaseTool]:

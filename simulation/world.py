@@ -12,24 +12,24 @@ import numpy as np
 from PIL import Image
 from pydantic import ValidationError
 
-from core.errors import SimulationError
-from core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
-from simulation import predicates, primitives
-from simulation.activity import free_motion, stay
-from simulation.elbowroom import Elbowroom
-from simulation.engine import Renderer
-from simulation.motions import Library, load_library
-from simulation.navigation import Navigator
-from simulation.percept import perceive
-from simulation.plans import Ground, Plan, UnableError
-from simulation.primitives import Result
-from simulation.recording import TICKS, Filming, Recording
-from simulation.robot import load_robot
-from simulation.scene import Scene
-from simulation.skills import hand_over, pick_place
-from simulation.state import HomeState, PersonState, RobotState, room_of_thing
-from simulation.video import FPS, write_video
-from simulation.watching import Watcher
+from coopera.core.errors import SimulationError
+from coopera.core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.simulation.acts import predicates, primitives
+from coopera.simulation.acts.activity import free_motion, stay
+from coopera.simulation.acts.navigation import Navigator
+from coopera.simulation.acts.plans import Ground, Plan, UnableError
+from coopera.simulation.acts.primitives import Result
+from coopera.simulation.acts.skills import hand_over, pick_place
+from coopera.simulation.acts.state import HomeState, PersonState, RobotState, room_of_thing
+from coopera.simulation.bodies.elbowroom import Elbowroom
+from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.homes.scene import Scene
+from coopera.simulation.motions.library import Library, load_library
+from coopera.simulation.sight.engine import Renderer
+from coopera.simulation.sight.percept import perceive
+from coopera.simulation.sight.recording import TICKS, Filming, Recording
+from coopera.simulation.sight.video import FPS, write_video
+from coopera.simulation.sight.watching import Watcher
 
 _WEBP_QUALITY = 82
 
@@ -56,7 +56,7 @@ class World:
 
         Args:
             scene: The home.
-            robot: Name of the robot's body, one of `simulation.robot.ROBOTS`.
+            robot: Name of the robot's body, one of `coopera.simulation.bodies.robot.ROBOTS`.
             frame_size: Width and height of the pictures in pixels.
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
@@ -321,7 +321,7 @@ class World:
         return predicates.at(self.layout, self.state, agent, room)
 
     def holds(self, predicate: str) -> bool:
-        """Whether a written predicate holds, such as "on(mug, sofa)": see `simulation.predicates`.
+        """Whether a written predicate holds, such as "on(mug, sofa)": see `coopera.simulation.acts.predicates`.
 
         Raises:
             ConfigError: If it is no predicate.

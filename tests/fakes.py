@@ -9,12 +9,12 @@ from typing import Any, Literal
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
-from core.asks import ASKS
-from core.hour import Evening, Example, HourRecord, ModelCall
-from core.household import Act, Agent, ObjectMap, Outcome, Percept, PickPlace, SceneId
-from core.people import BigFive, Persona, PersonId
-from core.protocols import Role
-from core.randomness import Address
+from coopera.core.asks import ASKS
+from coopera.core.hour import Evening, Example, HourRecord, ModelCall
+from coopera.core.household import Act, Agent, ObjectMap, Outcome, Percept, PickPlace, SceneId
+from coopera.core.people import BigFive, Persona, PersonId
+from coopera.core.protocols import Role
+from coopera.core.randomness import Address
 
 MARA = Persona(
     id=PersonId("mara"),

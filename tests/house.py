@@ -6,7 +6,7 @@ import ast
 import sys
 from pathlib import Path
 
-from evaluation import METHODS
+from coopera.evaluation import METHODS
 
 ROOMS = ("core", "prompts", "memory", "models", "simulation", "graphs", "evaluation", "coopera", "tests")
 LINES = 400

@@ -55,7 +55,7 @@ class Served:
         self.lock = threading.Lock()
         self.model: Any = None
         if options.model:
-            from models.huggingface import open_model  # noqa: PLC0415 - heavy, and not always needed
+            from coopera.models.huggingface import open_model  # noqa: PLC0415 - heavy, and not always needed
 
             self.model = open_model(options.model)
 

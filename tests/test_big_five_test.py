@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.big_five_test import ITEMS, score, vote
-from core.people import TRAITS, BigFive
+from coopera.core.big_five_test import ITEMS, score, vote
+from coopera.core.people import TRAITS, BigFive
 
 ANSWERS = st.lists(st.integers(1, 5), min_size=50, max_size=50)
 

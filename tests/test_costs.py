@@ -11,8 +11,8 @@ import pytest
 
 from coopera import Config, run_study
 from coopera.cli import main
-from coopera.config import Models
-from coopera.rundir import RunDir
+from coopera.config.schema import Models
+from coopera.rundir.directory import RunDir
 from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
 from tests.test_household import truth
@@ -24,7 +24,7 @@ SMALL: dict[str, Any] = {"days": 1, "hours": 1, "pictures": "none"}
 def _letters() -> Iterator[None]:
     """What is paid does not depend on how texts are compared."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("coopera.assemble.bundled", lambda path: LetterEmbeddings())
+        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
         yield
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import multiprocessing.reduction as crossing
 from io import BytesIO
 
-from core.errors import BudgetError, CooperaError, ModelOutputError
+from coopera.core.errors import BudgetError, CooperaError, ModelOutputError
 
 
 def test_an_error_crosses_to_another_process_whole() -> None:

@@ -17,8 +17,8 @@ import pytest
 
 from coopera import Config, resume_study, run_study
 from coopera.cli import main
-from coopera.replay import replay
-from coopera.rundir import RunDir
+from coopera.rundir.directory import RunDir
+from coopera.studies.replay import replay
 
 TRUTH = ("trace", "frames", "adapters", "config.yaml", "metrics.csv", "summary.json")
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from coopera import Config, run_study
-from coopera.config import Models
-from coopera.rundir import RunDir
-from models.settings import CallSettings
+from coopera.config.schema import Models
+from coopera.models.settings import CallSettings
+from coopera.rundir.directory import RunDir
 from tests.tiny import SEEING, random_llama, random_llava, word_tokenizer
 
 

@@ -10,17 +10,17 @@ from typing import Any
 import pytest
 
 from coopera import Config, run_study
-from coopera.config import Models
-from coopera.rundir import RunDir
-from core.errors import ModelCallError
-from core.hour import ModelCall
-from core.randomness import Address
-from core.replies import VerdictsReply
-from models.backends import open_backend
-from models.door import Door
-from models.settings import CallSettings
-from prompts import PromptLibrary
-from prompts.examples import examples
+from coopera.config.schema import Models
+from coopera.core.errors import ModelCallError
+from coopera.core.hour import ModelCall
+from coopera.core.randomness import Address
+from coopera.core.replies import VerdictsReply
+from coopera.models.backends import open_backend
+from coopera.models.door import Door
+from coopera.models.settings import CallSettings
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
+from coopera.rundir.directory import RunDir
 from tests.fakes import LetterEmbeddings
 from tests.server import FAULTS
 from tests.serving import done, serving
@@ -46,7 +46,7 @@ SAID = {
 def _letters() -> Iterator[None]:
     """What a server does wrong does not depend on how texts are compared."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("coopera.assemble.bundled", lambda path: LetterEmbeddings())
+        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
         yield
 
 

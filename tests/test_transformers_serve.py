@@ -15,16 +15,16 @@ from pathlib import Path
 import pytest
 
 from coopera import Config, run_study
-from coopera.config import Models
-from coopera.rundir import RunDir
-from core.errors import ModelOutputError
-from core.randomness import Address
-from core.replies import VerdictsReply
-from models.backends import open_backend
-from models.door import Door
-from models.settings import CallSettings
-from prompts import PromptLibrary
-from prompts.examples import examples
+from coopera.config.schema import Models
+from coopera.core.errors import ModelOutputError
+from coopera.core.randomness import Address
+from coopera.core.replies import VerdictsReply
+from coopera.models.backends import open_backend
+from coopera.models.door import Door
+from coopera.models.settings import CallSettings
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
+from coopera.rundir.directory import RunDir
 from tests.fakes import LetterEmbeddings
 from tests.tiny import random_llama, word_tokenizer
 

@@ -22,9 +22,9 @@ from transformers import (
 )
 
 from benchmarks.tiny_mistral import learned_words
-from core.asks import ASKS
-from prompts import PromptLibrary
-from prompts.examples import examples
+from coopera.core.asks import ASKS
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
 
 TEXT = (
     "{% for m in messages %}{{ m['role'] }}: {{ m['content'] }}\n{% endfor %}"

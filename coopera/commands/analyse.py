@@ -15,8 +15,8 @@ from coopera.commands.options import AsJson
 if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings
 
-    from evaluation.people.figures import Figure
-    from evaluation.people.learners import Learner
+    from coopera.evaluation.people.figures import Figure
+    from coopera.evaluation.people.learners import Learner
 
 app = typer.Typer(help="Checks on the simulated people, as in the paper.", no_args_is_help=True)
 
@@ -44,21 +44,21 @@ def analyse_humans(
 
     Writes people.json, people.csv, people.md and people.png, and material for the two user studies.
     """
-    from coopera.people_files import read_lives, read_recorded
+    from coopera.rundir.lives import read_lives, read_recorded
 
     found = read_lives(runs or [])
     everybody = sorted({person for lives in found.variants.values() for person in lives.people})
     logs = read_recorded(recorded or [], everybody)
     if generic is not None and generic not in everybody:
-        from core.errors import ConfigError
+        from coopera.core.errors import ConfigError
 
         raise ConfigError(f"--generic: {generic!r} lives in none of these runs ({', '.join(everybody)}).")
-    from coopera.people_files import write_results
-    from coopera.study_forms import write_study
-    from core.people import PersonId
-    from evaluation.people.analysis import Checks, analyse_people, without
-    from evaluation.people.plot import draw
-    from evaluation.people.studies import make_study
+    from coopera.core.people import PersonId
+    from coopera.evaluation.people.analysis import Checks, analyse_people, without
+    from coopera.evaluation.people.plot import draw
+    from coopera.evaluation.people.studies import make_study
+    from coopera.report.study_forms import write_study
+    from coopera.rundir.lives import write_results
 
     embeddings, learner = _open(encoder, finetune, seed)
     nobody = PersonId(generic) if generic else None
@@ -97,9 +97,9 @@ def score(
     as_json: AsJson = False,
 ) -> None:
     """Score people's answers to the two user studies."""
-    from coopera.study_forms import read_key, read_participants
-    from core.errors import ConfigError
-    from evaluation.people.studies import score_answers
+    from coopera.core.errors import ConfigError
+    from coopera.evaluation.people.studies import score_answers
+    from coopera.report.study_forms import read_key, read_participants
 
     right = read_key(key)
     if not answers:
@@ -109,11 +109,11 @@ def score(
 
 def _open(encoder: str | None, finetune: bool, seed: int) -> tuple[Embeddings, Learner]:
     """The encoder of sentences, and what learns with it."""
-    from coopera.assemble import open_embeddings
-    from coopera.config import load_config
-    from core.errors import ConfigError, MemoryStoreError
-    from evaluation.people.learners import FrozenEncoder
-    from memory import hugging_face
+    from coopera.config.schema import load_config
+    from coopera.core.errors import ConfigError, MemoryStoreError
+    from coopera.evaluation.people.learners import FrozenEncoder
+    from coopera.memory import hugging_face
+    from coopera.studies.assemble import open_embeddings
 
     config = load_config()
     embeddings = open_embeddings(config)
@@ -124,7 +124,7 @@ def _open(encoder: str | None, finetune: bool, seed: int) -> tuple[Embeddings, L
         except MemoryStoreError as err:
             raise ConfigError(f"--encoder: {err}") from err
     if finetune:
-        from evaluation.people.finetune import FinetunedEncoder
+        from coopera.evaluation.people.finetune import FinetunedEncoder
 
         return embeddings, FinetunedEncoder(encoder or _bundled(), seed=seed)
     return embeddings, FrozenEncoder(embeddings, encoder or "all-MiniLM-L6-v2")
@@ -148,8 +148,8 @@ def _tell(
         data = {**(about or {}), "figures": [figure.model_dump() for figure in figures]}
         typer.echo(json.dumps(data | ({"out": str(out)} if out else {}), sort_keys=True))
         return
-    from coopera.people_files import table
-    from coopera.tables import print_table
+    from coopera.report.tables import print_table
+    from coopera.rundir.lives import table
 
     columns, *rows = table(figures)
     print_table(columns, rows)

@@ -44,8 +44,8 @@ def benchmark(
 
     Each run has a folder of its own and is picked up where it was left; a run that is done is not done again.
     """
-    from coopera import benchmark as bench
-    from coopera.results import write_results
+    from coopera.benchmark import grid_runs as bench
+    from coopera.benchmark.results_files import write_results
 
     flags = {
         "methods": _methods(methods),
@@ -76,7 +76,7 @@ def benchmark(
 
 def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
     """Work through what is left with a line per run; returns the runs that failed, with the reason."""
-    from coopera.benchmark import carry_out
+    from coopera.benchmark.grid_runs import carry_out
 
     total, left = len(planned.jobs), len(planned.left)
     typer.echo(f"{total} runs, {total - left} of them done already.", err=True)
@@ -100,7 +100,7 @@ def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | No
 def _methods(text: str | None) -> list[str] | None:
     if text != "all":
         return as_list(text)
-    from evaluation import METHODS
+    from coopera.evaluation import METHODS
 
     return [name for name, method in METHODS.items() if method.robot]
 

@@ -16,9 +16,9 @@ app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 @app.command("list")
 def list_humans(as_json: AsJson = False) -> None:
     """List the shipped people and the imported ones."""
-    from coopera.config import default_data_dir
-    from coopera.humans import catalogue
-    from coopera.tables import print_table
+    from coopera.config.schema import default_data_dir
+    from coopera.people.shipped import catalogue
+    from coopera.report.tables import print_table
 
     people = catalogue(default_data_dir())
     if as_json:
@@ -34,8 +34,8 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show one person: self-introduction and Big Five."""
-    from coopera.config import default_data_dir
-    from coopera.humans import find
+    from coopera.config.schema import default_data_dir
+    from coopera.people.shipped import find
 
     found = find(person, default_data_dir())
     if as_json:
@@ -59,15 +59,15 @@ def import_humans(
     as_json: AsJson = False,
 ) -> None:
     """Make one person of each row, from the column "user 1 personas"; stopped, it goes on where it was."""
-    from coopera.config import load_config
-    from coopera.persona_import import Maker, import_people, read_rows
+    from coopera.config.schema import load_config
+    from coopera.people.import_chat import Maker, import_people, read_rows
 
     models = {"human": model} if model else None
     config = load_config(flags={"models": models, "base_url": base_url, "prompts": prompts, "data_dir": out})
     read_rows(file)  # a file that is wrong is refused before a model is loaded
-    from coopera.assemble import open_ask
-    from core.errors import ConfigError
-    from prompts import PromptLibrary
+    from coopera.core.errors import ConfigError
+    from coopera.prompts import PromptLibrary
+    from coopera.studies.assemble import open_ask
 
     folder = config.data_dir / "humans"
     library = PromptLibrary(config.prompts)
@@ -105,12 +105,12 @@ def check(
 ) -> None:
     """Say whether a file can be used, and if not, why."""
     if file.suffix.lower() == ".csv":
-        from coopera.persona_import import read_rows
+        from coopera.people.import_chat import read_rows
 
         what: dict[str, Any] = {"file": str(file), "rows": len(read_rows(file))}
         sentence = f"{file}: {what['rows']} people can be imported."
     else:
-        from coopera.humans import read_persona
+        from coopera.people.shipped import read_persona
 
         person = read_persona(file)
         what = {"file": str(file), "id": person.id, "name": person.name}
@@ -119,6 +119,6 @@ def check(
 
 
 def _scores(person: Any) -> list[str]:
-    from core.people import TRAITS
+    from coopera.core.people import TRAITS
 
     return [f"{getattr(person.big_five, trait):.1f}" for trait in TRAITS]

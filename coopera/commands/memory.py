@@ -19,9 +19,9 @@ def _group() -> None:
 @app.command()
 def repair(run: RunPath, as_json: AsJson = False) -> None:
     """Check a run's memory and rebuild it from its texts where its index is damaged."""
-    from coopera.assemble import open_embeddings
-    from coopera.rundir import RunDir
-    from memory import repair as rebuild
+    from coopera.memory import repair as rebuild
+    from coopera.rundir.directory import RunDir
+    from coopera.studies.assemble import open_embeddings
 
     folder = run / "memory"
     done = rebuild(folder, open_embeddings(RunDir.open(run).config))

@@ -36,9 +36,9 @@ def check(
 
     Keys are taken from the environment (OPENAI_API_KEY, …) and are neither shown nor kept.
     """
-    from coopera.assemble import open_embeddings
-    from coopera.config import load_config
-    from coopera.model_check import check_model, in_words
+    from coopera.checks.model import check_model, in_words
+    from coopera.config.schema import load_config
+    from coopera.studies.assemble import open_embeddings
 
     config = load_config(study, {"base_url": base_url})
     backend, tried = check_model(

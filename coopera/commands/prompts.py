@@ -16,8 +16,8 @@ app = typer.Typer(help="The prompts that language models are asked with.", no_ar
 @app.command("list")
 def list_prompts(prompts: PromptFolder = None, as_json: AsJson = False) -> None:
     """List the prompts: whose model is asked, how warm, and what the reply must be."""
-    from coopera.tables import print_table
-    from prompts import PromptLibrary
+    from coopera.prompts import PromptLibrary
+    from coopera.report.tables import print_table
 
     library = PromptLibrary(prompts)
     heads = {name: library.head(name) for name in library.names}
@@ -43,7 +43,7 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show one prompt's file, or what becomes of it."""
-    from prompts import PromptLibrary
+    from coopera.prompts import PromptLibrary
 
     library = PromptLibrary(prompts)
     text = library.show(name, filled=filled)
@@ -56,9 +56,9 @@ def check(
     as_json: AsJson = False,
 ) -> None:
     """Say whether the prompts of a folder (or the shipped ones) can be used, and if not, why."""
-    from core.errors import ConfigError
-    from prompts import PromptLibrary
-    from prompts import check as faults_of
+    from coopera.core.errors import ConfigError
+    from coopera.prompts import PromptLibrary
+    from coopera.prompts import check as faults_of
 
     faults = faults_of(folder) if folder else []
     count = 0 if faults else len(PromptLibrary(folder).names)

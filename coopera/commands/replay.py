@@ -19,9 +19,9 @@ def replay(
     as_json: AsJson = False,
 ) -> None:
     """Do all acts of a run again from its trace, and compare the home after each hour by its hash."""
-    from coopera.replay import film_into
-    from coopera.replay import replay as replay_run
-    from coopera.rundir import RunDir
+    from coopera.rundir.directory import RunDir
+    from coopera.studies.replay import film_into
+    from coopera.studies.replay import replay as replay_run
 
     found = RunDir.open(run)
     look = film_into(frames, found.config.frames) if frames is not None else None

@@ -16,8 +16,8 @@ def trace(
     as_json: AsJson = False,
 ) -> None:
     """Print hours of a run as readable trees, from its trace files alone."""
-    from coopera.rundir import RunDir
-    from coopera.trace import print_json, print_trees
+    from coopera.report.tree import print_json, print_trees
+    from coopera.rundir.directory import RunDir
 
     found = RunDir.open(run)
     (print_json if as_json else print_trees)(found, day, hour)
@@ -27,8 +27,8 @@ def report(run: RunPath, as_json: AsJson = False) -> None:
     """Write RUN/report.html anew, from the run's files alone."""
     import json
 
-    from coopera.report import write_report
-    from coopera.rundir import RunDir
+    from coopera.report.page import write_report
+    from coopera.rundir.directory import RunDir
 
     path = write_report(RunDir.open(run))
     typer.echo(json.dumps({"report": str(path), "bytes": path.stat().st_size}) if as_json else f"Report: {path}")

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coopera.commands.options import AsJson, BaseUrl, CallBudget, Model, PromptFolder, RunPath, TokenBudget, as_list
-from core.errors import BudgetError
+from coopera.core.errors import BudgetError
 
 if TYPE_CHECKING:
-    from coopera.study import Event
+    from coopera.studies.study import Event
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
 
@@ -83,8 +83,8 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Let people live their days while a robot learns to help them."""
-    from coopera.catalogues import resolve
-    from coopera.config import load_config
+    from coopera.config.schema import load_config
+    from coopera.studies.catalogues import resolve
 
     roles = {"human": human_model or model, "robot": robot_model or model, "judge": judge_model or model}
     flags = {
@@ -123,8 +123,8 @@ def run(
         return
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.study import run_study
-        from coopera.terminal import Terminal
+        from coopera.people.terminal import Terminal
+        from coopera.studies.study import run_study
 
         return run_study(config, on_event=on_event, ask_person=Terminal())
 
@@ -135,15 +135,15 @@ def resume(
     run: RunPath, budget_calls: CallBudget = None, budget_tokens: TokenBudget = None, as_json: AsJson = False
 ) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
-    from coopera.config import load_config
-    from coopera.rundir import RunDir
+    from coopera.config.schema import load_config
+    from coopera.rundir.directory import RunDir
 
     found = RunDir.open(run)
     raised = load_config(run / "config.yaml", {"budget": _given(calls=budget_calls, tokens=budget_tokens)}).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.study import resume_study
-        from coopera.terminal import Terminal
+        from coopera.people.terminal import Terminal
+        from coopera.studies.study import resume_study
 
         return resume_study(run, on_event=on_event, budget=raised, ask_person=Terminal())
 
@@ -157,15 +157,15 @@ def _given(**numbers: int | None) -> dict[str, int] | None:
 
 def _replayed(model: str | None) -> Path | None:
     """The study file of the run that is to be replayed, so that it need not be described again."""
-    from coopera.rundir import RunDir
+    from coopera.rundir.directory import RunDir
 
     kind, _, folder = (model or "").partition(":")
     return RunDir.open(Path(folder)).root / "config.yaml" if kind == "replay" else None
 
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:
-    from coopera.estimate import estimate, in_words
-    from coopera.tables import print_table
+    from coopera.checks.estimate import estimate, in_words
+    from coopera.report.tables import print_table
 
     found = estimate(config)
     if as_json:
@@ -177,7 +177,7 @@ def _show_estimate(config: Any, *, as_json: bool) -> None:
 
 def _hours_of(config: Any) -> int:
     """How many hours the whole run has."""
-    from coopera.study import plan_days
+    from coopera.studies.study import plan_days
 
     return sum(len(plan.hours) for plan in plan_days(config))
 
@@ -193,8 +193,8 @@ def _carry_out(
     """Do the work with progress on standard error, then show what came of it."""
     from rich.console import Console
 
-    from coopera.progress import Progress, days_table
-    from core.errors import StoppedError, WaitingError
+    from coopera.core.errors import StoppedError, WaitingError
+    from coopera.report.progress import Progress, days_table
 
     try:
         # a live line and a person's typing would get in each other's way

@@ -25,9 +25,9 @@ _COLUMNS = ("id", "rooms", "fixed", "movable")
 @app.command("list")
 def list_homes(as_json: AsJson = False) -> None:
     """List the shipped homes and the imported ones."""
-    from coopera.homes import figures
-    from coopera.tables import print_table
-    from simulation.scene import list_scenes
+    from coopera.homes.stored import figures
+    from coopera.report.tables import print_table
+    from coopera.simulation.homes.scene import list_scenes
 
     found = [figures(_load(scene)) for scene in list_scenes([_imported()])]
     rows = [{column: row[column] for column in _COLUMNS} for row in found]
@@ -45,12 +45,12 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show one home: its rooms and what stands in each; with --png also from above, or a --room from inside."""
-    from coopera.homes import figures, write_picture
-    from core.household import plain
+    from coopera.core.household import plain
+    from coopera.homes.stored import figures, write_picture
 
     home = _load(scene)
     if png is not None:
-        from simulation.overview import inside, overview
+        from coopera.simulation.making.overview import inside, overview
 
         write_picture(png, inside(home, room) if room else overview(home))
     rooms = {room.name: _contents(home, room.name) for room in home.rooms}
@@ -71,8 +71,8 @@ def show(
 @app.command()
 def check(scene: Home, as_json: AsJson = False) -> None:
     """Say whether everything in a home can be walked up to and taken, and if not, what cannot (exit code 1)."""
-    from coopera.homes import figures
-    from simulation.proof import prove as problems_of
+    from coopera.homes.stored import figures
+    from coopera.simulation.making.proof import prove as problems_of
 
     home = _load(scene)
     problems = problems_of(home)
@@ -100,11 +100,11 @@ def generate(
     as_json: AsJson = False,
 ) -> None:
     """Make a home from a seed and store it, so that its id works everywhere."""
-    from coopera.files import write_output
-    from coopera.homes import figures, place_for, write_picture
-    from simulation.generate import generate as make
-    from simulation.proof import prove as problems_of
-    from simulation.scene import dump_scene
+    from coopera.config.files import write_output
+    from coopera.homes.stored import figures, place_for, write_picture
+    from coopera.simulation.homes.scene import dump_scene
+    from coopera.simulation.making.generate import generate as make
+    from coopera.simulation.making.proof import prove as problems_of
 
     id = id or f"home-{rooms}-{seed}"
     file = place_for(id, _scenes(out), force=force)
@@ -112,7 +112,7 @@ def generate(
     problems = problems_of(home)
     write_output(file, dump_scene(home))
     if png is not None:
-        from simulation.overview import overview
+        from coopera.simulation.making.overview import overview
 
         write_picture(png, overview(home))
     if as_json:
@@ -140,7 +140,7 @@ def import_homes(
     as_json: AsJson = False,
 ) -> None:
     """Bring in homes of HSSD, or one that you wrote (docs/scenes.md), and say what was left out."""
-    from coopera.homes import bring_in, figures
+    from coopera.homes.stored import bring_in, figures
 
     found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force)
     if as_json:
@@ -166,10 +166,10 @@ def statistics(
     as_json: AsJson = False,
 ) -> None:
     """Count rooms, and objects by super-category, as the paper shows its scenes."""
-    from coopera.home_statistics import draw
-    from coopera.homes import figures
-    from coopera.tables import print_table
-    from simulation.scene import list_scenes
+    from coopera.homes.statistics import draw
+    from coopera.homes.stored import figures
+    from coopera.report.tables import print_table
+    from coopera.simulation.homes.scene import list_scenes
 
     homes = [_load(scene) for scene in scenes or list_scenes()]
     found = [figures(home) for home in homes]
@@ -187,7 +187,7 @@ def statistics(
 @app.command()
 def schema() -> None:
     """Print the JSON schema of a home's file, for those who write one by hand."""
-    from simulation.scene import Scene
+    from coopera.simulation.homes.scene import Scene
 
     typer.echo(json.dumps(Scene.model_json_schema(), indent=2))
 
@@ -197,13 +197,13 @@ def _imported() -> Path:
 
 
 def _scenes(folder: Path | None) -> Path:
-    from coopera.config import default_data_dir
+    from coopera.config.schema import default_data_dir
 
     return (folder or default_data_dir()) / "scenes"
 
 
 def _load(scene: str) -> Any:
-    from simulation.scene import load_scene
+    from coopera.simulation.homes.scene import load_scene
 
     return load_scene(scene, [_imported()])
 

@@ -16,9 +16,9 @@ def leaderboard(
     as_json: AsJson = False,
 ) -> None:
     """Check all results below a folder and rank their methods by predicate F1 on people's last days."""
-    from coopera.leaderboard import entries
-    from coopera.progress import figure
-    from coopera.tables import print_table
+    from coopera.benchmark.leaderboard import entries
+    from coopera.report.progress import figure
+    from coopera.report.tables import print_table
 
     found = entries(folder)
     if as_json:
@@ -51,8 +51,8 @@ def export(
     as_json: AsJson = False,
 ) -> None:
     """Write a run's days as a Hugging Face data set (DIR/hours) and as LeRobot-style episodes (DIR/episodes)."""
-    from coopera.export import export as write
-    from coopera.rundir import RunDir
+    from coopera.rundir.directory import RunDir
+    from coopera.rundir.export import export as write
 
     made = write(RunDir.open(run), out)
     if as_json:

@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
-from core.hour import LoggedHour
-from core.people import PersonId
-from evaluation.people.figures import Figure, unmeasured
-from evaluation.people.learners import Floats
-from evaluation.people.lives import Lives
-from evaluation.statistics import bootstrap
-from memory.embeddings import as_array
+from coopera.core.hour import LoggedHour
+from coopera.core.people import PersonId
+from coopera.evaluation.people.figures import Figure, unmeasured
+from coopera.evaluation.people.learners import Floats
+from coopera.evaluation.people.lives import Lives
+from coopera.evaluation.statistics import bootstrap
+from coopera.memory.embeddings import as_array
 
 _MEASURES = ("aligned", "generic", "mismatched")
 

@@ -7,15 +7,15 @@ from dataclasses import dataclass, field
 
 from langchain_core.embeddings import Embeddings
 
-from core.hour import LoggedHour
-from core.people import PersonId
-from evaluation.people.alignment import alignment
-from evaluation.people.distinct import distinctness
-from evaluation.people.figures import Figure, as_variant, unmeasured
-from evaluation.people.learners import Learner
-from evaluation.people.lives import Lives
-from evaluation.people.temporal import temporal_dependence
-from evaluation.people.traits import coherence, diversity
+from coopera.core.hour import LoggedHour
+from coopera.core.people import PersonId
+from coopera.evaluation.people.alignment import alignment
+from coopera.evaluation.people.distinct import distinctness
+from coopera.evaluation.people.figures import Figure, as_variant, unmeasured
+from coopera.evaluation.people.learners import Learner
+from coopera.evaluation.people.lives import Lives
+from coopera.evaluation.people.temporal import temporal_dependence
+from coopera.evaluation.people.traits import coherence, diversity
 
 
 @dataclass(frozen=True, slots=True)

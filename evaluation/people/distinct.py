@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from core.people import PersonId
-from core.randomness import rng_at
-from evaluation.people.figures import Figure, over_people, unmeasured
-from evaluation.people.learners import Learner
-from evaluation.people.lives import HeldOut, LivedDay, Lives, hold_out
+from coopera.core.people import PersonId
+from coopera.core.randomness import rng_at
+from coopera.evaluation.people.figures import Figure, over_people, unmeasured
+from coopera.evaluation.people.learners import Learner
+from coopera.evaluation.people.lives import HeldOut, LivedDay, Lives, hold_out
 
 KINDS: dict[str, Callable[[LivedDay], list[str]]] = {
     "intentions": lambda day: day.intentions,

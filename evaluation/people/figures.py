@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
-from core.people import Frozen, PersonId
-from evaluation.statistics import bootstrap
+from coopera.core.people import Frozen, PersonId
+from coopera.evaluation.statistics import bootstrap
 
 Unit = TypeVar("Unit")
 

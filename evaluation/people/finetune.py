@@ -12,9 +12,9 @@ import torch
 from transformers import AutoModelForSequenceClassification, AutoTokenizer
 from transformers.utils import logging as transformers_logging
 
-from core.errors import ConfigError
-from core.randomness import seed_at
-from evaluation.people.learners import Step
+from coopera.core.errors import ConfigError
+from coopera.core.randomness import seed_at
+from coopera.evaluation.people.learners import Step
 
 _LOG = logging.getLogger(__name__)
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from langchain_core.embeddings import Embeddings
 
-from memory.embeddings import as_array
+from coopera.memory.embeddings import as_array
 
 Floats = npt.NDArray[np.float64]
 _COMPONENTS = (6, 12, 24)
@@ -42,7 +42,7 @@ class Learner(Protocol):
 class FrozenEncoder:
     """Logistic regression over a sentence encoder that is not trained. Implements `Learner`.
 
-    DEVIATES: the paper finetunes BERT-large-uncased, which takes a GPU; `evaluation.people.finetune` does so.
+    DEVIATES: the paper finetunes BERT-large-uncased, which takes a GPU; `coopera.evaluation.people.finetune` does so.
     """
 
     def __init__(self, embeddings: Embeddings, name: str) -> None:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from core.household import SceneId
-from core.people import BigFive, Frozen, Persona, PersonId
+from coopera.core.household import SceneId
+from coopera.core.people import BigFive, Frozen, Persona, PersonId
 
 
 class LivedDay(Frozen):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from evaluation.people.figures import FULL, Figure
+from coopera.evaluation.people.figures import FULL, Figure
 
 _INK, _OURS, _PAPER, _CONTROL, _ABLATION = "#222222", "#1f6f8b", "#d1495b", "#9a9a9a", "#8fb9c6"
 

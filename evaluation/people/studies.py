@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.clock import hour_label
-from core.errors import ConfigError
-from core.people import TRAITS, Frozen, Persona
-from core.randomness import rng_at
-from evaluation.people.figures import FULL, PAPER, Figure
-from evaluation.people.lives import LivedDay, Lives
-from evaluation.statistics import bootstrap
+from coopera.core.clock import hour_label
+from coopera.core.errors import ConfigError
+from coopera.core.people import TRAITS, Frozen, Persona
+from coopera.core.randomness import rng_at
+from coopera.evaluation.people.figures import FULL, PAPER, Figure
+from coopera.evaluation.people.lives import LivedDay, Lives
+from coopera.evaluation.statistics import bootstrap
 
 OPTIONS = 3  # PAPER §4.2: one correct, two distractors
 PEOPLE = 10  # PAPER §4.2

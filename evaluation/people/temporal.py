@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from core.people import PersonId
-from core.randomness import rng_at
-from evaluation.people.figures import Figure, over_people, unmeasured
-from evaluation.people.learners import Learner, Step
-from evaluation.people.lives import LivedDay, Lives, hold_out
+from coopera.core.people import PersonId
+from coopera.core.randomness import rng_at
+from coopera.evaluation.people.figures import Figure, over_people, unmeasured
+from coopera.evaluation.people.learners import Learner, Step
+from coopera.evaluation.people.lives import LivedDay, Lives, hold_out
 
 BEFORE = 3  # PAPER §4.2: "given three earlier intentions"
 _MEASURES = ("accuracy", "F1")

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.people import TRAITS, BigFive, PersonId
-from evaluation.people.figures import Figure, unmeasured
-from evaluation.people.learners import Floats
-from evaluation.people.lives import Lives
-from evaluation.statistics import bootstrap
+from coopera.core.people import TRAITS, BigFive, PersonId
+from coopera.evaluation.people.figures import Figure, unmeasured
+from coopera.evaluation.people.learners import Floats
+from coopera.evaluation.people.lives import Lives
+from coopera.evaluation.statistics import bootstrap
 
 _COHERENCE = ("aligned", "mismatched", "aligned, pooled", "mismatched, pooled")
 _FEWEST = 3  # people of whom a correlation says anything at all

@@ -1,6 +1,6 @@
 """Yes/no classifiers of what the robot imagines, trained each evening from the person's feedback (PAPER §3.3).
 
->>> from memory.embeddings import bundled
+>>> from coopera.memory.embeddings import bundled
 >>> judge = make_classifier("kernel", kind="intention", embeddings=bundled())
 """
 
@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from core.errors import ConfigError
-from models.classifiers.text import Inputs, Kind
+from coopera.core.errors import ConfigError
+from coopera.models.classifiers.text import Inputs, Kind
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from langchain_core.embeddings import Embeddings
 
-    from core.protocols import Classifier
-    from models.classifiers.instruction import Instruct
+    from coopera.core.protocols import Classifier
+    from coopera.models.classifiers.instruction import Instruct
 
 __all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
 
@@ -53,16 +53,16 @@ def make_classifier(
     """
     inputs = inputs or Inputs()
     if name == "kernel":
-        from models.classifiers.kernel import KernelClassifier  # noqa: PLC0415 - scikit-learn is heavy
+        from coopera.models.classifiers.kernel import KernelClassifier  # noqa: PLC0415 - scikit-learn is heavy
 
         return KernelClassifier(kind=kind, embeddings=embeddings, inputs=inputs)
     if name == "lora":
-        from models.classifiers.lora import LoraClassifier  # noqa: PLC0415 - torch is heavier
+        from coopera.models.classifiers.lora import LoraClassifier  # noqa: PLC0415 - torch is heavier
 
         return LoraClassifier(kind=kind, inputs=inputs)
     if name == "lora-instruct":
-        from models.classifiers.instruction import SHIPPED, read_recipe  # noqa: PLC0415
-        from models.classifiers.lora_instruct import LoraInstructClassifier  # noqa: PLC0415 - torch is heavier
+        from coopera.models.classifiers.instruction import SHIPPED, read_recipe  # noqa: PLC0415
+        from coopera.models.classifiers.lora_instruct import LoraInstructClassifier  # noqa: PLC0415
 
         if instruct is None:
             raise ConfigError("the classifier lora-instruct needs an instruction: PromptLibrary().instruct")

@@ -14,7 +14,7 @@ from safetensors.torch import load as load_tensors
 from torch import Tensor, nn
 from transformers import BertConfig, BertModel
 
-from core.errors import CooperaError
+from coopera.core.errors import CooperaError
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,10 +14,10 @@ from peft import LoraConfig, get_peft_model, get_peft_model_state_dict, set_peft
 from torch import Tensor
 from transformers import AutoModelForCausalLM, AutoTokenizer
 
-from core.errors import ConfigError
-from core.lazy import made_once
-from models.classifiers.instruction import TAIL, InstructRecipe
-from models.classifiers.text import Kind
+from coopera.core.errors import ConfigError
+from coopera.core.lazy import made_once
+from coopera.models.classifiers.instruction import TAIL, InstructRecipe
+from coopera.models.classifiers.text import Kind
 
 KINDS: tuple[Kind, Kind] = ("intention", "task")
 

@@ -12,9 +12,9 @@ import numpy.typing as npt
 import torch
 from torch import Tensor
 
-from core.errors import LearningError
-from core.hour import Example
-from models.classifiers.text import Inputs, Lesson, lesson
+from coopera.core.errors import LearningError
+from coopera.core.hour import Example
+from coopera.models.classifiers.text import Inputs, Lesson, lesson
 
 
 class Evening(NamedTuple):

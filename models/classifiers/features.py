@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 from langchain_core.embeddings import Embeddings
 
-from core.hour import Example
-from core.people import TRAITS
-from memory.embeddings import as_array
-from models.classifiers.text import sentences
+from coopera.core.hour import Example
+from coopera.core.people import TRAITS
+from coopera.memory.embeddings import as_array
+from coopera.models.classifiers.text import sentences
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]

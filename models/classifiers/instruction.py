@@ -9,9 +9,9 @@ from typing import Annotated, Any, TypeAlias
 import yaml
 from pydantic import Field, ValidationError
 
-from core.errors import ConfigError
-from core.hour import Example
-from core.people import Frozen
+from coopera.core.errors import ConfigError
+from coopera.core.hour import Example
+from coopera.core.people import Frozen
 
 SHIPPED = Path(__file__).with_name("lora_instruct.yaml")
 TAIL = "### Response:\n"

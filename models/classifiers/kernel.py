@@ -15,14 +15,14 @@ from langchain_core.embeddings import Embeddings
 from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
 from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
-from core.errors import CooperaError
-from core.hour import Example
-from core.lazy import made_once
-from memory.embeddings import as_array
-from models.classifiers.calibration import Scale, scale
-from models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
-from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Inputs, Kind, Lesson, lesson
+from coopera.core.errors import CooperaError
+from coopera.core.hour import Example
+from coopera.core.lazy import made_once
+from coopera.memory.embeddings import as_array
+from coopera.models.classifiers.calibration import Scale, scale
+from coopera.models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
+from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
+from coopera.models.classifiers.text import Inputs, Kind, Lesson, lesson
 
 VERSION = 1
 ARRAYS = "kernel.npz"

@@ -18,13 +18,13 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 from transformers import AutoTokenizer
 
-from core.errors import CooperaError
-from core.hour import Example
-from models.classifiers.adapters import AdaptedEncoder, Recipe
-from models.classifiers.calibration import best_share, score_at
-from models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
-from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Inputs, Kind, sentence_pair
+from coopera.core.errors import CooperaError
+from coopera.core.hour import Example
+from coopera.models.classifiers.adapters import AdaptedEncoder, Recipe
+from coopera.models.classifiers.calibration import best_share, score_at
+from coopera.models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
+from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
+from coopera.models.classifiers.text import Inputs, Kind, sentence_pair
 
 VERSION = 1
 WEIGHTS = "lora.safetensors"

@@ -14,14 +14,14 @@ from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 
-from core.errors import CooperaError
-from core.hour import Example
-from models.classifiers.calibration import Scale, scale
-from models.classifiers.causal import CausalBase, open_base
-from models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
-from models.classifiers.instruction import Instruct, InstructRecipe, read_recipe
-from models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from models.classifiers.text import Inputs, Kind
+from coopera.core.errors import CooperaError
+from coopera.core.hour import Example
+from coopera.models.classifiers.calibration import Scale, scale
+from coopera.models.classifiers.causal import CausalBase, open_base
+from coopera.models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
+from coopera.models.classifiers.instruction import Instruct, InstructRecipe, read_recipe
+from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
+from coopera.models.classifiers.text import Inputs, Kind
 
 VERSION = 1
 WEIGHTS, CONFIG = "adapter_model.safetensors", "adapter_config.json"  # as peft names and reads them

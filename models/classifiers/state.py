@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from core.errors import CooperaError
+from coopera.core.errors import CooperaError
 
 MANIFEST = "classifier.json"
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import Literal, NamedTuple, TypeAlias
 
-from core.clock import hour_label
-from core.hour import Example
-from core.people import TRAITS, BigFive, PersonId
+from coopera.core.clock import hour_label
+from coopera.core.hour import Example
+from coopera.core.people import TRAITS, BigFive, PersonId
 
 Kind: TypeAlias = Literal["intention", "task"]
 

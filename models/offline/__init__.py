@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
 
-_WHERE = {"OfflineChatModel": "models.offline.chat"}
+from coopera.core.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from coopera.models.offline.chat import OfflineChatModel
 
 __all__ = ["OfflineChatModel"]
 
+_HOMES = {"OfflineChatModel": "coopera.models.offline.chat"}
 
-def __getattr__(name: str) -> Any:
-    """Import a name when it is first used."""
-    if name not in _WHERE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_WHERE[name]), name)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -16,16 +16,16 @@ from langchain_core.outputs import ChatGeneration, ChatResult
 from pydantic import ConfigDict, Field, PrivateAttr
 from typing_extensions import override
 
-from core.asks import ASKS
-from core.errors import ModelCallError
-from core.lazy import made_once
-from core.protocols import Role
-from core.replies import REPLIES
-from models.offline.human import Human
-from models.offline.judge import Judge
-from models.offline.knowledge import Household, shipped
-from models.offline.robot import Robot
-from models.offline.sense import CommonSense
+from coopera.core.asks import ASKS
+from coopera.core.errors import ModelCallError
+from coopera.core.lazy import made_once
+from coopera.core.protocols import Role
+from coopera.core.replies import REPLIES
+from coopera.models.offline.household.knowledge import Household, shipped
+from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.human.replies import Human
+from coopera.models.offline.judge import Judge
+from coopera.models.offline.robot.replies import Robot
 
 RULES = "3"
 """Raised whenever the same question may get another answer; it enters every cache key."""
@@ -44,7 +44,7 @@ class OfflineChatModel(BaseChatModel):
 
     It is not a language model and reads no prompt text: it answers from the prompt's variables, by rules over a
     household knowledge file and by MiniLM similarity of texts. `messages[-1].additional_kwargs["coopera"]` must
-    hold {"prompt", "variables", "seed", "temperature"}, with variables as `core.asks` lists them. The reply is
+    hold {"prompt", "variables", "seed", "temperature"}, with variables as `coopera.core.asks` lists them. The reply is
     the JSON of the prompt's reply type. The same question with the same seed gets the same answer on every machine.
 
     The three roles share common sense, as language models would. What is private to a person is reachable from

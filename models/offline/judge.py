@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from core.household import plain
-from core.people import Frozen
-from core.replies import VerdictReply, VerdictsReply
-from models.offline.knowledge import Activity
-from models.offline.offers import Want, wants
-from models.offline.reading import clip
-from models.offline.sense import CommonSense
+from coopera.core.household import plain
+from coopera.core.people import Frozen
+from coopera.core.replies import VerdictReply, VerdictsReply
+from coopera.models.offline.household.knowledge import Activity
+from coopera.models.offline.household.offers import Want, wants
+from coopera.models.offline.household.reading import clip
+from coopera.models.offline.household.sense import CommonSense
 
 SAME_KIND = 0.75  # cosine from which two things are taken for the same kind
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from coopera.cli import main
-from coopera.rundir import RunDir
+from coopera.rundir.directory import RunDir
 from tests.coopera.fake_run import fake_run
 
 

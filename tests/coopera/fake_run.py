@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw
 
-from coopera.config import Config
-from coopera.humans import find
-from coopera.rundir import RunDir
-from core.hour import (
+from coopera.config.schema import Config
+from coopera.core.hour import (
     Evening,
     FeedbackItem,
     Found,
@@ -30,10 +28,12 @@ from core.hour import (
     TaskCandidate,
     TaskVerdict,
 )
-from core.household import FreeMotion, HandOver, Outcome, Percept, PickPlace
-from core.people import TRAITS, BigFive, Persona, Picture
-from core.randomness import rng_at
-from evaluation.success import count
+from coopera.core.household import FreeMotion, HandOver, Outcome, Percept, PickPlace
+from coopera.core.people import TRAITS, BigFive, Persona, Picture
+from coopera.core.randomness import rng_at
+from coopera.evaluation.success import count
+from coopera.people.shipped import find
+from coopera.rundir.directory import RunDir
 
 LIVES = [
     ("Have a slow breakfast", "kitchen", "dining_table_1", "stir", ["mug", "plate", "spoon", "banana", "teapot"]),

@@ -3,7 +3,7 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from core.lazy import made_once
+from coopera.core.lazy import made_once
 
 
 def test_threads_that_ask_at_once_get_one_and_the_same_thing() -> None:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from evaluation.comparing import Unit, clustered_mean, compare, detectable, holm, sign_flip
+from coopera.evaluation.comparing import Unit, clustered_mean, compare, detectable, holm, sign_flip
 
 
 def unit(person: str, value: float, scene: str = "maple", seed: int = 0) -> Unit:

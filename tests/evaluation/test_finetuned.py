@@ -5,17 +5,17 @@ from pathlib import Path
 import pytest
 
 from benchmarks.tiny_mistral import make_recipe
-from coopera.catalogues import resolve
-from coopera.config import Config, Models
-from coopera.rundir import RunDir
-from coopera.study import run_study
-from core.clock import Clock
-from core.errors import ConfigError
-from core.household import FreeMotion, HandOver
-from core.people import PersonId
-from evaluation.baselines import Occasion
-from evaluation.finetuned import BringReply, lesson
-from models.parsing import read_reply
+from coopera.config.schema import Config, Models
+from coopera.core.clock import Clock
+from coopera.core.errors import ConfigError
+from coopera.core.household import FreeMotion, HandOver
+from coopera.core.people import PersonId
+from coopera.evaluation.baselines import Occasion
+from coopera.evaluation.finetuned import BringReply, lesson
+from coopera.models.parsing import read_reply
+from coopera.rundir.directory import RunDir
+from coopera.studies.catalogues import resolve
+from coopera.studies.study import run_study
 from tests.tiny import random_llama
 
 

@@ -4,8 +4,8 @@ from collections import Counter
 
 import pytest
 
-from core.errors import ConfigError
-from evaluation.grid import Grid, lives, read_grid
+from coopera.core.errors import ConfigError
+from coopera.evaluation.grid import Grid, lives, read_grid
 
 PEOPLE = [f"p{n}" for n in range(20)]
 HOMES = ["a", "b", "c", "d", "e"]

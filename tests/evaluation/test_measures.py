@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour
-from core.household import HandOver, Outcome, SceneId
-from core.people import PersonId
-from evaluation.measures import by_person, false_help, help_given, help_score, l1, pool_help, robot_seconds
+from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour
+from coopera.core.household import HandOver, Outcome, SceneId
+from coopera.core.people import PersonId
+from coopera.evaluation.measures import by_person, false_help, help_given, help_score, l1, pool_help, robot_seconds
 
 
 def done(metres: float = 2.0, *, ok: bool = True) -> Outcome:

@@ -4,9 +4,9 @@ from importlib.metadata import EntryPoint
 
 import pytest
 
-from core.errors import ConfigError
-from evaluation import methods
-from graphs import Method
+from coopera.core.errors import ConfigError
+from coopera.evaluation import methods
+from coopera.graphs import Method
 
 OWN = Method(name="written_by_hand", learns=False)
 NO_METHOD = "a word"

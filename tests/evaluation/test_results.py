@@ -4,11 +4,11 @@ from typing import Any
 
 import pytest
 
-from core.errors import ConfigError
-from evaluation.analysis import agreement, comparisons, curve, effort, generalisation, last_day, score
-from evaluation.figures import all_figures
-from evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
-from evaluation.tables import all_tables
+from coopera.core.errors import ConfigError
+from coopera.evaluation.analysis import agreement, comparisons, curve, effort, generalisation, last_day, score
+from coopera.evaluation.figures import all_figures
+from coopera.evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
+from coopera.evaluation.tables import all_tables
 
 
 def row(method: str = "ours", person: str = "amara", day: int = 0, hour: int = 9, **over: Any) -> Row:

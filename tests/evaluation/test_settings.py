@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from core.errors import ConfigError
-from core.household import SceneId
-from core.people import PersonId
-from evaluation import SETTINGS, schedule
+from coopera.core.errors import ConfigError
+from coopera.core.household import SceneId
+from coopera.core.people import PersonId
+from coopera.evaluation import SETTINGS, schedule
 
 PEOPLE = [PersonId(name) for name in "abcdef"]
 SCENES = [SceneId(name) for name in ("s1", "s2", "s3", "s4", "s5")]

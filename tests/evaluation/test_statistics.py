@@ -3,7 +3,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from evaluation.statistics import bootstrap, bootstrap_mean
+from coopera.evaluation.statistics import bootstrap, bootstrap_mean
 
 
 def test_the_interval_holds_the_mean_and_is_the_same_each_time() -> None:

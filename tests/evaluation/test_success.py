@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.errors import ModelOutputError
-from core.hour import Counts, Help, Intention, Task, TaskCandidate
-from core.household import FreeMotion, HandOver, Outcome, PickPlace
-from core.randomness import Address
-from evaluation import Measure, count, pool
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import Counts, Help, Intention, Task, TaskCandidate
+from coopera.core.household import FreeMotion, HandOver, Outcome, PickPlace
+from coopera.core.randomness import Address
+from coopera.evaluation import Measure, count, pool
 from tests.fakes import FakeHome, LetterEmbeddings, ScriptedAsk
 
 AT = Address("mara", 0, 9, "score")

@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from evaluation import METHODS, Measure
-from graphs import Services
-from graphs.learning import KINDS, Learner
-from graphs.own_robot import OwnRobot
-from graphs.person import PERSON_MODELS
-from memory import MemoryStream
+from coopera.evaluation import METHODS, Measure
+from coopera.graphs import Services
+from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.person import PERSON_MODELS
+from coopera.memory import MemoryStream
 from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
 
 MakeServices = Callable[..., Services]

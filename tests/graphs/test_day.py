@@ -8,10 +8,10 @@ import pytest
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 
-from core.errors import ModelOutputError
-from core.hour import DayPlan, Example
-from core.household import SceneId
-from graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, Example
+from coopera.core.household import SceneId
+from coopera.graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
 from tests.fakes import MARA, FakeHome, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from core.hour import DayPlan, HourRecord
-from core.household import SceneId
-from evaluation import METHODS
-from graphs import build_study_graph
+from coopera.core.hour import DayPlan, HourRecord
+from coopera.core.household import SceneId
+from coopera.evaluation import METHODS
+from coopera.graphs import build_study_graph
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 

@@ -4,13 +4,13 @@ from typing import Any
 
 import pytest
 
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import DayPlan, SearchSizes
-from core.household import SceneId
-from graphs import HumanContext, build_human_graph
-from graphs.hour import human_context
-from graphs.human import human_hour
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, SearchSizes
+from coopera.core.household import SceneId
+from coopera.graphs import HumanContext, build_human_graph
+from coopera.graphs.hour import human_context
+from coopera.graphs.human import human_hour
 from tests.fakes import MARA, STIR, FakeHome, ScriptedAsk, moving, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 

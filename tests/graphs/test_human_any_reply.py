@@ -10,18 +10,18 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from core.asks import ASKS
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import DayPlan, ModelCall
-from core.household import SceneId
-from core.randomness import Address
-from core.replies import REPLIES
-from graphs import build_human_graph
-from graphs.checks import findings
-from graphs.hour import human_context
-from graphs.human import human_hour
-from models.parsing import BadReplyError, read_reply
+from coopera.core.asks import ASKS
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, ModelCall
+from coopera.core.household import SceneId
+from coopera.core.randomness import Address
+from coopera.core.replies import REPLIES
+from coopera.graphs import build_human_graph
+from coopera.graphs.checks import findings
+from coopera.graphs.hour import human_context
+from coopera.graphs.human import human_hour
+from coopera.models.parsing import BadReplyError, read_reply
 from tests.fakes import MARA, FakeHome, moving, placing
 from tests.graphs.conftest import MakeServices
 

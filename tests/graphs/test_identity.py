@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from core.clock import Clock
-from core.hour import DayPlan, Observation
-from core.household import Percept, SceneId
-from core.people import PersonId
-from graphs import Services, build_study_graph
-from graphs.identity import identify, sight
-from graphs.services import Memories
-from memory import MemoryStream
+from coopera.core.clock import Clock
+from coopera.core.hour import DayPlan, Observation
+from coopera.core.household import Percept, SceneId
+from coopera.core.people import PersonId
+from coopera.graphs import Services, build_study_graph
+from coopera.graphs.identity import identify, sight
+from coopera.graphs.services import Memories
+from coopera.memory import MemoryStream
 from tests.fakes import MARA, FakeHome, LetterEmbeddings
 from tests.graphs.conftest import MakeServices
 
@@ -69,7 +69,7 @@ def test_it_uses_what_it_knows_of_the_one_it_takes_the_person_for(
     make_services: MakeServices, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     home = FakeHome()
-    monkeypatch.setattr("graphs.hour.identify", lambda sights, known: dict.fromkeys(known, 0.1) | {BO.id: 0.9})
+    monkeypatch.setattr("coopera.graphs.hour.identify", lambda sights, known: dict.fromkeys(known, 0.1) | {BO.id: 0.9})
     services = make_services(home=home)
     assert live(services, "mbm")[4:] == [BO.id, BO.id]
     lines = (services.recorder.adapters_folder(2) / "intention" / "examples.jsonl").read_text()

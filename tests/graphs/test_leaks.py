@@ -15,17 +15,17 @@ from typing import Any, NamedTuple
 import pytest
 from langgraph.runtime import Runtime
 
-import graphs.hour
-import graphs.robot
-from core.hour import DayPlan, Example, Observation, Proposal
-from core.household import Collab, SceneId
-from core.people import BigFive, Persona
-from evaluation import METHODS
-from graphs import Services, build_study_graph
-from graphs.learning import KINDS, Learner
-from graphs.own_robot import OwnRobot
-from graphs.robot import RobotInput
-from graphs.services import RobotContext
+import coopera.graphs.hour
+import coopera.graphs.robot
+from coopera.core.hour import DayPlan, Example, Observation, Proposal
+from coopera.core.household import Collab, SceneId
+from coopera.core.people import BigFive, Persona
+from coopera.evaluation import METHODS
+from coopera.graphs import Services, build_study_graph
+from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.robot import RobotInput
+from coopera.graphs.services import RobotContext
 from tests.fakes import MARA, ScriptedAsk, TableClassifier, moving, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -208,20 +208,20 @@ def test_the_audit_sees_what_an_oracle_is_told_and_what_every_robot_is_told_in_t
         assert one != other
 
 
-Leak = Callable[[Services, graphs.hour.HourState, Observation], Observation]
+Leak = Callable[[Services, coopera.graphs.hour.HourState, Observation], Observation]
 
 
-def in_words(services: Services, state: graphs.hour.HourState, seen: Observation) -> Observation:
+def in_words(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
     return seen.model_copy(update={"first_task": state["human"].intention.text})
 
 
-def in_the_percept(services: Services, state: graphs.hour.HourState, seen: Observation) -> Observation:
+def in_the_percept(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
     assert seen.percept is not None
     thing = state["human"].tasks[1].act.describe().split("with the ")[-1]
     return seen.model_copy(update={"percept": seen.percept.model_copy(update={"in_hand": thing})})
 
 
-def in_memory(services: Services, state: graphs.hour.HourState, seen: Observation) -> Observation:
+def in_memory(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
     plan = state["plan"]
     memories = services.memories("guesses", plan.episode, plan.person)
     memories.add("A guess", [state["human"].tasks[2].act.describe()], plan.clock(state["position"]).now - 1)
@@ -232,13 +232,13 @@ def in_memory(services: Services, state: graphs.hour.HourState, seen: Observatio
 def test_the_audit_finds_the_truth_where_it_is_let_through(
     make_services: MakeServices, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, leak: Leak
 ) -> None:
-    sound = graphs.hour.demonstrate
+    sound = coopera.graphs.hour.demonstrate
 
-    def leaky(state: graphs.hour.HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    def leaky(state: coopera.graphs.hour.HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         update = sound(state, runtime)
         return update | {"observation": leak(runtime.context, state, update["observation"])}
 
-    monkeypatch.setattr(graphs.hour, "demonstrate", leaky)
+    monkeypatch.setattr(coopera.graphs.hour, "demonstrate", leaky)
     one, other = (live(make_services, tmp_path / str(n), life) for n, life in enumerate((BAKER, POET)))
     assert one.prompts != other.prompts
 
@@ -246,14 +246,14 @@ def test_the_audit_finds_the_truth_where_it_is_let_through(
 def test_the_audit_finds_the_truth_in_what_a_classifier_reads(
     make_services: MakeServices, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    sound = graphs.robot.example
+    sound = coopera.graphs.robot.example
     found = []
     for life in (BAKER, POET):
 
         def leaky(*args: Any, life: Life = life, **fields: Any) -> Example:
             return sound(*args, **fields).model_copy(update={"tasks": [life.things[0]]})
 
-        monkeypatch.setattr(graphs.robot, "example", leaky)
+        monkeypatch.setattr(coopera.graphs.robot, "example", leaky)
         found.append(live(make_services, tmp_path / life.intention, life))
     one, other = found
     assert one.prompts == other.prompts

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.errors import CooperaError, LearningError, RunError
-from core.hour import Example, FeedbackItem, IntentionCandidate, Observation, RobotHour, Told, ToldHour
-from core.people import PersonId, Picture
-from graphs.learning import KINDS, Learner, Mode
-from graphs.replay import keep
+from coopera.core.errors import CooperaError, LearningError, RunError
+from coopera.core.hour import Example, FeedbackItem, IntentionCandidate, Observation, RobotHour, Told, ToldHour
+from coopera.core.people import PersonId, Picture
+from coopera.graphs.learning import KINDS, Learner, Mode
+from coopera.graphs.rehearsal import keep
 from tests.fakes import FolderRecorder, TableClassifier
 
 ANN, BO = PersonId("ann"), PersonId("bo")

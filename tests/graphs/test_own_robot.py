@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from core.errors import CooperaError, RunError
-from core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
-from core.household import HandOver, PickPlace
-from graphs import Method, RobotContext, Services
-from graphs.own_robot import OwnRobot
-from graphs.robot import RobotInput
+from coopera.core.errors import CooperaError, RunError
+from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.household import HandOver, PickPlace
+from coopera.graphs import Method, RobotContext, Services
+from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.robot import RobotInput
 from tests.graphs.conftest import MakeServices
 from tests.graphs.test_day import run_study
 

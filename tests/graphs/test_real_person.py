@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 
-from core.hour import DayPlan, LoggedHour
-from core.household import SceneId
-from core.interview import Answer, Question
-from graphs import STATE_TYPES, Services, build_study_graph
-from graphs.real_person import Verdict, read_choice, read_intention, read_steps, read_verdicts
-from graphs.study import waiting
+from coopera.core.hour import DayPlan, LoggedHour
+from coopera.core.household import SceneId
+from coopera.core.interview import Answer, Question
+from coopera.graphs import STATE_TYPES, Services, build_study_graph
+from coopera.graphs.real_person import Verdict, read_choice, read_intention, read_steps, read_verdicts
+from coopera.graphs.study import waiting
 from tests.fakes import MARA, FakeHome, ScriptedAsk, moving, type2_answers
 from tests.graphs.conftest import MakeServices
 

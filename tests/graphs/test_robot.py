@@ -7,14 +7,14 @@ from typing import Any, get_type_hints
 
 import pytest
 
-from core.clock import Clock
-from core.errors import ModelOutputError
-from core.hour import DayPlan, Example, Observation
-from core.household import Percept, SceneId
-from core.people import BigFive, Picture
-from graphs import RobotContext, build_robot_graph
-from graphs.hour import robot_context
-from graphs.robot import RobotInput, robot_hour
+from coopera.core.clock import Clock
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import DayPlan, Example, Observation
+from coopera.core.household import Percept, SceneId
+from coopera.core.people import BigFive, Picture
+from coopera.graphs import RobotContext, build_robot_graph
+from coopera.graphs.hour import robot_context
+from coopera.graphs.robot import RobotInput, robot_hour
 from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 

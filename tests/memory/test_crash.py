@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from memory import MemoryStream
+from coopera.memory import MemoryStream
 from tests.memory.fakes import Letters
 
 PROGRAM = """
 import json, os, sys
 import numpy as np
-from memory import MemoryStream
+from coopera.memory import MemoryStream
 from tests.memory.fakes import Letters
 
 folder, side, seed = sys.argv[1:]

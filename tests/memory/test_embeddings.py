@@ -11,9 +11,9 @@ import pytest
 from langchain_core.embeddings import Embeddings
 from typing_extensions import override
 
-from core.errors import ConfigError, MemoryStoreError
-from memory.embeddings import CachedEmbeddings, as_array, bundled, by_identity, hugging_face
-from memory.minilm import Vector
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, by_identity, hugging_face
+from coopera.memory.minilm import Vector
 
 TEXTS = ["make a cup of tea", "read a novel on the sofa", "Übung macht den Meister — 茶", ""]
 
@@ -47,7 +47,7 @@ def test_the_bits_depend_neither_on_the_batch_nor_on_the_cache(tmp_path: Path) -
 
 @pytest.mark.slow
 def test_another_process_computes_the_same_bits() -> None:
-    code = "import sys; from memory.embeddings import bundled; print(bundled().array(sys.argv[1:]).tobytes().hex())"
+    code = "import sys; from coopera.memory import bundled; print(bundled().array(sys.argv[1:]).tobytes().hex())"
     done = subprocess.run([sys.executable, "-c", code, *TEXTS], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == bundled().array(TEXTS).tobytes().hex()
 
@@ -121,7 +121,7 @@ def test_another_model_does_not_get_the_first_one_s_vectors(tmp_path: Path) -> N
 
 def test_two_processes_fill_one_cache_at_the_same_time(tmp_path: Path) -> None:
     code = (
-        "import sys, numpy as np; from pathlib import Path; from memory.embeddings import CachedEmbeddings\n"
+        "import sys, numpy as np; from pathlib import Path; from coopera.memory.embeddings import CachedEmbeddings\n"
         "e = CachedEmbeddings(lambda t: np.full(2, len(t), np.float32), 'm', Path(sys.argv[1]))\n"
         "e.array(['x' * n for n in range(300)])"
     )
@@ -174,7 +174,7 @@ def test_torch_is_loaded_only_for_a_text_that_is_in_no_cache(tmp_path: Path) -> 
     cache = tmp_path / "c.sqlite"
     bundled(cache).embed_query("tea")
     code = (
-        "import sys; from pathlib import Path; from memory import bundled; "
+        "import sys; from pathlib import Path; from coopera.memory import bundled; "
         "bundled(Path(sys.argv[1])).embed_query('tea'); print('torch' in sys.modules)"
     )
     command = [sys.executable, "-W", "error", "-c", code, str(cache)]

@@ -3,7 +3,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from memory.numbering import Numbering, position_of
+from coopera.memory.numbering import Numbering, position_of
 
 
 def test_ids_carry_the_number_of_the_cut_after_which_they_were_written() -> None:

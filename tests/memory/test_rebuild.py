@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from core.errors import ConfigError, MemoryStoreError
-from memory import MemoryStream, Recollection, bundled, repair
-from memory.folder import DamagedMemoryError
-from memory.rebuild import Repaired
-from memory.store import Store
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory import MemoryStream, Recollection, bundled, repair
+from coopera.memory.folder import DamagedMemoryError
+from coopera.memory.rebuild import Repaired
+from coopera.memory.store import Store
 from tests.memory.fakes import Letters
 
 Break = Callable[[Path], None]

@@ -10,7 +10,7 @@ from langchain_core.embeddings import Embeddings
 from langchain_core.runnables import RunnableLambda
 from pydantic import ValidationError
 
-from memory import MemoryRetriever, MemoryStream
+from coopera.memory import MemoryRetriever, MemoryStream
 
 
 @pytest.fixture

@@ -12,10 +12,10 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from memory import CachedEmbeddings, MemoryStream
-from memory.embeddings import unit
-from memory.minilm import Vector
-from memory.scan import ArrayRows, top
+from coopera.memory import CachedEmbeddings, MemoryStream
+from coopera.memory.embeddings import unit
+from coopera.memory.minilm import Vector
+from coopera.memory.scan import ArrayRows, top
 
 QUERIES_EACH = 10
 
@@ -86,11 +86,11 @@ def questions(case: Case, rng: np.random.Generator) -> Iterator[tuple[Vector, in
 @pytest.fixture
 def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a few records fill many blocks, and little of it stay in RAM."""
-    for module in ("memory.scan", "memory.log"):
+    for module in ("coopera.memory.scan", "coopera.memory.log"):
         monkeypatch.setattr(f"{module}.BLOCK", 4)
-    monkeypatch.setattr("memory.scan.STEP", 3)
-    monkeypatch.setattr("memory.log._BLOCKS_IN_RAM", 2)
-    monkeypatch.setattr("memory.log._FAN", 2)
+    monkeypatch.setattr("coopera.memory.scan.STEP", 3)
+    monkeypatch.setattr("coopera.memory.log._BLOCKS_IN_RAM", 2)
+    monkeypatch.setattr("coopera.memory.log._FAN", 2)
 
 
 def check_arrays(case: Case) -> None:

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.errors import ConfigError, MemoryStoreError
-from memory import CachedEmbeddings, Search, bundled
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory import CachedEmbeddings, Search, bundled
 
 
 def encode_by_name(text: str) -> np.ndarray:

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from core.errors import ConfigError, MemoryStoreError
-from memory import MemoryStream, streams
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory import MemoryStream, streams
 from tests.memory.fakes import Letters
 
 
@@ -66,7 +66,7 @@ def test_a_stream_lives_on_a_server_as_in_a_folder(server: str) -> None:
 
 def check_that_a_second_writer_is_told(server: str) -> None:
     code = (
-        "import sys; from memory import MemoryStream; from tests.memory.fakes import Letters\n"
+        "import sys; from coopera.memory import MemoryStream; from tests.memory.fakes import Letters\n"
         "MemoryStream.open(sys.argv[1], 'x', Letters()).add(['bad'], 5)"
     )
     with MemoryStream.open(server, "x", Letters()) as stream:
@@ -102,7 +102,7 @@ def test_a_server_that_is_down_is_told_at_once() -> None:
 
 
 def test_a_server_that_hangs_is_told_after_a_bounded_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("memory.client._PATIENCE", 0.3)
+    monkeypatch.setattr("coopera.memory.client._PATIENCE", 0.3)
     with (
         socket.create_server(("127.0.0.1", 0)) as silent,
         pytest.raises(MemoryStoreError, match="does not answer .ReadTimeout"),

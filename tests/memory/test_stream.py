@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from chromadb.config import Settings
 
-from core.errors import ConfigError, MemoryStoreError
-from memory import MemoryStream, bundled
-from memory.ram import RamClient
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory import MemoryStream, bundled
+from coopera.memory.ram import RamClient
 from tests.memory.fakes import Letters
 
 
@@ -271,8 +271,8 @@ def test_a_folder_that_is_something_else_is_left_alone(tmp_path: Path) -> None:
 def test_a_second_process_is_told_who_has_the_store(tmp_path: Path) -> None:
     code = (
         "import sys\n"
-        "from memory.store import Store\n"
-        "from core.errors import MemoryStoreError\n"
+        "from coopera.memory.store import Store\n"
+        "from coopera.core.errors import MemoryStoreError\n"
         "try:\n    Store.open(sys.argv[1])\nexcept MemoryStoreError as err:\n    print(err)\nelse:\n    print('opened')"
     )
 

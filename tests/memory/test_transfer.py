@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.errors import ConfigError
-from memory import CachedEmbeddings, MemoryStream, export_jsonl, import_jsonl
-from memory.minilm import Vector
+from coopera.core.errors import ConfigError
+from coopera.memory import CachedEmbeddings, MemoryStream, export_jsonl, import_jsonl
+from coopera.memory.minilm import Vector
 
 HEADER = '{"kind": "coopera memory stream", "version": 1, "stream": "x", "model": "lengths"}\n'
 

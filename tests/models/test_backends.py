@@ -10,15 +10,15 @@ from typing import Any
 import pytest
 from langchain_core.language_models import BaseChatModel, FakeListChatModel
 
-from core.asks import ASKS
-from core.errors import ConfigError
-from core.randomness import Address
-from core.replies import REPLIES, VerdictsReply
-from models.backends import open_backend, open_backends
-from models.door import open_door
-from models.settings import CallSettings
-from prompts import PromptLibrary
-from prompts.examples import examples
+from coopera.core.asks import ASKS
+from coopera.core.errors import ConfigError
+from coopera.core.randomness import Address
+from coopera.core.replies import REPLIES, VerdictsReply
+from coopera.models.backends import open_backend, open_backends
+from coopera.models.door import open_door
+from coopera.models.settings import CallSettings
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
 from tests.fakes import LetterEmbeddings
 
 EMBEDDINGS = LetterEmbeddings()

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from core.errors import BudgetError
-from models.budget import Meter
-from models.settings import Budget, Spent
+from coopera.core.errors import BudgetError
+from coopera.models.budget import Meter
+from coopera.models.settings import Budget, Spent
 
 
 def test_calls_made_at_once_do_not_share_the_last_one_allowed() -> None:

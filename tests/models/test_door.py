@@ -18,15 +18,15 @@ from langchain_core.messages import AIMessage, BaseMessage
 from langchain_core.outputs import ChatGeneration, ChatResult
 from pydantic import PrivateAttr
 
-from core.errors import ModelCallError, ModelOutputError, RunError
-from core.protocols import Rendered, Role
-from core.randomness import Address, seed_at
-from core.replies import FreeMotionReply, VerdictsReply
-from models.backends import Backend, Request
-from models.cache import ReplyCache
-from models.door import SEEDS, Door
-from models.settings import CallSettings, Structure
-from models.transport import Gate, Line
+from coopera.core.errors import ModelCallError, ModelOutputError, RunError
+from coopera.core.protocols import Rendered, Role
+from coopera.core.randomness import Address, seed_at
+from coopera.core.replies import FreeMotionReply, VerdictsReply
+from coopera.models.backends import Backend, Request
+from coopera.models.cache import ReplyCache
+from coopera.models.door import SEEDS, Door
+from coopera.models.settings import CallSettings, Structure
+from coopera.models.transport import Gate, Line
 
 AT = Address("nora", 1, 9, "score")
 YES = '{"verdicts": [{"yes": true, "reason": "it helps"}]}'

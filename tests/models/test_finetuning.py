@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from benchmarks.tiny_mistral import make_recipe
-from core.errors import ConfigError, CooperaError
-from models.finetuning import WEIGHTS, FinetunedChat
+from coopera.core.errors import ConfigError, CooperaError
+from coopera.models.finetuning import WEIGHTS, FinetunedChat
 from tests.tiny import byte_tokenizer, random_llama
 
 LESSONS = [("At nine?", '{"thing": "tea"}'), ("At ten?", '{"thing": "book"}')] * 2

@@ -15,20 +15,20 @@ from hypothesis import strategies as st
 from langchain_core.messages import AIMessage, HumanMessage
 from PIL import Image
 
-from core.asks import ASKS
-from core.errors import ConfigError, ModelCallError, ModelOutputError
-from core.randomness import Address
-from core.replies import REPLIES, PickPlaceReply, VerdictsReply
-from models.backends import Backend, open_backend
-from models.batching import Batcher
-from models.constrained import Row
-from models.door import Door
-from models.huggingface import HuggingFaceChat, open_model
-from models.parsing import read_reply
-from models.schemas import enforced_schema
-from models.settings import CallSettings
-from prompts import PromptLibrary
-from prompts.examples import examples
+from coopera.core.asks import ASKS
+from coopera.core.errors import ConfigError, ModelCallError, ModelOutputError
+from coopera.core.randomness import Address
+from coopera.core.replies import REPLIES, PickPlaceReply, VerdictsReply
+from coopera.models.backends import Backend, open_backend
+from coopera.models.batching import Batcher
+from coopera.models.constrained import Row
+from coopera.models.door import Door
+from coopera.models.huggingface import HuggingFaceChat, open_model
+from coopera.models.parsing import read_reply
+from coopera.models.schemas import enforced_schema
+from coopera.models.settings import CallSettings
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
 from tests.fakes import LetterEmbeddings
 from tests.tiny import byte_tokenizer, random_llama, random_llava, word_tokenizer
 

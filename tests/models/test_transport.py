@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from core.errors import ModelCallError
-from models.settings import CallSettings
-from models.transport import Gate, Line, RefusedError
+from coopera.core.errors import ModelCallError
+from coopera.models.settings import CallSettings
+from coopera.models.transport import Gate, Line, RefusedError
 
 NOON = datetime(2026, 1, 1, 12, tzinfo=UTC)
 

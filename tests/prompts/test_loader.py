@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.asks import PROMPTS
-from core.errors import PromptError
-from prompts import PromptLibrary, check
-from prompts.examples import examples
-from prompts.loader import SHIPPED
+from coopera.core.asks import PROMPTS
+from coopera.core.errors import PromptError
+from coopera.prompts import PromptLibrary, check
+from coopera.prompts.examples import examples
+from coopera.prompts.loader import SHIPPED
 
 GUESSES = "human/feedback_intentions"
 HEAD = """---

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from core.household import FreeMotion, HandOver, PickPlace
-from simulation.scene import Door, Room, Scene, SceneObject
+from coopera.core.household import FreeMotion, HandOver, PickPlace
+from coopera.simulation.homes.scene import Door, Room, Scene, SceneObject
 
 _ROWS = [
     # name, category, room, position, yaw, size, carrier

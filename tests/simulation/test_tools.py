@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from simulation.tools import world_tools
-from simulation.world import World
+from coopera.simulation.tools import world_tools
+from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, put
 
 

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.errors import SimulationError
-from core.household import FreeMotion, HandOver, Outcome
-from core.protocols import Home
-from simulation.catalogue import surfaces
-from simulation.plans import Walk
-from simulation.scene import load_scene
-from simulation.spots import Spot, taken_at
-from simulation.world import World
+from coopera.core.errors import SimulationError
+from coopera.core.household import FreeMotion, HandOver, Outcome
+from coopera.core.protocols import Home
+from coopera.simulation.acts.plans import Walk
+from coopera.simulation.homes.catalogue import surfaces
+from coopera.simulation.homes.scene import load_scene
+from coopera.simulation.homes.spots import Spot, taken_at
+from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
 ROOT = Path(__file__).parents[2]
@@ -186,7 +186,7 @@ import hashlib, json, sys
 sys.path.insert(0, {root!r})
 from pathlib import Path
 import numpy as np
-from simulation.world import World
+from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 with World(flat(), frame_size=(64, 48)) as world:
     world.restore(json.loads(sys.stdin.read()))

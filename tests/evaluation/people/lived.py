@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from core.household import SceneId
-from core.people import BigFive, Persona, PersonId
-from evaluation.people.lives import LivedDay, Lives
+from coopera.core.household import SceneId
+from coopera.core.people import BigFive, Persona, PersonId
+from coopera.evaluation.people.lives import LivedDay, Lives
 
 
 def day(

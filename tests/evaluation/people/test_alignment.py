@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from core.hour import LoggedHour
-from core.people import PersonId
-from evaluation.people.alignment import alignment, week
+from coopera.core.hour import LoggedHour
+from coopera.core.people import PersonId
+from coopera.evaluation.people.alignment import alignment, week
 from tests.evaluation.people.lived import day, lives
 from tests.fakes import LetterEmbeddings
 

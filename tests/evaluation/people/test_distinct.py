@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from evaluation.people.distinct import distinctness
-from evaluation.people.learners import FrozenEncoder
-from evaluation.people.lives import LivedDay
+from coopera.evaluation.people.distinct import distinctness
+from coopera.evaluation.people.learners import FrozenEncoder
+from coopera.evaluation.people.lives import LivedDay
 from tests.evaluation.people.lived import day, lives
 from tests.fakes import LetterEmbeddings
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 import torch
 
-from core.errors import ConfigError
-from evaluation.people.finetune import FinetunedEncoder, Recipe
-from evaluation.people.learners import Step
+from coopera.core.errors import ConfigError
+from coopera.evaluation.people.finetune import FinetunedEncoder, Recipe
+from coopera.evaluation.people.learners import Step
 from tests.tiny import random_bert
 
 WORDS = ["tea", "soup", "rest", "read", "run", "sing"]

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from evaluation.people.lives import hold_out
+from coopera.evaluation.people.lives import hold_out
 from tests.evaluation.people.lived import day
 
 

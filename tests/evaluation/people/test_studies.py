@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from core.errors import ConfigError
-from evaluation.people.studies import Answers, Key, Made, describe_traits, make_study, score_answers
+from coopera.core.errors import ConfigError
+from coopera.evaluation.people.studies import Answers, Key, Made, describe_traits, make_study, score_answers
 from tests.evaluation.people.lived import day, lives, persona
 
 NAMES = ["ann", "bob", "cyd", "dan"]

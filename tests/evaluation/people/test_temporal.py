@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from evaluation.people.learners import FrozenEncoder
-from evaluation.people.lives import LivedDay
-from evaluation.people.temporal import BEFORE, Tally, accuracy, f1, questions, temporal_dependence
+from coopera.evaluation.people.learners import FrozenEncoder
+from coopera.evaluation.people.lives import LivedDay
+from coopera.evaluation.people.temporal import BEFORE, Tally, accuracy, f1, questions, temporal_dependence
 from tests.evaluation.people.lived import day, lives
 from tests.fakes import LetterEmbeddings
 

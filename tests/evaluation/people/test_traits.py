@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.people import BigFive, PersonId
-from evaluation.people.lives import Belief, Lives
-from evaluation.people.traits import coherence, diversity, mean_sd, pearson
+from coopera.core.people import BigFive, PersonId
+from coopera.evaluation.people.lives import Belief, Lives
+from coopera.evaluation.people.traits import coherence, diversity, mean_sd, pearson
 from tests.evaluation.people.lived import day, lives, persona
 
 

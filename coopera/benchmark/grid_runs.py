@@ -1,0 +1,258 @@
+"""A benchmark: a grid of runs, each in a folder of its own, side by side, and picked up where it was left."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import yaml
+
+from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.schema import Config, load_config
+from coopera.core.errors import ConfigError, RunError
+from coopera.core.version import __version__
+from coopera.evaluation.grid import Grid, Life, lives, read_grid
+from coopera.evaluation.measures import robot_seconds
+from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
+from coopera.rundir.directory import RunDir
+from coopera.rundir.trace_files import read_json
+from coopera.studies.catalogues import load_catalogues, resolve
+from coopera.studies.workers import Done, work_through
+
+NOBODY = "none"
+"""The method by which each life is lived first."""
+
+ROWS = "rows.json"
+
+
+@dataclass(frozen=True, slots=True)
+class RunJob:
+    """One run of the grid; a life's own run comes before those of the methods that meet it."""
+
+    name: str
+    after: str | None
+    folder: Path
+    config: Config
+    labels: dict[str, Any]
+    """method, setting, collab, seed and episode of its rows."""
+
+    @property
+    def life(self) -> str:
+        """The life that it is, or that its method meets."""
+        return self.name.partition("/")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Benchmark:
+    """A grid with the runs that it comes to, in a folder."""
+
+    root: Path
+    grid: Grid
+    jobs: list[RunJob]
+
+    @property
+    def left(self) -> list[RunJob]:
+        """Those that are not done."""
+        return [job for job in self.jobs if not _is_done(job)]
+
+
+def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
+    """Lay out the runs of a grid and check every one of them before the first begins.
+
+    Args:
+        grid: What is covered.
+        out: The benchmark's folder.
+        config: What all runs share.
+
+    Raises:
+        ConfigError: If a name is unknown, people or homes do not suffice, or the folder holds another grid.
+    """
+    known = load_catalogues(config)
+    people, scenes = _chosen("humans", grid.humans, known.people), _chosen("scenes", grid.scenes, known.scenes)
+    methods = [name for name in grid.methods if name != NOBODY]
+    if len(set(methods)) < len(methods):
+        raise ConfigError("methods: each may stand once.")
+    jobs: list[RunJob] = []
+    for life in lives(grid, people, scenes):
+        base = _life_config(life, grid, config)
+        home = out / "lives" / life.name
+        jobs.append(_job(life, NOBODY, home, None, base))
+        for method in methods:
+            jobs.append(_job(life, method, out / "runs" / life.name / method, home, base))
+    for job in {(job.config.method, job.labels["setting"], job.labels["episode"]): job for job in jobs}.values():
+        resolve(job.config.model_copy(update={"out": None, "lived": None}), known)
+    return Benchmark(out, grid, jobs)
+
+
+def claim_folder(bench: Benchmark) -> None:
+    """Make the folder, or go on in it if it holds the same grid.
+
+    Raises:
+        ConfigError: If it cannot be written or holds something else.
+    """
+    path = bench.root / "grid.yaml"
+    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person"})
+    text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
+    if path.is_file():
+        before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
+        # methods, seeds and settings may be added to what was run
+        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+        if odd := [name for name in fixed if before.get(name) != now.get(name)]:
+            raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
+    elif bench.root.is_dir() and any(bench.root.iterdir()):
+        raise ConfigError(f"out: {bench.root} is not empty and holds no benchmark; choose another folder.")
+    try:
+        write_atomic(path, text)
+    except OSError as err:
+        raise ConfigError(f"out: {bench.root} cannot be written ({reason(err)}).") from err
+
+
+def carry_out(
+    bench: Benchmark, *, workers: int = 1, ray: str | None = None, deadline: float | None = None
+) -> Generator[Done]:
+    """Do what is left, yielding each run as it ends.
+
+    Args:
+        bench: Planned, its folder claimed.
+        workers: Processes on this machine.
+        ray: Address of a Ray cluster to work on instead ("local" starts one here with `workers` processes).
+        deadline: By `time.monotonic`; no run is started after it.
+    """
+    if ray is None:
+        return work_through(bench.left, do_run, workers=workers, deadline=deadline)
+    from coopera.benchmark.cluster import work_on_ray  # noqa: PLC0415 - an optional extra
+
+    return work_on_ray(bench.left, do_run, address=ray, workers=workers, deadline=deadline)
+
+
+def do_run(job: RunJob) -> None:
+    """Do a run, anew where it was stopped, and leave its rows beside it; what is done already stays.
+
+    Raises:
+        CooperaError: If the run fails.
+    """
+    from coopera.studies.study import run_study  # noqa: PLC0415 - heavy
+
+    if _is_done(job):
+        return
+    if not (job.folder / "run.json").is_file() or RunDir.open(job.folder).state != "finished":
+        shutil.rmtree(job.folder, ignore_errors=True)  # what was left by a start that was stopped
+        run_study(job.config, resumable=False)
+    run = RunDir.open(job.folder)
+    hours = run.hours()
+    rows = rows_of(hours, run.evenings(), _activity(job.config), job.labels)
+    data = {"rows": [row.model_dump() for row in rows], "seconds": robot_seconds(hours)}
+    write_atomic(job.folder / ROWS, canonical_json(data, indent=None))
+
+
+def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
+    """The rows of what is done, their card, and the robot's seconds per hour by method.
+
+    Lives that only some methods have met so far are left out, so that all methods are seen on the same days; where no
+    life is whole yet, all rows there are.
+    """
+    rows: list[Row] = []
+    seconds: dict[str, list[float]] = {}
+    begun = {job.life for job in bench.left}
+    whole = [job for job in bench.jobs if job.life not in begun] or bench.jobs
+    for job in whole:
+        if job.after is not None and _is_done(job):
+            data = read_json(job.folder / ROWS)
+            rows += [Row.model_validate(row) for row in data["rows"]]
+            seconds.setdefault(job.labels["method"], []).extend(data["seconds"])
+    if not rows:
+        raise RunError(f"{bench.root}: no run of this benchmark is finished, so there is nothing to show.")
+    models = bench.jobs[0].config.models.model_dump()
+    card = Card(
+        format=FORMAT,
+        coopera=__version__,
+        name=bench.root.name,
+        offline=any(spec.startswith("offline") for spec in models.values()),
+        models=models,
+        methods=[name for name in bench.grid.methods if any(row.method == name for row in rows)],
+        settings=sorted({row.setting for row in rows}),
+        seeds=sorted({row.seed for row in rows}),
+        rows=len(rows),
+        failed_hours=sum(row.status == "failed" for row in rows),
+        sha256=sha256(to_csv(rows)),
+        grid=bench.grid.model_dump(mode="json"),
+    )
+    return rows, card, seconds
+
+
+def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
+    """Read a grid file and lay flags over it; a flag of None was not given.
+
+    Raises:
+        ConfigError: Naming the file or the flags, the field and what was expected.
+    """
+    from coopera.config.files import read_yaml  # noqa: PLC0415
+
+    data = read_yaml(path, "grid file") if path else {}
+    given = {name: value for name, value in flags.items() if value is not None}
+    if path:
+        read_grid(data, str(path))
+    return read_grid({**data, **given}, str(path) if path and not given else "the grid")
+
+
+def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Config:
+    """What all runs of a grid share: its field `run`, and flags over it."""
+    for name in grid.run:
+        if name in (
+            "setting",
+            "schedule",
+            "collab",
+            "humans",
+            "scenes",
+            "days",
+            "hours",
+            "method",
+            "seed",
+            "out",
+            "lived",
+        ):
+            raise ConfigError(f"{file or 'run'}: run.{name}: the grid itself decides this.")
+    return load_config(None, {**{"pictures": "none"}, **grid.run, **flags})
+
+
+def _life_config(life: Life, grid: Grid, config: Config) -> Config:
+    number: Literal[1, 2, 3, 4] = int(life.setting) if life.setting in ("1", "2", "3", "4") else 1  # type: ignore[assignment]
+    return config.model_copy(
+        update={"setting": number, "collab": life.collab, "seed": life.seed, "hours": grid.hours, "schedule": life.days}
+    )
+
+
+def _job(life: Life, method: str, folder: Path, lived: Path | None, base: Config) -> RunJob:
+    config = base.model_copy(update={"method": method, "out": folder, "lived": lived})
+    labels = {
+        "method": method,
+        "setting": life.setting,
+        "collab": life.collab,
+        "seed": life.seed,
+        "episode": life.episode,
+    }
+    return RunJob(f"{life.name}/{method}", f"{life.name}/{NOBODY}" if lived else None, folder, config, labels)
+
+
+def _chosen(field: str, wanted: Sequence[str] | int | None, known: Sequence[str]) -> list[str]:
+    if wanted is None:
+        return list(known)
+    if isinstance(wanted, int):
+        if wanted > len(known):
+            raise ConfigError(f"{field}: {wanted} are asked for, and there are {len(known)}.")
+        return list(known[:wanted])
+    return list(wanted)
+
+
+def _is_done(job: RunJob) -> bool:
+    return (job.folder / ROWS).is_file()
+
+
+def _activity(config: Config) -> Callable[[str], str]:
+    from coopera.evaluation.activities import nearest_group  # noqa: PLC0415
+    from coopera.studies.assemble import open_embeddings  # noqa: PLC0415 - heavy
+
+    return nearest_group(open_embeddings(config))

@@ -1,0 +1,75 @@
+"""Real people offline: whose log a run takes the person's hours from, checked against the days that are to be lived."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from coopera.config.schema import Config
+from coopera.core.clock import Clock, hour_label
+from coopera.core.errors import ConfigError
+from coopera.core.hour import DayPlan, LoggedHour
+from coopera.core.people import PersonId
+from coopera.people.log_file import read_log
+
+Told: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
+_LOG = "log:"
+_ENDINGS = (".csv", ".jsonl", ".ndjson")
+
+
+def open_told(config: Config, days: Sequence[DayPlan]) -> Told | None:
+    """Read the logs that `human: log:PATH` names; None where nobody wrote a log.
+
+    PATH is one person's log, or a folder with a log per person, named by id (amara.csv). The recorded days of a
+    person are lived in their order, whatever their numbers.
+
+    Raises:
+        ConfigError: If a log is missing, cannot be read, or lacks a day or an hour that is to be lived.
+    """
+    if not config.human.startswith(_LOG):
+        return None
+    path = Path(config.human.removeprefix(_LOG)).expanduser()
+    people = list(dict.fromkeys(plan.person for plan in days))
+    logs = {person: _by_day(_find(path, person, people)) for person in people}
+    told: dict[tuple[int, int], LoggedHour] = {}
+    lived: dict[tuple[int, PersonId], int] = {}
+    for plan in days:
+        nth = lived.get((plan.episode, plan.person), 0)
+        lived[plan.episode, plan.person] = nth + 1
+        file, recorded = logs[plan.person]
+        if nth >= len(recorded):
+            raise ConfigError(
+                f"{file}: the log has {len(recorded)} days, and {plan.person} is to live more; "
+                f"use --days {len(recorded)}."
+            )
+        day = list(recorded)[nth]
+        for hour in plan.hours:
+            if hour not in recorded[day]:
+                raise ConfigError(
+                    f"{file}: day {day} has no hour {hour} ({hour_label(hour)}); the run lives "
+                    f"{hour_label(plan.hours[0])} to {hour_label(plan.hours[-1])}, so write it down or use --hours."
+                )
+            told[plan.day, hour] = recorded[day][hour]
+    return lambda plan, clock: told[plan.day, clock.hour]
+
+
+def _by_day(path: Path) -> tuple[Path, dict[int, dict[int, LoggedHour]]]:
+    days: dict[int, dict[int, LoggedHour]] = {}
+    for hour in read_log(path):
+        days.setdefault(hour.day, {})[hour.hour] = hour
+    return path, days
+
+
+def _find(path: Path, person: PersonId, people: Sequence[PersonId]) -> Path:
+    if path.is_dir():
+        found = [path / f"{person}{ending}" for ending in _ENDINGS if (path / f"{person}{ending}").is_file()]
+        if not found:
+            raise ConfigError(f"human: {path} must hold a log of each person; {person}.csv or .jsonl is missing.")
+        return found[0]
+    if len(people) > 1:
+        raise ConfigError(
+            f"human: {path} is the log of one person, and {len(people)} take part ({', '.join(people)}); name one with "
+            "--humans, or give a folder with a log per person."
+        )
+    return path

@@ -1,0 +1,108 @@
+"""What a long run shows while it works, and at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from rich import progress as bars
+from rich.console import Console
+from rich.table import Table
+
+from coopera.core.clock import hour_label
+
+
+class Progress:
+    """Shows day, hour, node and running success: one live line on a terminal, else a line per hour.
+
+    Everything goes to standard error, so that standard output stays clean for results.
+    """
+
+    def __init__(self, hours: int, console: Console | None = None, *, done: Collection[tuple[int, int]] = ()) -> None:
+        """Expect `hours` hours in all, of which those in `done` (day, hour) were lived before."""
+        self._console = console or Console(stderr=True, highlight=False)
+        self._hours = hours
+        self._done: set[tuple[int, int]] = set(done)
+        self._now: tuple[int, int] | None = None
+        self._success = "–"
+        self._bar: bars.Progress | None = None
+        if self._console.is_terminal:
+            self._bar = bars.Progress(
+                bars.TextColumn("{task.description}"),
+                bars.BarColumn(bar_width=28),
+                bars.MofNCompleteColumn(),
+                bars.TimeElapsedColumn(),
+                console=self._console,
+            )
+            self._task = self._bar.add_task("getting ready", total=hours)
+
+    def __enter__(self) -> Self:
+        """Start showing."""
+        if self._bar:
+            self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Show the last hour as done unless it was broken off."""
+        if error is None:
+            self._close_hour()
+        if self._bar:
+            self._bar.stop()
+
+    def tell(self, event: Mapping[str, Any]) -> None:
+        """Take in that a node has ended: `day`, `hour` (None in the evening), `node`, `success` so far or None."""
+        day, hour, node = event["day"], event.get("hour"), event.get("node") or ""
+        if self._now is not None and (hour is None or (day, hour) != self._now):
+            self._close_hour()
+        if hour is not None:
+            self._now = (day, hour)
+        if event.get("success") is not None:
+            self._success = f"{event['success']:.3f}"
+        if self._bar:
+            when = hour_label(hour) if hour is not None else "evening"
+            text = f"day {day} · {when} · {node} · F1 so far {self._success}"
+            self._bar.update(self._task, description=text, completed=len(self._done))
+
+    def _close_hour(self) -> None:
+        if self._now is None:
+            return
+        day, hour = self._now
+        self._done.add(self._now)
+        self._now = None
+        if self._bar:
+            self._bar.update(self._task, completed=len(self._done))
+        else:
+            done = f"{len(self._done)} of {self._hours} hours"
+            self._console.print(f"day {day}, {hour_label(hour)} done ({done}); predicate F1 so far {self._success}")
+
+
+def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None = None) -> None:
+    """Print the days of a run with their success, and where its report is."""
+    console = console or Console(highlight=False)
+    table = Table(title=f"{summary['method']}, setting {summary['setting']}", title_justify="left")
+    for name in ("day", "person", "home"):
+        table.add_column(name)
+    for name in ("predicate F1", "precision", "recall", "judge F1"):
+        table.add_column(name, justify="right")
+    for day in summary["days"]:
+        predicate, judge = day["predicate"], day["judge"]
+        rates = (predicate["f1"], predicate["precision"], predicate["recall"], judge["f1"])
+        table.add_row(str(day["day"]), day["person"], day["scene"], *(figure(rate) for rate in rates))
+    console.print(table)
+    if summary.get("failed_hours"):
+        console.print(f"{summary['failed_hours']} of {summary['hours']} hours failed and are not in these figures.")
+    if summary.get("unscored"):
+        console.print(f"{summary['unscored']} candidates could not be scored and are not in these figures.")
+    report = folder / "report.html"
+    console.print(f"Run: {folder}", soft_wrap=True)
+    if report.is_file():
+        console.print(f"Report: {report}", soft_wrap=True)
+
+
+def figure(value: float | None) -> str:
+    """A rate with three decimals, or a dash where there is none."""
+    return "–" if value is None else f"{value:.3f}"

@@ -1,0 +1,339 @@
+"""The run directory: the truth about a run, in files of open formats that are replaced as a whole or not at all."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import shutil
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.schema import Config, load_config
+from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
+from coopera.core.hour import Evening, HourRecord
+from coopera.core.people import Persona
+from coopera.core.version import __version__
+from coopera.models.settings import Budget, Spent
+from coopera.people.shipped import read_persona, write_persona
+from coopera.rundir import claim
+from coopera.rundir.stopping import Stop
+from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
+from coopera.rundir.trace_files import read_json, read_record, write_record
+
+SCHEMA = 1
+_PACKAGES = [
+    "chromadb",
+    "langchain-core",
+    "langgraph",
+    "numpy",
+    "peft",
+    "pillow",
+    "pybullet",
+    "pydantic",
+    "scikit-learn",
+    "torch",
+    "transformers",
+]
+
+
+class RunDir:
+    """One run's folder; implements `coopera.core.protocols.Recorder`.
+
+    The process that writes holds a lock on the file `lock` and is named in run.json. Used as a context manager
+    it records how the work ended: `finished` after `finish`, else `stopped` or `failed`, each of which may be resumed.
+
+    Attributes:
+        root: The folder.
+        config: The resolved configuration, as in config.yaml.
+    """
+
+    def __init__(
+        self, root: Path, config: Config, info: dict[str, Any], lock: IO[str] | None, stop: Stop | None = None
+    ) -> None:
+        """Use `create`, `resume` or `open`."""
+        self.root = root
+        self.config = config
+        self.info = info
+        self._lock = lock
+        self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
+        self._stop = Stop(stop)
+        self._made: list[Path] = []
+
+    @classmethod
+    def create(
+        cls,
+        config: Config,
+        *,
+        people: Sequence[Persona],
+        prompts: Mapping[str, str],
+        models: Mapping[str, str],
+        knowledge: Mapping[str, str] | None = None,
+        stop: Stop | None = None,
+        resumable: bool = True,
+    ) -> Self:
+        """Start a new run in `config.out`; nothing stays behind if that fails.
+
+        Args:
+            config: Resolved by `coopera.studies.catalogues.resolve`.
+            people: Those who take part; kept in the run, so that it stays readable without the data folder.
+            prompts: SHA of each prompt by name.
+            models: Identity of the model behind each role.
+            knowledge: SHA of each household file of one's own, by the model that has it.
+            stop: What else stops this run, besides the signals that it listens to itself.
+            resumable: Whether it keeps its memory and checkpoints on file.
+
+        Raises:
+            ConfigError: If the folder cannot be written, is not empty or holds another run.
+        """
+        if config.out is None:
+            raise ConfigError("out: a folder for the run must be given.")
+        root, made = config.out, claim.make_folder(config.out)
+        info = _info(prompts, models) | {"knowledge": dict(knowledge or {}), "resumable": resumable}
+        lock = None
+        try:
+            lock = claim.lock(root)
+            write_atomic(root / "config.yaml", config.to_yaml())
+            for persona in people:
+                write_persona(persona, root / "people")
+            write_atomic(root / "run.json", canonical_json(info))
+        except (OSError, CooperaError) as err:
+            if lock:
+                lock.close()
+            claim.clear(root, made)
+            what = reason(err) if isinstance(err, OSError) else str(err)
+            raise ConfigError(f"out: {root} cannot be written ({what}).") from err
+        run = cls(root, config, info, lock, stop)
+        run._made = made
+        return run
+
+    @classmethod
+    def open(cls, path: Path) -> Self:
+        """Open a run for reading.
+
+        Raises:
+            ConfigError: If the folder holds no run.
+            RunError: If its files are damaged or newer than this version understands.
+        """
+        if not (path / "run.json").is_file():
+            raise ConfigError(f"{path}: this folder holds no run (there is no run.json in it).")
+        info = read_json(path / "run.json")
+        if not isinstance(info, dict) or not isinstance(info.get("schema"), int):
+            raise RunError(f"{path / 'run.json'}: the field schema is missing, so this run cannot be read.")
+        if info["schema"] > SCHEMA:
+            raise RunError(
+                f"{path / 'run.json'}: schema {info['schema']} was written by a newer coopera; this one knows {SCHEMA}."
+            )
+        return cls(path, load_config(path / "config.yaml"), info, None)
+
+    @classmethod
+    def resume(cls, path: Path, budget: Budget | None = None) -> Self:
+        """Open a stopped, failed or killed run for writing; a budget replaces what it had.
+
+        Raises:
+            ConfigError: If the folder holds no run.
+            RunError: If the run is finished, or another process is still writing it.
+        """
+        run = cls.open(path)
+        if run.state == "finished":
+            raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
+        if not run.resumable:
+            raise RunError(f"{path}: this run kept nothing to go on from, as those of a benchmark; start it anew.")
+        claim.refuse_second_writer(path, run.info)
+        run._lock = claim.lock(path)
+        for half in path.rglob(".*.tmp"):  # what a killed writer left
+            half.unlink(missing_ok=True)
+        run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
+        if budget is not None:
+            run.config = run.config.model_copy(update={"budget": budget})
+            write_atomic(path / "config.yaml", run.config.to_yaml())
+        run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
+        run._write_info()
+        return run
+
+    def discard(self) -> None:
+        """Take back a run that was only just created, so that its folder is as it was before."""
+        if self._lock is not None:
+            claim.empty(self.root, self._made)
+            self._lock.close()
+            self._lock = None
+
+    @property
+    def state(self) -> str:
+        """State as run.json has it: running, stopped, failed or finished."""
+        return str(self.info["state"])
+
+    @property
+    def resumable(self) -> bool:
+        """Whether its memory and checkpoints are on file; if not, a run that was stopped is done anew."""
+        return bool(self.info.get("resumable", True))
+
+    def __enter__(self) -> Self:
+        """Return the run; from now on Ctrl-C and `kill` stop it at its next step."""
+        self._stop.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Record how the work ended and let go of the run."""
+        self._stop.__exit__(kind, error, trace)
+        if self._lock is None:
+            return
+        if self.state == "running":
+            if isinstance(error, (BudgetError, StoppedError, WaitingError)):
+                self._end("stopped", str(error))
+            elif isinstance(error, Exception):
+                what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
+                self._end("failed", what)
+            else:
+                self._end("stopped", "interrupted" if error else "the work ended before it was complete")
+        self._lock.close()
+        self._lock = None
+
+    def check(self) -> None:
+        """Go on, unless a stop was asked for; whatever takes long calls this now and then.
+
+        Raises:
+            StoppedError: If Ctrl-C was pressed or the process was told to end.
+        """
+        self._stop.check()
+
+    # Recorder
+
+    def frames_folder(self, day: int, hour: int) -> Path:
+        """An empty folder frames/day-DD/hour-HH."""
+        self._stop.check()
+        folder = self.root / "frames" / f"day-{day:02d}" / f"hour-{hour:02d}"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        return folder
+
+    def video_file(self, day: int, hour: int) -> Path:
+        """The file video/day-DD/hour-HH.mp4."""
+        self._stop.check()
+        return self.root / "video" / f"day-{day:02d}" / f"hour-{hour:02d}.mp4"
+
+    def write_hour(self, record: HourRecord) -> None:
+        """Write trace/day-DD/hour-HH.json."""
+        self._stop.check()
+        write_record(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
+        self._rows[record.day, record.hour] = metrics_rows(record)
+
+    def read_day(self, day: int) -> list[HourRecord]:
+        """The hours of a day, in order."""
+        self._stop.check()
+        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
+
+    def write_evening(self, evening: Evening) -> None:
+        """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
+        self._stop.check()
+        write_record(self._day(evening.day) / "evening.json", evening)
+        self._write_metrics()
+
+    def adapters_folder(self, day: int) -> Path:
+        """The folder adapters/day-DD, made if need be."""
+        folder = self.root / "adapters" / f"day-{day:02d}"
+        folder.mkdir(parents=True, exist_ok=True)
+        return folder
+
+    # Reading
+
+    def days(self) -> list[int]:
+        """Numbers of the days of which there is a trace, sorted."""
+        return sorted(int(path.name[4:]) for path in (self.root / "trace").glob("day-*") if path.name[4:].isdigit())
+
+    def hours_done(self) -> list[tuple[int, int]]:
+        """(day, hour) of each hour of which there is a trace, in order, without reading it."""
+        return [(day, int(path.stem[5:])) for day in self.days() for path in sorted(self._day(day).glob("hour-*.json"))]
+
+    def hours(self) -> list[HourRecord]:
+        """All hours of the run, in order."""
+        return [record for day in self.days() for record in self.read_day(day)]
+
+    def read_evening(self, day: int) -> Evening | None:
+        """A day's evening, or None where the day has not ended."""
+        path = self._day(day) / "evening.json"
+        return read_record(path, Evening) if path.is_file() else None
+
+    def evenings(self) -> list[Evening]:
+        """All evenings of the run, in order."""
+        return [evening for day in self.days() if (evening := self.read_evening(day))]
+
+    def people(self) -> dict[str, Persona]:
+        """Those who took part, by id, as they were when the run began."""
+        return {path.stem: read_persona(path) for path in sorted((self.root / "people").glob("*.yaml"))}
+
+    def summary(self) -> dict[str, Any]:
+        """The figures so far, computed from the trace, which is the content of summary.json."""
+        return summarise(self.config, self.hours(), self.evenings())
+
+    def spent(self) -> Spent:
+        """What models were paid for so far: as noted at the end, or, after a kill, at least what the trace shows."""
+        noted = Spent.model_validate(self.info.get("spent", {}))
+        calls = [call for hour in self.hours() for call in hour.calls]
+        calls += [call for evening in self.evenings() for call in evening.calls]
+        paid = [call for call in calls if not call.cached]
+        tokens = sum(call.tokens_in + call.tokens_out for call in paid)
+        return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens))
+
+    def note_spent(self, spent: Spent) -> None:
+        """Keep what was spent in run.json."""
+        self.info["spent"] = spent.model_dump()
+        self._write_info()
+
+    # The end
+
+    def finish(self) -> dict[str, Any]:
+        """Write metrics.csv and summary.json, record that the run is finished, and return the summary."""
+        summary = self.summary()
+        self._write_metrics()
+        write_atomic(self.root / "summary.json", canonical_json(summary))
+        self._end("finished", "")
+        return summary
+
+    def _end(self, state: str, why: str) -> None:
+        self.info |= {"state": state, "reason": why, "ended": _now()}
+        self._write_info()
+
+    def _write_info(self) -> None:
+        write_atomic(self.root / "run.json", canonical_json(self.info))
+
+    def _write_metrics(self) -> None:
+        rows = [row for key in sorted(self._rows) for row in self._rows[key]]
+        write_atomic(self.root / "metrics.csv", metrics_csv(rows))
+
+    def _day(self, day: int) -> Path:
+        return self.root / "trace" / f"day-{day:02d}"
+
+
+def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "state": "running",
+        "reason": "",
+        **claim.writer(),
+        "started": _now(),
+        "ended": None,
+        "versions": {
+            "coopera": __version__,
+            "python": platform.python_version(),
+            **{name: version for name in _PACKAGES if (version := _version(name))},
+        },
+        "prompts": dict(prompts),
+        "models": dict(models),
+    }
+
+
+def _version(package: str) -> str | None:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return None
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")

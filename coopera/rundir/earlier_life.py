@@ -1,0 +1,87 @@
+"""A finished run without a robot, whose days the people of another run live again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.schema import Config
+from coopera.core.errors import ConfigError, RunError
+from coopera.core.hour import DayPlan, HourRecord
+from coopera.graphs.earlier_life import Shown
+from coopera.rundir.directory import RunDir
+from coopera.rundir.trace_files import read_json, read_record
+
+_SAME = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed", "person", "base_url")
+
+
+@dataclass(frozen=True, slots=True)
+class LivedDays:
+    """Reads a life from the folder of its run; implements `coopera.graphs.earlier_life.Lived`.
+
+    What a robot is shown is kept in the folder `shown` of that run: the first robot's run works it out for the others.
+    """
+
+    root: Path
+
+    def hour(self, plan: DayPlan, hour: int) -> HourRecord:
+        """The hour as it was lived."""
+        path = self.root / "trace" / f"day-{plan.day:02d}" / f"hour-{hour:02d}.json"
+        record = read_record(path, HourRecord)
+        if (record.person, record.scene, record.episode_day) != (plan.person, plan.scene, plan.episode_day):
+            raise RunError(f"{path}: this is an hour of {record.person} in {record.scene}, not of {plan.person}.")
+        return record
+
+    def shown(self, plan: DayPlan, hour: int) -> Shown | None:
+        """What was kept of the first task of an hour, or None."""
+        path = self._shown(plan, hour)
+        if not path.is_file():
+            return None
+        try:
+            return Shown.model_validate(read_json(path))
+        except ValidationError as err:
+            raise RunError(f"{path}: the file is damaged; delete it, and it is made anew.") from err
+
+    def keep(self, plan: DayPlan, hour: int, shown: Shown) -> None:
+        """Keep what was shown of an hour."""
+        path = self._shown(plan, hour)
+        try:
+            write_atomic(path, canonical_json(shown.model_dump(), indent=None))
+        except OSError as err:
+            raise RunError(f"{path}: what was shown cannot be kept ({reason(err)}).") from err
+
+    def _shown(self, plan: DayPlan, hour: int) -> Path:
+        return self.root / "shown" / f"day-{plan.day:02d}" / f"hour-{hour:02d}.json"
+
+
+def open_lived(config: Config) -> LivedDays | None:
+    """The life that a configuration names, or None.
+
+    Raises:
+        ConfigError: If that run is not finished, had a robot, or lived other days than are asked for.
+    """
+    from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    if config.lived is None:
+        return None
+    run = RunDir.open(config.lived)
+    where = f"lived: {config.lived}"
+    if run.state != "finished":
+        raise ConfigError(f"{where} must be a finished run, and it is {run.state}.")
+    if find_method(run.config.method).robot:
+        raise ConfigError(f"{where} must be a run without a robot (--method none), and its method is another.")
+    theirs, ours = _days(run.config), _days(config)
+    for field in theirs:
+        if theirs[field] != ours[field]:
+            raise ConfigError(f"{where} has {field} {theirs[field]}, where this run has {ours[field]}.")
+    return LivedDays(config.lived)
+
+
+def _days(config: Config) -> dict[str, Any]:
+    """What decides a person's days."""
+    data = config.model_dump(mode="json")
+    return {**{name: data[name] for name in _SAME}, "models.human": config.models.human}

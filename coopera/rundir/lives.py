@@ -1,0 +1,192 @@
+"""From run directories to the lives that the checks on people take, and back to files: JSON, CSV and a picture."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from coopera.config.files import canonical_json, write_output
+from coopera.core.errors import ConfigError
+from coopera.core.hour import HourRecord, LoggedHour
+from coopera.core.people import Persona, PersonId
+from coopera.evaluation.people.figures import FULL, Figure
+from coopera.evaluation.people.lives import Belief, LivedDay, Lives
+from coopera.people.log_file import read_log
+from coopera.rundir.directory import RunDir
+
+COLUMNS = tuple(Figure.model_fields)
+
+
+class Source(NamedTuple):
+    """What is recorded of a run that was analysed."""
+
+    path: str
+    variant: str
+    seed: int
+    method: str
+    days: int
+    failed_hours: int
+
+
+class Found(NamedTuple):
+    """The lives in some runs, by how the person was simulated, and where they come from."""
+
+    variants: dict[str, Lives]
+    sources: list[Source]
+    model: str
+    collab: int
+
+
+def read_lives(paths: Sequence[Path]) -> Found:
+    """Read what people did in some runs. A day that stands in two runs, as it may with two methods, counts once.
+
+    Raises:
+        ConfigError: If there is no run, one holds no hour, or they do not go together: another language model behind
+            the person, another collaboration type, or another person of the same id; or if there is one person only.
+        RunError: If a run's files are damaged or newer than this version.
+    """
+    if not paths:
+        raise ConfigError("RUN: name at least one run directory.")
+    variants: dict[str, Lives] = {}
+    sources: list[Source] = []
+    kinds: dict[Path, tuple[str, int]] = {}
+    for path in dict.fromkeys(paths):
+        run = RunDir.open(path)
+        kinds[path] = (str(run.info.get("models", {}).get("human", run.config.models.human)), run.config.collab)
+        _same_kind(kinds, path)
+        variant = str(getattr(run.config, "person", FULL))
+        lives = variants.setdefault(variant, Lives([], {}, []))
+        hours = run.hours()
+        days = _days(run, hours)
+        if not days:
+            raise ConfigError(f"{path}: this run holds no hour that a person has lived.")
+        known = {_key(day) for day in lives.days}
+        lives.days.extend(day for day in days if _key(day) not in known)
+        _meet(lives.personas, run, path)
+        lives.beliefs.extend(_beliefs(run))
+        failed = sum(record.human is None for record in hours)
+        sources.append(Source(str(path), variant, run.config.seed, run.config.method, len(days), failed))
+    model, collab = kinds[next(iter(kinds))]
+    for lives in variants.values():
+        if len(lives.people) < 2:
+            raise ConfigError(
+                f"RUN: these runs hold one person only ({lives.people[0]}); the checks compare at least two people."
+            )
+    return Found(dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))), sources, model, collab)
+
+
+def read_recorded(paths: Sequence[Path], people: Sequence[PersonId]) -> dict[PersonId, list[LoggedHour]]:
+    """Read the logs of real people; the file's name without ending is the id of the person who is them in the runs.
+
+    Raises:
+        ConfigError: If a log cannot be used, or is of nobody in the runs.
+    """
+    recorded = {}
+    for path in paths:
+        if path.stem not in people:
+            raise ConfigError(
+                f"--recorded: {path} must be named after a person in these runs ({', '.join(people)}), "
+                f"such as {people[0]}.csv."
+            )
+        recorded[PersonId(path.stem)] = read_log(path)
+    return recorded
+
+
+def write_results(folder: Path, figures: Sequence[Figure], about: Mapping[str, Any]) -> None:
+    """Write people.json, people.csv and people.md.
+
+    Raises:
+        ConfigError: If the folder cannot be written.
+    """
+    data = {**about, "figures": [figure.model_dump() for figure in figures]}
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(figure.model_dump() for figure in figures)
+    write_output(folder / "people.json", canonical_json(data))
+    write_output(folder / "people.csv", text.getvalue())
+    head, *rows = table(figures)
+    lines = [head, ["---"] * len(head), *rows]
+    write_output(folder / "people.md", "".join(f"| {' | '.join(cells)} |\n" for cells in lines))
+
+
+def table(figures: Sequence[Figure]) -> list[list[str]]:
+    """The figures as people read them: a row of headings, then one row each."""
+
+    def number(value: float | None) -> str:
+        return "–" if value is None else f"{value:.3f}"
+
+    rows = [["check", "measure", "person", "ours", "95 % interval", "control", "paper", "n", "note"]]
+    for one in figures:
+        interval = "" if one.low is None else f"{number(one.low)} to {number(one.high)}"
+        control = "" if one.control is None else f"{number(one.control)} ({one.control_is})"
+        n = f"{one.n} {one.unit}" if one.n else ""
+        numbers = [number(one.value), interval, control, number(one.paper), n]
+        rows.append([one.check, one.measure, one.variant.replace("_", " "), *numbers, one.note])
+    return rows
+
+
+def read_answers(path: Path) -> Any:
+    """Read a JSON file that a form or a user has written.
+
+    Raises:
+        ConfigError: If it cannot be read or is no JSON.
+    """
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as err:
+        raise ConfigError(f"{path}: the file cannot be read ({err.strerror or err}).") from err
+    except (ValueError, RecursionError) as err:
+        raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
+
+
+def _same_kind(kinds: Mapping[Path, tuple[str, int]], path: Path) -> None:
+    first = next(iter(kinds))
+    (model, collab), (other, type_) = kinds[first], kinds[path]
+    if other != model:
+        raise ConfigError(f"{path}: here the person is {other}, but {model} in {first}; analyse them apart.")
+    if type_ != collab:
+        raise ConfigError(f"{path}: collaboration type {type_}, but {first} has type {collab}; analyse them apart.")
+
+
+def _days(run: RunDir, hours: Sequence[HourRecord]) -> list[LivedDay]:
+    by_day: dict[int, list[HourRecord]] = {}
+    for record in hours:
+        if record.human is not None:
+            by_day.setdefault(record.day, []).append(record)
+    return [_day(run.config.seed, records) for _, records in sorted(by_day.items())]
+
+
+def _day(seed: int, records: Sequence[HourRecord]) -> LivedDay:
+    first = records[0]
+    lived = [(record.hour, record.human) for record in records if record.human is not None]
+    return LivedDay(
+        person=first.person,
+        scene=first.scene,
+        seed=seed,
+        number=first.episode_day,
+        hours=[hour for hour, _ in lived],
+        intentions=[human.intention.text for _, human in lived],
+        tasks=[[task.act.describe() for task in human.tasks] for _, human in lived],
+    )
+
+
+def _key(day: LivedDay) -> tuple[str, str, int, int]:
+    return day.person, day.scene, day.seed, day.number
+
+
+def _meet(known: dict[PersonId, Persona], run: RunDir, path: Path) -> None:
+    for person, persona in run.people().items():
+        before = known.setdefault(PersonId(person), persona)
+        if (before.profile, before.big_five) != (persona.profile, persona.big_five):
+            raise ConfigError(f"{path}: {person} is somebody else here than in the runs before; analyse them apart.")
+
+
+def _beliefs(run: RunDir) -> list[Belief]:
+    """The last belief about each person, of each robot (an episode has one)."""
+    last = {(one.episode, one.person): one.picture.big_five for one in run.evenings() if one.picture.big_five}
+    return [Belief(person, big_five) for (_, person), big_five in sorted(last.items()) if big_five]

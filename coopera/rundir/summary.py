@@ -1,0 +1,148 @@
+"""The figures of a run, drawn from its trace alone: days by pooled counts, hours as rows."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from coopera.config.schema import Config
+from coopera.core.hour import Counts, Evening, HourRecord
+
+MEASURES = ("predicate", "judge")
+_RATES = ("f1", "precision", "recall")
+_COUNTS = ("tp", "fp", "fn", "tn", "unscored")
+_HELP = ("remaining", "helped", "done", "useless", "metres", "saved_metres")
+COLUMNS = ("day", "episode", "episode_day", "hour", "person", "scene", "measure", *_RATES, *_COUNTS, "status", *_HELP)
+
+
+def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
+    """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures.
+
+    What the help was worth (`coopera.core.hour.Help`) stands in the row of the predicate, which it is measured by.
+    """
+    rows = []
+    given = record.success.help if record.success else None
+    for measure in MEASURES:
+        counts = getattr(record.success, measure) if record.success else None
+        row: dict[str, Any] = {
+            name: getattr(record, name) for name in ("day", "episode", "episode_day", "hour", "person", "scene")
+        }
+        row |= {"measure": measure, "status": record.status}
+        row |= {name: getattr(counts, name) if counts else None for name in (*_RATES, *_COUNTS)}
+        shown = given if measure == "predicate" else None
+        row |= {name: getattr(shown, name) if shown else None for name in _HELP}
+        rows.append(row)
+    return rows
+
+
+def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
+    """Rows as CSV text; an empty cell is a figure that does not exist."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = ()) -> dict[str, Any]:
+    """The content of summary.json, from the hours in order and the evenings.
+
+    `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
+    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else. `repairs` counts what code mended
+    in the person's tasks.
+    """
+    days = sorted({record.day for record in hours})
+    told = {evening.day: evening for evening in evenings}
+    calls = [call for hour in hours for call in hour.calls] + [call for evening in evenings for call in evening.calls]
+    entries = [day_entry([record for record in hours if record.day == day], told.get(day)) for day in days]
+    return {
+        "method": config.method,
+        "setting": config.setting,
+        "collab": config.collab,
+        "seed": config.seed,
+        "people": config.humans or [],
+        "scenes": config.scenes or [],
+        "models": config.models.model_dump(),
+        "days": entries,
+        "calls": len(calls),
+        "calls_cached": sum(call.cached for call in calls),
+        "calls_with_faults": sum(bool(call.faults) for call in calls),
+        "tokens": sum(call.tokens_in + call.tokens_out for call in calls),
+        "tokens_cached": sum(call.tokens_in + call.tokens_out for call in calls if call.cached),
+        "tokens_in": sum(call.tokens_in for call in calls),
+        "tokens_out": sum(call.tokens_out for call in calls),
+        "hours": len(hours),
+        "failed_hours": sum(record.status == "failed" for record in hours),
+        "failures": [
+            {"day": record.day, "hour": record.hour, "reason": record.reason}
+            for record in hours
+            if record.status == "failed"
+        ],
+        "repairs": sum(len(record.human.repairs) for record in hours if record.human),
+        "unscored": sum(entry["predicate"]["unscored"] for entry in entries),
+        "fallbacks": fallbacks(hours),
+        "identified": _identified(hours),
+        "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
+        "agreement": _agreement(hours, told),
+    }
+
+
+def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
+    """How often the robot fell back, by what it says up to the colon or the first name in quotes."""
+    said = [text for hour in hours if hour.robot for text in hour.robot.fallbacks]
+    return dict(sorted(Counter(text.split(":")[0].split(' "')[0] for text in said).items()))
+
+
+def _agreement(hours: Iterable[HourRecord], told: Mapping[int, Evening]) -> dict[str, float | None]:
+    """L1 of each measure to the person's own answers, hour by hour; None where no hour has both."""
+    from coopera.evaluation.measures import by_person, l1  # noqa: PLC0415 - slow to import
+
+    scored = [(record, record.success) for record in hours if record.success and record.day in told]
+    people = [
+        by_person([item for item in told[record.day].feedback if item.hour == record.hour]).f1 for record, _ in scored
+    ]
+    found = {measure: l1([getattr(success, measure).f1 for _, success in scored], people) for measure in MEASURES}
+    return {measure: None if value is None else round(value, 6) for measure, value in found.items()}
+
+
+def _identified(hours: Iterable[HourRecord]) -> dict[str, int]:
+    """In how many hours the robot had to guess whom it was with, and in how many it was right."""
+    guessed = [(hour.robot.with_whom, hour.person) for hour in hours if hour.robot and hour.robot.with_whom]
+    return {"hours": len(guessed), "right": sum(one == other for one, other in guessed)}
+
+
+def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> dict[str, Any]:
+    """One day of the summary: the counts of its hours added up, and the rates of the sums (PAPER §4.3).
+
+    `people` is success as the person said it in the evening; `help` what the help was worth (`docs/measures.md`).
+    """
+    # evaluation is slow to import; the command line answers --help without it
+    from coopera.evaluation.measures import by_person, false_help, help_score, pool_help  # noqa: PLC0415
+
+    first = hours[0]
+    given = pool_help(record.success.help for record in hours if record.success and record.success.help)
+    scored = sum(bool(record.success and record.success.help) for record in hours)
+    rates = {"score": help_score(given), "false_per_hour": false_help(given, scored)}
+    return {
+        "day": first.day,
+        "episode": first.episode,
+        "episode_day": first.episode_day,
+        "person": first.person,
+        "scene": first.scene,
+        "hours": len(hours),
+        "failed_hours": sum(record.status == "failed" for record in hours),
+        **{measure: pooled(hours, measure).model_dump() for measure in MEASURES},
+        "people": by_person(evening.feedback if evening else []).model_dump(),
+        "help": {**given.model_dump(), **rates},
+    }
+
+
+def pooled(hours: Iterable[HourRecord], measure: str) -> Counts:
+    """Add up one measure over hours, failed ones left out."""
+    # evaluation is slow to import; the command line answers --help without it
+    from coopera.evaluation.counts import pool  # noqa: PLC0415
+
+    return pool(getattr(record.success, measure) for record in hours if record.success)

@@ -1,0 +1,124 @@
+"""The trace's files: records as JSON, with a few derived fields that make them easy to read from elsewhere.
+
+Derived fields are written and ignored when read: `robot.frames` (the observation's), `robot.outcomes[].task` (the act
+in words), `human.found.objects` (fixed and movable together) and `world.moved` (what changed its place this hour).
+"""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from pydantic import ValidationError
+
+from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.core.errors import RunError
+from coopera.core.hour import Evening, HourRecord, RobotHour
+from coopera.core.household import Outcome
+
+Record = TypeVar("Record", HourRecord, Evening)
+_REMEMBERED = 160
+"""Records kept in memory: those of twelve days, some tens of megabytes."""
+
+
+def write_record(path: Path, record: HourRecord | Evening) -> None:
+    """Write a record as a whole.
+
+    Raises:
+        RunError: If the file cannot be written or the record holds a number that is not finite.
+    """
+    data = record.model_dump()  # not in JSON mode, which would silently turn a NaN into null
+    if isinstance(record, HourRecord):
+        _derive(data, record)
+    try:
+        write_atomic(path, canonical_json(data, indent=None))
+    except OSError as err:
+        raise RunError(f"{path}: the trace cannot be written ({reason(err)}).") from err
+
+
+def read_record(path: Path, kind: type[Record]) -> Record:
+    """Read what `write_record` wrote.
+
+    Raises:
+        RunError: If the file cannot be read or is damaged; names the file and the field.
+    """
+    try:
+        at = path.stat()
+    except OSError as err:
+        raise _unreadable(path, err) from err
+    return cast(Record, _read_record(path, kind, (at.st_ino, at.st_mtime_ns, at.st_size)))
+
+
+@lru_cache(maxsize=_REMEMBERED)
+def _read_record(path: Path, kind: type[Record], state: tuple[int, int, int]) -> Record:
+    """Read a record once while its file stays as it is: an evening, the summary and the report all ask for it."""
+    data = read_json(path)
+    if kind is HourRecord and isinstance(data, dict):
+        _underive(data)
+    try:
+        return kind.model_validate(data)
+    except ValidationError as err:
+        first = err.errors(include_url=False)[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise RunError(f"{path}: the field {field} is damaged ({first['msg'].lower()}).") from err
+
+
+def read_json(path: Path) -> Any:
+    """Read a JSON file.
+
+    Raises:
+        RunError: If the file cannot be read or is no JSON.
+    """
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as err:
+        raise _unreadable(path, err) from err
+    except ValueError as err:
+        raise RunError(f"{path}: the file is damaged ({err}).") from err
+
+
+def _unreadable(path: Path, err: OSError) -> RunError:
+    return RunError(f"{path}: the file cannot be read ({reason(err)}).")
+
+
+def human_outcomes(record: HourRecord) -> list[Outcome]:
+    """What came of the person's own acts this hour."""
+    return [Outcome.model_validate(one) for one in record.world.get("outcomes", [])]
+
+
+def intention_verdicts(evening: Evening | None, hour: int) -> dict[str, bool | None]:
+    """What the person said in the evening of each intention that the robot imagined in an hour, by text."""
+    items = evening.feedback if evening else []
+    return {item.text: item.helpful for item in items if item.hour == hour and item.kind == "intention"}
+
+
+def _derive(data: dict[str, Any], record: HourRecord) -> None:
+    if record.human:
+        found = data["human"]["found"]
+        found["objects"] = {**found["fixed"], **found["movable"]}
+    if record.robot:
+        data["robot"]["frames"] = list(record.robot.observation.frames)
+        for one, outcome in zip(data["robot"]["outcomes"], record.robot.outcomes, strict=True):
+            one["task"] = outcome.act.describe()
+    data["world"]["moved"] = _moved(record, record.robot)
+
+
+def _moved(record: HourRecord, robot: RobotHour | None) -> list[str]:
+    """Names of the objects that were put somewhere this hour, in the order in which it was done."""
+    outcomes = [*(robot.outcomes if robot else []), *human_outcomes(record)]
+    moved = [one.act.object for one in outcomes if one.ok and one.act.kind == "pick_place"]
+    return list(dict.fromkeys(moved))
+
+
+def _underive(data: dict[str, Any]) -> None:
+    for part, field in (("robot", "frames"), ("world", "moved")):
+        if isinstance(data.get(part), dict):
+            data[part].pop(field, None)
+    human, robot = data.get("human"), data.get("robot")
+    if isinstance(human, dict) and isinstance(human.get("found"), dict):
+        human["found"].pop("objects", None)
+    if isinstance(robot, dict):
+        for one in robot.get("outcomes", []):
+            one.pop("task", None)

@@ -1,0 +1,254 @@
+"""The rooms wired together: from a configuration to the services that the graphs work with."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from langchain_core.embeddings import Embeddings
+
+from coopera.config.schema import Config
+from coopera.core.hour import ModelCall
+from coopera.core.household import SceneId
+from coopera.core.lazy import made_once
+from coopera.core.people import Persona
+from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
+from coopera.evaluation import Measure, find_method
+from coopera.graphs import Method, Services
+from coopera.graphs.learning import KINDS, Kind, Learner
+from coopera.graphs.own_robot import MakeRobot, OwnRobot
+from coopera.graphs.person import PERSON_MODELS
+from coopera.graphs.services import nothing_was_told
+from coopera.memory import MemoryStream, Search, bundled
+from coopera.memory.ram import RamClient
+from coopera.models.budget import Meter
+from coopera.models.classifiers import Inputs, make_classifier
+from coopera.models.classifiers.instruction import Instruct
+from coopera.models.door import open_door
+from coopera.models.transport import wait
+from coopera.people.real import Told
+from coopera.prompts import PromptLibrary
+from coopera.rundir.directory import RunDir
+from coopera.rundir.earlier_life import open_lived
+from coopera.simulation import World, load_scene
+from coopera.simulation.motions.library import Library
+from coopera.simulation.motions.user_folder import load_motions
+from coopera.studies.catalogues import tuned_model
+
+_GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
+
+
+def model_specs(config: Config) -> dict[Role, str]:
+    """Which model plays which role."""
+    robot = config.backbone if find_method(config.method).other_backbone else config.models.robot
+    return {"human": config.models.human, "robot": robot, "judge": config.models.judge}
+
+
+def open_embeddings(config: Config) -> Embeddings:
+    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too."""
+    return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
+
+
+@made_once(2)
+def _embeddings(cache: Path) -> Embeddings:
+    return bundled(cache)
+
+
+def open_ask(
+    config: Config,
+    *,
+    prompts: PromptLibrary | None = None,
+    embeddings: Embeddings | None = None,
+    root: Path | None = None,
+    check: Callable[[], None] = lambda: None,
+    meter: Meter | None = None,
+) -> Ask:
+    """Open the one door to the configured language models.
+
+    Args:
+        config: Says which models.
+        prompts: The prompt folder, where it has been read already.
+        embeddings: The sentence encoder, where it has been opened already.
+        root: The run directory: pictures are named relative to it, and replies are cached in it.
+        meter: Counts what is spent.
+        check: Raises if the run was asked to stop; called while a request waits to be sent again.
+
+    Raises:
+        PromptError: If a prompt file is broken, naming file and line.
+        ConfigError: If a model is unknown or cannot be used here.
+    """
+    return open_door(
+        prompts=prompts or PromptLibrary(config.prompts),
+        # a model that is finetuned is held by the robot itself, and twice would be once too often
+        specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
+        seed=config.seed,
+        embeddings=embeddings or open_embeddings(config),
+        base_url=config.base_url,
+        cache=root / "llm_cache.sqlite" if root else None,
+        shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
+        meter=meter,
+        settings=config.calls,
+        sleep=partial(_wait, check),
+        root=root,
+    )
+
+
+def _wait(check: Callable[[], None], seconds: float) -> None:
+    """Wait, but not longer than until the run is asked to stop."""
+    end = time.monotonic() + seconds
+    while (left := end - time.monotonic()) > 0:
+        check()
+        wait(min(left, _GLANCE))
+
+
+@contextmanager
+def open_services(
+    config: Config,
+    run: RunDir,
+    people: Mapping[str, Persona],
+    prompts: PromptLibrary | None = None,
+    told: Told | None = None,
+) -> Iterator[Services]:
+    """Open everything that a run works with, and close it at the end.
+
+    Args:
+        config: Resolved by `coopera.studies.catalogues.resolve`.
+        run: The run directory, which may be asked to stop.
+        people: Those who may take part, by id.
+        prompts: The prompt folder, where it has been read already.
+        told: What a real person wrote down of the hours.
+    """
+    with ExitStack() as stack:
+        embeddings = open_embeddings(config)
+        meter = Meter(config.budget, run.spent())
+        stack.callback(lambda: run.note_spent(meter.spent))
+        prompts = prompts or PromptLibrary(config.prompts)
+        door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
+        ask = _Interruptible(door, run.check)
+        method = find_method(config.method)
+        yield Services(
+            ask=ask,
+            method=method,
+            people={persona.id: persona for persona in people.values()},
+            home=_Homes(stack, config, embeddings),
+            stream=_Streams(stack, run.root / "memory" if run.resumable else RamClient(), embeddings),
+            embeddings=embeddings,
+            learner=Learner(
+                {kind: _classifier(config, method, kind, embeddings, prompts.instruct) for kind in KINDS},
+                run,
+                config.seed,
+                config.learning,
+            ),
+            told_who=config.who == "known",
+            hourly_traits=config.traits == "hourly",
+            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
+            recorder=run,
+            score=Measure(ask, embeddings),
+            seed=config.seed,
+            frames=config.frames if config.pictures in ("sampled", "video") else 0,
+            video=config.pictures == "video",
+            person=PERSON_MODELS[config.person],
+            sizes=config.search,
+            lived=open_lived(config),
+            told=told or nothing_was_told,
+            in_the_loop=config.human == "me",
+            graded=config.feedback == "graded",
+        )
+
+
+def _own_robot(config: Config, method: Method) -> MakeRobot | None:
+    """What takes the place of our graph, if anything does."""
+    if method.tunes and (model := tuned_model(config)):
+        return partial(method.tunes, model, config.classifier_config)
+    return method.own
+
+
+def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
+    """Open one of a run's homes as it was built; it is to be closed after use."""
+    layout = load_scene(scene, [config.data_dir / "scenes"])
+    motions = load_motions(config.motions)
+    match = _nearest_motion(embeddings, motions)
+    return World(
+        layout,
+        robot=config.robot,
+        frame_size=config.frame_size,
+        renderer=config.renderer,
+        motions=motions,
+        match=match,
+        errors=config.perception,
+    )
+
+
+class _Interruptible:
+    """The one door, shut once the run is asked to stop, so that a slow model does not hold it up for an hour."""
+
+    def __init__(self, ask: Ask, check: Callable[[], None]) -> None:
+        self._ask, self._check = ask, check
+
+    def __call__(self, prompt: str, reply: type[Reply], /, **given: Any) -> Reply:
+        self._check()
+        return self._ask(prompt, reply, **given)
+
+    def sees(self, role: Role) -> bool:
+        return self._ask.sees(role)
+
+    def take_calls(self) -> list[ModelCall]:
+        return self._ask.take_calls()
+
+
+class _Homes:
+    """Opens a home at its first use and keeps it open."""
+
+    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings) -> None:
+        self._stack, self._config, self._embeddings = stack, config, embeddings
+        self._open: dict[SceneId, Home] = {}
+
+    def __call__(self, scene: SceneId) -> Home:
+        if scene not in self._open:
+            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings))
+        return self._open[scene]
+
+
+class _Streams:
+    """Opens a memory stream at its first use and keeps it open."""
+
+    def __init__(self, stack: ExitStack, store: Path | RamClient, embeddings: Embeddings) -> None:
+        self._stack, self._store, self._embeddings = stack, store, embeddings
+        self._open: dict[str, MemoryStream] = {}
+
+    def __call__(self, name: str) -> MemoryStream:
+        if name not in self._open:
+            self._open[name] = self._stack.enter_context(MemoryStream.open(self._store, name, self._embeddings))
+        return self._open[name]
+
+
+def _classifier(
+    config: Config, method: Method, kind: Kind, embeddings: Embeddings, instruct: Instruct
+) -> Callable[[], Classifier]:
+    if method.judge is not None:
+        return partial(method.judge, kind)
+    time_only = method.time_only
+    inputs = Inputs(
+        traits=method.traits and not time_only,
+        context=method.context and not time_only,
+        rank=method.order and not time_only,
+    )
+    return partial(
+        make_classifier,
+        config.classifier,
+        kind=kind,
+        embeddings=embeddings,
+        inputs=inputs,
+        recipe=config.classifier_config,
+        instruct=instruct,
+    )
+
+
+def _nearest_motion(embeddings: Embeddings, motions: Library) -> Callable[[str], str]:
+    """The library motion whose caption is most similar to a free-form text."""
+    search = Search(embeddings, motions.captions)
+    return lambda text: search.top(text, 1)[0][0]

@@ -1,0 +1,176 @@
+"""What there is to choose from, and a configuration completed and checked against it before anything is written."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from coopera.config.schema import Config, Models
+from coopera.core.errors import ConfigError
+from coopera.core.people import Persona
+from coopera.graphs.person import PERSON_MODELS
+from coopera.models.backends import household_file
+from coopera.models.classifiers.instruction import read_recipe
+from coopera.models.offline.household.knowledge import load as load_household
+from coopera.people import shipped as humans
+from coopera.rundir.claim import refuse_used
+from coopera.simulation.bodies.robot import ROBOTS
+from coopera.simulation.motions.user_folder import load_motions
+from coopera.simulation.sight.video import need_video
+
+
+class Catalogues(NamedTuple):
+    """Ids that a configuration may name; people and scenes in the order in which a setting takes them.
+
+    `needs` gives, by setting, (people of one episode, scenes of one episode, days of one episode).
+    """
+
+    people: list[str]
+    scenes: list[str]
+    methods: list[str]
+    needs: dict[int, tuple[int, int, int]]
+
+
+def load_catalogues(config: Config) -> Catalogues:
+    """Gather what ships with coopera and what stands in the configuration's data folder."""
+    # These rooms are slow to import, and `coopera --help` needs none of them.
+    from coopera.evaluation import SETTINGS, known_methods  # noqa: PLC0415
+    from coopera.simulation.homes.scene import list_scenes  # noqa: PLC0415
+
+    shipped = list_scenes()
+    imported = [scene for scene in list_scenes([config.data_dir / "scenes"]) if scene not in shipped]
+    return Catalogues(
+        people=list(humans.known_ids(config.data_dir)),
+        scenes=[*shipped, *imported],
+        methods=known_methods(),
+        needs={number: (setting.people, setting.scenes, setting.days) for number, setting in SETTINGS.items()},
+    )
+
+
+def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
+    """Fill in what the setting decides and check every name; humans, scenes, days and out are then set.
+
+    Raises:
+        ConfigError: Naming the field, what is wrong and what there is.
+    """
+    known = catalogues or load_catalogues(config)
+    config = _by_schedule(config)
+    n_people, n_scenes, days = known.needs[config.setting]
+    _refuse_what_comes_later(config)
+    _check("method", "method", [config.method], known.methods)
+    _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
+    _check("robot", "robot", [config.robot], list(ROBOTS))
+    _refuse_online(config)
+    _check("humans", "person", config.humans or [], known.people)
+    _check("scenes", "home", config.scenes or [], known.scenes)
+    people = config.humans or _first("humans", known.people, n_people, config.setting)
+    scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
+    if not config.schedule:
+        _groups("humans", people, n_people, config.setting)
+        _groups("scenes", scenes, n_scenes, config.setting)
+    load_motions(config.motions)
+    _knowledge(config.models)
+    if config.out is not None:
+        refuse_used(config.out)
+    for person in people:
+        _livable(humans.find(person, config.data_dir), config.person)
+    return config.model_copy(
+        update={
+            "humans": list(people),
+            "scenes": list(scenes),
+            "days": config.days or days,
+            "out": config.out or next_folder(Path("runs")),
+        }
+    )
+
+
+def tuned_model(config: Config) -> str | None:
+    """The Hugging Face model that the method finetunes itself, if it does."""
+    from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    provider, _, name = config.models.robot.partition(":")
+    return name if provider == "huggingface" and find_method(config.method).tunes else None
+
+
+def _refuse_online(config: Config) -> None:
+    """Refuse a method that finetunes the robot's model where that model is on a server."""
+    from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    here = config.models.robot.startswith(("offline", "huggingface:"))
+    if find_method(config.method).tunes and not here:
+        raise ConfigError(
+            f"method: {config.method} finetunes the robot's model in this process, which can be offline or "
+            f"huggingface:REPO-OR-FOLDER, and the robot model here is {config.models.robot}."
+        )
+
+
+def _by_schedule(config: Config) -> Config:
+    """With a schedule, its people, homes and days are the run's."""
+    if not config.schedule:
+        return config
+    who, where = (list(dict.fromkeys(names)) for names in zip(*config.schedule, strict=True))
+    said = {"humans": who, "scenes": where, "days": len(config.schedule)}
+    for field, value in said.items():
+        if getattr(config, field) not in (None, value):
+            raise ConfigError(f"{field}: the schedule says this already; leave it out.")
+    return config.model_copy(update=said)
+
+
+def _first(field: str, ids: Sequence[str], count: int, setting: int) -> list[str]:
+    if len(ids) < count:
+        there = f"only {', '.join(ids)} exists" if len(ids) == 1 else f"there are {', '.join(ids) or 'none'}"
+        raise ConfigError(f"{field}: setting {setting} needs {count}, and {there}.")
+    return list(ids[:count])
+
+
+def _check(field: str, what: str, wanted: Sequence[str], known: Sequence[str]) -> None:
+    for name in wanted:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            shown = ", ".join(known[:12]) + (f" and {len(known) - 12} more" if len(known) > 12 else "")
+            hint = f"did you mean {near[0]}? " if near else ""
+            raise ConfigError(f"{field}: there is no {what} {name!r} ({hint}known are {shown or 'none'}).")
+        if wanted.count(name) > 1:
+            raise ConfigError(f"{field}: {name} stands twice, and each may stand once.")
+
+
+def _livable(persona: Persona, model: str) -> None:
+    """Refuse a person who lacks the text that a person model lives by."""
+    if not PERSON_MODELS[model].profile(persona):
+        raise ConfigError(f"humans: {persona.id} has no notes in the persona file, and --person {model} lives by them.")
+
+
+def _knowledge(models: Models) -> None:
+    """Refuse a household file of one's own that is wrong before anything is written."""
+    for spec in sorted(set(models.model_dump().values())):
+        own = household_file(spec)
+        if own is not None and own.is_file():
+            load_household(own)
+
+
+def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:
+    if len(ids) % size:
+        a_multiple = f"{size} or a multiple of it" if size > 1 else "at least 1"
+        raise ConfigError(f"{field}: setting {setting} takes {a_multiple}, not {len(ids)} ({', '.join(ids)}).")
+
+
+def next_folder(runs: Path) -> Path:
+    """The first of run-001, run-002, … that is not there yet."""
+    number = 1
+    while (folder := runs / f"run-{number:03d}").exists():
+        number += 1
+    return folder
+
+
+def _refuse_what_comes_later(config: Config) -> None:
+    """Refuse choices that are named in the design but not built yet."""
+    if config.pictures == "video":
+        need_video()
+    if config.classifier_config is not None:
+        if config.classifier != "lora-instruct" and not tuned_model(config):
+            raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")
+        read_recipe(config.classifier_config)
+    if config.prompts is not None and not config.prompts.is_dir():
+        raise ConfigError(f"prompts: {config.prompts} must be a folder of prompt files, and there is no such folder.")

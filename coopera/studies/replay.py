@@ -1,0 +1,109 @@
+"""A run's acts done again from its trace alone: no model, no memory, and in the end the very same world.
+
+Each hour's trace holds what everybody did, in order, and the hash of the home afterwards. Replayed hours may be filmed,
+so that a run without pictures can be looked at later.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from coopera.core.errors import ConfigError, RunError
+from coopera.core.hour import HourRecord
+from coopera.core.household import Outcome, SceneId
+from coopera.rundir.directory import RunDir
+from coopera.rundir.trace_files import human_outcomes
+from coopera.simulation import World
+from coopera.simulation.acts.state import digest
+from coopera.studies.assemble import open_embeddings, open_home
+
+
+class Replayed(NamedTuple):
+    """How one hour came out: the first difference as a sentence, empty where there is none."""
+
+    day: int
+    hour: int
+    acts: int
+    difference: str
+
+
+def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None) -> Iterator[Replayed]:
+    """Do all acts of a run again, hour by hour; every episode begins with its homes as they were built.
+
+    The homes are never set from the trace, so that each hour builds on all those before it. Only after an hour that
+    came out differently is the home set to what the trace says, so that later hours are judged by themselves.
+
+    Args:
+        run: The run, open for reading.
+        look: Called after each hour's first act, while its recording is there.
+
+    Raises:
+        RunError: If the run has no hours yet, or its people lived their hours in another run.
+    """
+    if run.config.lived is not None:
+        raise RunError(f"{run.root}: this run met days lived before; replay that life instead: {run.config.lived}.")
+    records = run.hours()
+    if not records:
+        raise RunError(f"{run.root}: there are no hours to replay yet.")
+    embeddings = open_embeddings(run.config)
+    homes: dict[SceneId, World] = {}
+    episode = None
+    try:
+        for record in records:
+            if record.episode != episode:
+                episode = record.episode
+                for home in homes.values():
+                    home.restore({})
+            if record.scene not in homes:
+                homes[record.scene] = open_home(run.config, record.scene, embeddings)
+            yield _hour(homes[record.scene], record, look)
+    finally:
+        for home in homes.values():
+            home.close()
+
+
+def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], None] | None) -> Replayed:
+    expected = _in_order(record)
+    watched = record.world.get("watched", record.robot is not None)
+    difference = ""
+    for number, then in enumerate(expected):
+        now = home.perform(then.agent, then.act, record=watched and number == 0)
+        if look is not None and watched and number == 0:
+            look(record, home)
+        if now != then and not difference:
+            what = f"act {number + 1} ({then.agent}: {then.act.describe()})"
+            difference = f"{what} came out as {_said(now)}, not {_said(then)}"
+    poses = record.world.get("poses", {})
+    wanted = record.world.get("sha256") or digest(poses)
+    if digest(home.snapshot()) != wanted:
+        difference = difference or "the home is not as it was left"
+        home.restore(poses)
+    return Replayed(record.day, record.hour, len(expected), difference)
+
+
+def _in_order(record: HourRecord) -> list[Outcome]:
+    """The hour's acts in the order in which they were done: the person's first, the robot's, the person's others."""
+    own, helped = human_outcomes(record), record.robot.outcomes if record.robot else []
+    shown = 1 if record.world.get("watched", record.robot is not None) else 0
+    return [*own[:shown], *helped, *own[shown:]]
+
+
+def _said(outcome: Outcome) -> str:
+    return f"done in {outcome.metres} m" if outcome.ok else f"failed: {outcome.reason}"
+
+
+def film_into(folder: Path, frames: int) -> Callable[[HourRecord, World], None]:
+    """Return a `look` that renders each recording into folder/day-DD/hour-HH.
+
+    Raises:
+        ConfigError: If the folder is a file.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise ConfigError(f"--frames: {folder} must be a folder, and it is a file.")
+
+    def look(record: HourRecord, world: World) -> None:
+        world.frames(frames, folder / f"day-{record.day:02d}" / f"hour-{record.hour:02d}")
+
+    return look

@@ -1,0 +1,180 @@
+"""Several studies at once, so that a server which answers many requests together is kept busy.
+
+Each study has a thread of its own. Its graphs' nodes are plain functions that wait in threads too, rather than
+coroutines, since the home and the memories are libraries that block; what waits for a server lets the others go on.
+What homes compute takes turns within a process, so the threads can be spread over several.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import wait as wait_for_all
+from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for_any
+from multiprocessing.process import BaseProcess
+from typing import Any, TypeAlias
+
+from coopera.config.schema import Config
+from coopera.core.errors import ConfigError, CooperaError, RunError
+from coopera.models.transport import share_pace
+from coopera.rundir.stopping import Stop
+from coopera.studies.catalogues import resolve
+from coopera.studies.study import Event, run_study
+from coopera.studies.workers import die_with
+
+Ended: TypeAlias = dict[str, Any] | CooperaError
+Tell: TypeAlias = Callable[[int, Event], None]
+
+
+def run_studies(
+    configs: Sequence[Config], *, at_once: int = 8, processes: int = 1, on_event: Tell | None = None
+) -> list[Ended]:
+    """Run studies side by side; none depends on which ends first, and one that fails does not stop the others.
+
+    The threads of a process share weights, the text encoder and the pace towards servers.
+
+    Args:
+        configs: Each with an `out` of its own.
+        at_once: How many run at the same time.
+        processes: Over how many processes they are spread. With 1 they are threads of this one. More pay where servers
+            are quick or homes busy, and cost seconds to start; each then loads weights of its own and keeps its part
+            of the pace. As always with processes, a script must then do its work under `if __name__ == "__main__":`.
+        on_event: Told the number of the study and each node that ends, one at a time.
+
+    Returns:
+        In the order of `configs`, what `run_study` returns, or the error that ended it.
+
+    Raises:
+        ConfigError: If a configuration is wrong, or two have the same folder; nothing has then been begun.
+        KeyboardInterrupt: If Ctrl-C was pressed; each run stops within its hour, and can be resumed.
+    """
+    jobs = list(enumerate(resolve(config) for config in configs))
+    folders = [config.out for config in configs]
+    if None in folders or len(set(folders)) < len(folders):
+        raise ConfigError("out: each of several studies needs a folder of its own.")
+    ended: dict[int, Ended] = {}
+    spread = min(processes, at_once, len(jobs))
+    if spread > 1:
+        with Stop():  # `kill` is heard like Ctrl-C
+            _in_processes(jobs, at_once, spread, ended.__setitem__, on_event)
+    else:
+        _in_threads(jobs, at_once, ended.__setitem__, on_event)
+    return [ended[number] for number, _ in jobs]
+
+
+def _in_threads(
+    jobs: Sequence[tuple[int, Config]], at_once: int, end: Callable[[int, Ended], None], on_event: Tell | None
+) -> None:
+    """Run studies in threads of this process; `end` and `on_event` are called from them, one at a time."""
+    telling = threading.Lock()
+
+    def one(number: int, config: Config) -> None:
+        def tell(event: Event) -> None:
+            if on_event is not None:
+                with telling:
+                    on_event(number, event)
+
+        found: Ended
+        try:
+            found = run_study(config, on_event=tell, stop=stop)
+        except CooperaError as err:
+            found = err
+        with telling:
+            end(number, found)
+
+    with Stop() as stop, ThreadPoolExecutor(max(1, at_once), thread_name_prefix="study") as pool:
+        futures: list[Future[None]] = [pool.submit(one, *job) for job in jobs]
+        try:
+            wait_for_all(futures)
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+        for future in futures:
+            future.result()
+
+
+def _in_processes(
+    jobs: Sequence[tuple[int, Config]],
+    at_once: int,
+    processes: int,
+    end: Callable[[int, Ended], None],
+    on_event: Tell | None,
+) -> None:
+    """Deal studies out to processes, and hear from them until all have ended."""
+    context = multiprocessing.get_context("spawn")
+    staff: dict[Connection, tuple[BaseProcess, set[int]]] = {}
+    try:
+        for n in range(processes):
+            here, there = context.Pipe()
+            share = jobs[n::processes]
+            threads = at_once // processes + (n < at_once % processes)
+            given = {"at_once": threads, "which": n, "of": processes, "events": on_event is not None}
+            process = context.Process(target=_serve, args=(there, share, os.getpid()), kwargs=given, daemon=True)
+            process.start()
+            there.close()
+            staff[here] = process, {number for number, _ in share}
+        _hear(staff, end, on_event)
+    except KeyboardInterrupt:  # each hears it as well, or now, and writes down how far its runs got
+        for one, _ in staff.values():
+            one.terminate()
+        _hear(staff, end, None)
+        raise
+
+
+def _hear(
+    staff: dict[Connection, tuple[BaseProcess, set[int]]], end: Callable[[int, Ended], None], on_event: Tell | None
+) -> None:
+    while staff:
+        for pipe in wait_for_any(list(staff)):
+            assert isinstance(pipe, Connection)
+            process, left = staff[pipe]
+            try:
+                number, event, found = pipe.recv()
+            except (EOFError, ConnectionResetError):
+                process.join()
+                for number in left:
+                    end(number, RunError(f"The process of this run died (exit code {process.exitcode})."))
+                del staff[pipe]
+                continue
+            if event is None:
+                left.remove(number)
+                end(number, found)
+                if not left:  # what is left of it is to end, which need not be waited for
+                    del staff[pipe]
+            elif on_event is not None:
+                on_event(number, event)
+
+
+def _serve(
+    pipe: Connection,
+    jobs: Sequence[tuple[int, Config]],
+    parent: int,
+    *,
+    at_once: int,
+    which: int,
+    of: int,
+    events: bool,
+) -> None:
+    """The life of a process: its share of the studies, in threads; every event and end is told."""
+    if not die_with(parent):
+        return
+    share_pace(of)
+    _share_cores(which, of)
+
+    def tell(number: int, event: Event) -> None:
+        pipe.send((number, event, None))
+
+    try:
+        _in_threads(jobs, at_once, lambda number, found: pipe.send((number, None, found)), tell if events else None)
+    except KeyboardInterrupt:
+        return
+
+
+def _share_cores(which: int, of: int) -> None:
+    """Keep a process to its share of the cores, where the system can: threads that take turns lose time in between."""
+    if hasattr(os, "sched_setaffinity") and (cores := sorted(os.sched_getaffinity(0))[which::of]):
+        os.sched_setaffinity(0, cores)

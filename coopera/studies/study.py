@@ -1,0 +1,244 @@
+"""Running a study: a run directory, the services, and the study graph with its checkpoints."""
+
+from __future__ import annotations
+
+import hashlib
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+from typing import Any, cast
+
+from langchain_core.runnables import RunnableConfig
+from langgraph.checkpoint.base import BaseCheckpointSaver
+from langgraph.checkpoint.memory import InMemorySaver
+from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
+from langgraph.checkpoint.sqlite import SqliteSaver
+from langgraph.graph.state import CompiledStateGraph
+
+from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.schema import Config
+from coopera.core.errors import ConfigError, RunError, WaitingError
+from coopera.core.hour import Counts, DayPlan
+from coopera.core.household import SceneId
+from coopera.core.interview import Answer, Question
+from coopera.core.people import PersonId
+from coopera.evaluation import SETTINGS, episode, pool, schedule
+from coopera.graphs import STATE_TYPES, Services, build_study_graph
+from coopera.graphs.real_person import Interview
+from coopera.graphs.study import Waiting, waiting
+from coopera.models.backends import household_file
+from coopera.models.settings import Budget
+from coopera.people import shipped as humans
+from coopera.people.real import open_told
+from coopera.prompts import PromptLibrary
+from coopera.report.page import write_report
+from coopera.rundir.directory import RunDir
+from coopera.rundir.stopping import Stop
+from coopera.studies.assemble import model_specs, open_services
+from coopera.studies.catalogues import resolve
+
+Event = Mapping[str, Any]
+"""That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
+QUESTION = "question.json"
+"""File of a run that waits for a person: the question (`coopera.core.interview.Question`)."""
+
+_THREAD: RunnableConfig = {"configurable": {"thread_id": "study"}}
+
+
+def nobody(question: Question) -> Answer:
+    """Answer nothing: the run waits.
+
+    Raises:
+        WaitingError: Always.
+    """
+    raise WaitingError(f"The run waits for {question.name}: day {question.day + 1}, {question.time}.")
+
+
+def run_study(
+    config: Config,
+    *,
+    on_event: Callable[[Event], None] | None = None,
+    ask_person: Interview = nobody,
+    stop: Stop | None = None,
+    resumable: bool = True,
+) -> dict[str, Any]:
+    """Run a study from its first hour to its report.
+
+    Args:
+        config: What to run; what it leaves open is filled in.
+        on_event: Told of each node that ends.
+        ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
+            `resume_study` asks the same question again.
+        stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
+        resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it
+            takes half the time, and is done anew where it does not reach its end.
+
+    Returns:
+        The content of summary.json.
+
+    Raises:
+        ConfigError: If the configuration is wrong; nothing is then written.
+        CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
+    """
+    with new_run(config, stop, resumable) as (run, services):
+        return _carry_on(run, services, on_event, ask_person)
+
+
+def resume_study(
+    path: Path,
+    *,
+    on_event: Callable[[Event], None] | None = None,
+    ask_person: Interview = nobody,
+    budget: Budget | None = None,
+) -> dict[str, Any]:
+    """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
+
+    Args:
+        path: The run directory.
+        on_event: Told of each node that ends.
+        ask_person: As for `run_study`.
+        budget: What the run may spend in all, if not what it was begun with.
+
+    Raises:
+        RunError: If the run is finished or still being written, or its prompts or household file have changed since.
+    """
+    with RunDir.resume(path, budget) as run:
+        prompts = PromptLibrary(run.config.prompts)
+        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
+        if changed:
+            raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
+        if knowledge_of(run.info["models"].values()) != run.info.get("knowledge", {}):
+            raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
+        told = open_told(run.config, plan_days(run.config))
+        with open_services(run.config, run, run.people(), prompts, told) as services:
+            return _carry_on(run, services, on_event, ask_person)
+
+
+@contextmanager
+def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) -> Iterator[tuple[RunDir, Services]]:
+    """Start a run directory and open its services, for scripts that drive a graph themselves.
+
+    Raises:
+        ConfigError: If the configuration is wrong; nothing is then written.
+    """
+    config = resolve(config)
+    prompts = PromptLibrary(config.prompts)
+    people = [humans.find(person, config.data_dir) for person in config.humans or []]
+    told = open_told(config, plan_days(config))
+    specs = {str(role): spec for role, spec in model_specs(config).items()}
+    with ExitStack() as stack:
+        made = RunDir.create(
+            config,
+            people=people,
+            prompts=prompts.hashes(),
+            models=specs,
+            knowledge=knowledge_of(specs.values()),
+            stop=stop,
+            resumable=resumable,
+        )
+        run = stack.enter_context(made)
+        try:
+            services = stack.enter_context(open_services(config, run, run.people(), prompts, told))
+        except ConfigError:
+            run.discard()
+            raise
+        yield run, services
+
+
+def knowledge_of(specs: Iterable[str]) -> dict[str, str]:
+    """SHA-256 of each household file of one's own that some models name, by the model's name.
+
+    Raises:
+        ConfigError: If one cannot be read.
+    """
+    found: dict[str, str] = {}
+    for spec in specs:
+        path = household_file(spec)
+        if path is not None:
+            try:
+                found[spec] = hashlib.sha256(path.read_bytes()).hexdigest()
+            except OSError as err:
+                raise ConfigError(f"{path}: the household file cannot be read ({reason(err)}).") from err
+    return found
+
+
+def plan_days(config: Config) -> list[DayPlan]:
+    """The days of a resolved configuration, in order."""
+    if config.schedule:
+        return episode([(PersonId(who), SceneId(where)) for who, where in config.schedule], config.hours, config.collab)
+    return schedule(
+        SETTINGS[config.setting],
+        [PersonId(person) for person in config.humans or []],
+        [SceneId(scene) for scene in config.scenes or []],
+        days=config.days,
+        hours=config.hours,
+        collab=config.collab,
+    )
+
+
+def _carry_on(
+    run: RunDir,
+    services: Services,
+    on_event: Callable[[Event], None] | None,
+    ask_person: Interview,
+) -> dict[str, Any]:
+    with _checkpoints(run) as saver:
+        graph = build_study_graph(saver)
+        given: Any = None if graph.get_state(_THREAD).values else {"schedule": plan_days(run.config)}
+        scored = [hour.success.predicate for hour in run.hours() if hour.success]
+        if (question := waiting(graph, _THREAD)) is None:
+            question = _stream(graph, services, given, scored, on_event)
+        while question is not None:
+            given = question.answered(_ask(run, question.question, ask_person))
+            question = _stream(graph, services, given, scored, on_event)
+    summary = run.finish()
+    if run.resumable:
+        write_report(run)
+    return summary
+
+
+@contextmanager
+def _checkpoints(run: RunDir) -> Iterator[BaseCheckpointSaver[Any]]:
+    serde = JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES))
+    if not run.resumable:
+        yield InMemorySaver(serde=serde)
+        return
+    with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
+        connection.execute("PRAGMA synchronous=NORMAL")  # what a power cut loses of it is done again
+        yield SqliteSaver(connection, serde=serde)
+
+
+def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:
+    """Put a question to the person; until it is answered it stands in the run's folder, for whoever shows it."""
+    waiting = run.root / QUESTION
+    write_atomic(waiting, canonical_json(question.model_dump(mode="json")))
+    answer = ask_person(question)
+    waiting.unlink(missing_ok=True)
+    return answer
+
+
+def _stream(
+    graph: CompiledStateGraph[Any, Services, Any, Any],
+    services: Services,
+    given: Any,
+    scored: list[Counts],
+    on_event: Callable[[Event], None] | None,
+) -> Waiting | None:
+    """Let the study go on until its end, or until a question to a real person, which is then returned."""
+    stream = graph.stream(
+        given, _THREAD, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
+    )
+    now: dict[str, Any] = {"day": 0, "hour": None}
+    for _, mode, data in cast(Iterator[tuple[Any, str, dict[str, Any]]], stream):
+        if mode == "updates" and "__interrupt__" in data:
+            continue
+        if mode == "custom":
+            now = {"day": data["day"], "hour": data["hour"]}
+            if data["success"]:
+                scored.append(Counts.model_validate(data["success"]["predicate"]))
+        if on_event is not None:
+            nodes = [data["node"]] if mode == "custom" else list(data)
+            for node in nodes:
+                on_event({**now, "node": node, "success": pool(scored).f1})
+    return waiting(graph, _THREAD)

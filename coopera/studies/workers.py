@@ -1,0 +1,178 @@
+"""Processes that work through jobs side by side: one that dies costs the job it was at, which another does again."""
+
+from __future__ import annotations
+
+import ctypes
+import multiprocessing
+import os
+import signal
+import sqlite3
+import time
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Any, Protocol
+
+from coopera.core.errors import CooperaError
+
+Work = Callable[[Any], Any]
+TRIES = 3
+_PARENT_DEATH = 1  # PR_SET_PDEATHSIG
+
+
+class Job(Protocol):
+    """Something to be done, after another thing or at once."""
+
+    @property
+    def name(self) -> str:
+        """Unique among the jobs."""
+        ...
+
+    @property
+    def after(self) -> str | None:
+        """Name of the job that must have been done before, if any."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """How a job ended: `error` is None where it was done."""
+
+    job: Any
+    error: str | None = None
+
+
+@dataclass(slots=True)
+class _Worker:
+    process: BaseProcess
+    pipe: Connection
+    job: Any = None
+
+
+@dataclass(slots=True)
+class Queue:
+    """Jobs in order, handed out once what they wait for is done; a job whose forerunner failed fails too."""
+
+    jobs: list[Any]
+    tries: dict[str, int] = field(default_factory=dict)
+    _done: set[str] = field(default_factory=set)
+    _failed: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        """What is not among the jobs is taken as done."""
+        names = {job.name for job in self.jobs}
+        self._done = {job.after for job in self.jobs if job.after and job.after not in names}
+
+    def take(self) -> Any | None:
+        """The first job that can start now, or None."""
+        for place, job in enumerate(self.jobs):
+            if job.after is None or job.after in self._done:
+                return self.jobs.pop(place)
+        return None
+
+    def end_at(self, deadline: float | None) -> None:
+        """Drop what has not begun, once the deadline has passed."""
+        if deadline is not None and time.monotonic() > deadline:
+            self.jobs = []
+
+    def close(self, job: Any, error: str | None) -> list[Done]:
+        """Note how a job ended; returns it with those that can never start now."""
+        (self._failed if error else self._done).add(job.name)
+        lost = [other for other in self.jobs if other.after in self._failed]
+        self.jobs = [other for other in self.jobs if other not in lost]
+        return [Done(job, error), *(Done(other, f"{job.name} failed: {error}") for other in lost)]
+
+    def again(self, job: Any) -> bool:
+        """Whether a job whose worker died may be tried again, in which case it is queued first."""
+        self.tries[job.name] = self.tries.get(job.name, 0) + 1
+        if self.tries[job.name] >= TRIES:
+            return False
+        self.jobs.insert(0, job)
+        return True
+
+
+def work_through(
+    jobs: Sequence[Any], work: Work, *, workers: int = 1, deadline: float | None = None
+) -> Generator[Done]:
+    """Do all jobs in `workers` processes, yielding each as it ends.
+
+    A process serves many jobs, since starting one takes seconds. If it dies its job is tried again in a new one, at
+    most three times in all. The processes die with this one, however it dies.
+
+    Args:
+        jobs: In the order in which they are to be started.
+        work: A function at the top of a module; raises `CooperaError` where a job fails for good.
+        workers: At least 1.
+        deadline: By `time.monotonic`; no job is started after it.
+    """
+    context = multiprocessing.get_context("spawn")
+    queue, staff = Queue(list(jobs)), [_hire(context, work) for _ in range(min(workers, len(jobs)))]
+    try:
+        while queue.jobs or any(one.job for one in staff):
+            queue.end_at(deadline)
+            for one in staff:
+                if one.job is None and (job := queue.take()) is not None:
+                    one.job = job
+                    one.pipe.send(job)
+            busy = [one for one in staff if one.job is not None]
+            if not busy:
+                break
+            ready = wait([one.pipe for one in busy])
+            for one in [one for one in busy if one.pipe in ready]:
+                job, one.job = one.job, None
+                try:
+                    error = one.pipe.recv()
+                except (EOFError, ConnectionResetError):
+                    one.process.join()
+                    staff[staff.index(one)] = _hire(context, work)
+                    if queue.again(job):
+                        continue
+                    error = f"its process died {TRIES} times (exit code {one.process.exitcode})"
+                yield from queue.close(job, error)
+    finally:
+        _dismiss(staff)
+
+
+def _dismiss(staff: Sequence[_Worker]) -> None:
+    """End all workers: the closing of its pipe ends one that waits, a signal one that is at work."""
+    for one in staff:
+        one.pipe.close()
+        if one.job is not None:
+            one.process.terminate()
+    for one in staff:
+        one.process.join()
+
+
+def _hire(context: Any, work: Work) -> _Worker:
+    here, there = context.Pipe()
+    process = context.Process(target=_serve, args=(there, work, os.getpid()), daemon=True)
+    process.start()
+    there.close()
+    return _Worker(process, here)
+
+
+def die_with(parent: int) -> bool:
+    """Let this process be killed when its parent dies; False if the parent has died already."""
+    ctypes.CDLL(None).prctl(_PARENT_DEATH, signal.SIGKILL)
+    return os.getppid() == parent
+
+
+def _serve(pipe: Connection, work: Work, parent: int) -> None:
+    """The life of a worker: take a job, do it, say how it went."""
+    if not die_with(parent):  # it may have left a job
+        return
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends the workers
+    while True:
+        try:
+            job = pipe.recv()
+        except EOFError:
+            return
+        try:
+            work(job)
+        except KeyboardInterrupt:
+            return
+        except (CooperaError, OSError, sqlite3.Error) as err:  # a full disk may show in any of these
+            pipe.send(str(err) or type(err).__name__)
+        else:
+            pipe.send(None)

@@ -1,0 +1,167 @@
+"""What is private to a person: likings, own hours, favourite things. Only the person's side may import this.
+
+All of it is a deterministic function of the profile text, the Big Five and the person's id: the text and the
+traits say which activities draw the person; what no text says (a liking without reason, the hour that became a
+habit, the favourite mug) is drawn once, from the id.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from coopera.core.people import BigFive
+from coopera.core.randomness import rng_at
+from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Floats
+from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.household.statements import Statements, statements
+
+TEXT_PULL = 0.95  # logits per standard deviation of affinity over the activities
+TRAIT_PULL = 1.1  # logits per point of (trait - 3) x loading 1
+LIKING = 0.7  # standard deviation of the likings that no text explains, in logits
+AVERSION = 0.5  # share of an aversion's closeness that is taken off the affinity
+NEED = 0.3  # share of all these for what everybody needs, such as meals
+HABIT = 1.6  # logits that the habitual hour of an activity gains
+EVIDENCE = 0.17  # by how much a sentence must be nearer to an activity than such sentences and activities are
+SPOT_FAVOUR = 0.7  # scale of the favourites among spots, which custom decides more than taste
+FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of ten things carry most of the weight
+TOUCHES = 0.3  # share of the activities whose intention a person words with a touch of their own
+
+_TOUCHES = {
+    ("openness", 1): ("in a new way today", "with a curious mind"),
+    ("openness", -1): ("just the usual way", "the way I always do"),
+    ("conscientiousness", 1): ("properly", "with care"),
+    ("conscientiousness", -1): ("without any hurry", "as far as I get"),
+    ("extroversion", 1): ("in high spirits", "in the best of moods"),
+    ("extroversion", -1): ("undisturbed", "away from any bustle"),
+    ("agreeableness", 1): ("in a friendly mood", "at peace with everybody"),
+    ("agreeableness", -1): ("my own way", "just as I please"),
+    ("neuroticism", 1): ("to calm down", "to think of something else"),
+    ("neuroticism", -1): ("without a worry", "at ease"),
+}
+"""What may be added to any intention, a lively or a restful one, by trait and its direction."""
+
+
+class PrivateLife:
+    """One person's private parameters. Arrays are in the household file's order of activities."""
+
+    def __init__(self, sense: CommonSense, person: str, profile: str, big_five: BigFive) -> None:
+        self._sense = sense
+        self._id = person
+        self.big_five = big_five
+        self.said: Statements = statements(profile)
+        self._fit = self._closeness(self.said.habits)
+        self.affinity = self._affinity()
+        """How much the profile's text speaks for each activity: mean 0, standard deviation 1."""
+        self.liking: Floats = self._rng("liking").normal(0.0, LIKING, len(sense.household.activities))
+        wanted = TEXT_PULL * self.affinity + TRAIT_PULL * sense.household.trait_pull(big_five) + self.liking
+        self.pull = np.where([activity.need for activity in sense.household.activities], NEED * wanted, wanted)
+        """Logits by which this person prefers each activity, whatever the hour."""
+        self.own_hours = self._own_hours()
+        """Log weights of each activity by hour of the day, as this person lives; shape (activities, 24)."""
+
+    def wording(self, activity: Activity, rng: np.random.Generator) -> str:
+        """Word an intention as this person does: mostly one or two wordings, some with a touch of their own."""
+        weights = self._favour(f"wording|{activity.id}", len(activity.wordings), scale=1.6)
+        text = activity.wordings[int(rng.choice(len(weights), p=weights))]
+        touch = self._touch(activity)
+        return f"{text}, {touch}" if touch else text
+
+    def thing_weights(self, activity: Activity) -> Floats:
+        """How gladly each thing is taken in hand for an activity; sums to 1."""
+        return self._favour(f"thing|{activity.id}", len(activity.things))
+
+    def place_weights(self, activity: Activity) -> Floats:
+        """How usual each pick-and-place of an activity is for this person; sums to 1."""
+        return self._favour(f"place|{activity.id}", len(activity.places))
+
+    def spot_weights(self, activity: Activity) -> Floats:
+        """How gladly the activity is done at each class of its `fixed`, common sense included; sums to 1."""
+        usual = 0.7 ** np.arange(len(activity.fixed))
+        weights = usual * self._favour(f"spot|{activity.id}", len(activity.fixed), scale=SPOT_FAVOUR)
+        return np.asarray(weights / weights.sum(), dtype=np.float64)
+
+    def motion(self, activity: Activity, thing: str, spots: Collection[str], rng: np.random.Generator) -> str:
+        """Choose the motion for a thing: the common one, or another of the activity's that looks like it.
+
+        It is one that people make with that thing, and that can be made at one of the classes of furniture, if there is
+        any. Which of them is a habit of this person's own; now and then it is another.
+        """
+        household, common = self._sense.household, activity.things[thing]
+        looks = household.looks_like
+        alike = [m for m in activity.all_motions if looks[m] == looks[common] and m in household.uses[thing]]
+        alike = [m for m in alike if any(household.suits(m, spot) for spot in spots)] or [common]
+        own = self._rng("motion", activity.id, thing)
+        habit = common if own.random() < 0.7 and common in alike else alike[int(own.integers(len(alike)))]
+        return habit if rng.random() < 0.9 else alike[int(rng.integers(len(alike)))]
+
+    def favourite(self, names: Sequence[str], what: str) -> str:
+        """Choose among equals, such as two mugs, always the same."""
+        ranked = sorted(names, key=lambda name: (float(self._rng("favourite", what, name).random()), name))
+        return ranked[0]
+
+    def evidence(self, activity: Activity) -> str | None:
+        """Return the sentence of the profile that speaks most for an activity, if one does."""
+        fit = self._fit[:, self._sense.household.index[activity.id]]
+        best = int(np.argmax(fit)) if len(fit) else -1
+        return self.said.habits[best] if best >= 0 and fit[best] >= EVIDENCE else None
+
+    def strongest_trait(self, activity: Activity) -> tuple[str, float] | None:
+        """Return the trait that speaks most for an activity, with this person's score, if one does."""
+        pulls = {t: load * (getattr(self.big_five, t) - 3.0) for t, load in activity.big_five.items()}
+        best = max(pulls, key=lambda trait: (pulls[trait], trait), default=None)
+        return (best, getattr(self.big_five, best)) if best is not None and pulls[best] >= 0.1 else None
+
+    def _affinity(self) -> Floats:
+        """Closeness of the nearest own sentence, less what aversions speak against it; centred and scaled."""
+        raw = np.zeros(len(self._sense.household.activities))
+        if self.said.habits:
+            raw = raw + self._fit.max(axis=0)
+        if self.said.aversions:
+            raw = raw - AVERSION * np.maximum(self._closeness(self.said.aversions).max(axis=0), 0.0)
+        return np.asarray((raw - raw.mean()) / max(float(raw.std()), 1e-6), dtype=np.float64)
+
+    def _closeness(self, said: Sequence[str]) -> Floats:
+        """Cosine of each sentence to each activity, beyond how near either is to anything at all.
+
+        Without that, "I like to go skiing" would be near to all that anybody says to like.
+        """
+        if not said:
+            return np.zeros((0, len(self._sense.household.activities)))
+        fit = self._sense.fit(said)
+        generic = self._sense.generic_fit
+        return np.asarray(fit - fit.mean(axis=1, keepdims=True) - (generic - generic.mean()), dtype=np.float64)
+
+    def _own_hours(self) -> Floats:
+        """Common hours, moved to an earlier or later type, sharpened by orderliness, with a habitual hour each.
+
+        Conscientious people are earlier types (Tsaousis 2010, a meta-analysis) and keep to a schedule.
+        """
+        household, order = self._sense.household, self.big_five.conscientiousness - 3.0
+        rng = self._rng("hours")
+        shift = float(rng.normal(-0.35 * order, 0.6))
+        hours = np.arange(24, dtype=np.float64)
+        curves = np.stack([np.interp(hours - shift, hours, row) for row in household.log_hours])
+        usual = np.exp(curves[:, FIRST : LAST + 1])
+        usual /= usual.sum(axis=1, keepdims=True)
+        habitual = np.array([FIRST + rng.choice(LAST - FIRST + 1, p=row) for row in usual])
+        width = float(np.clip(1.1 - 0.2 * order + rng.normal(0.0, 0.15), 0.6, 1.8))
+        bump = np.exp(-0.5 * ((hours[None, :] - habitual[:, None]) / width) ** 2)
+        return np.asarray(curves + (HABIT + 0.25 * order) * bump, dtype=np.float64)
+
+    def _touch(self, activity: Activity) -> str:
+        rng = self._rng("touch", activity.id)
+        scores = self.big_five.model_dump()
+        strongest = sorted(scores, key=lambda trait: (-abs(scores[trait] - 3.0), trait))[:2]
+        trait = strongest[int(rng.integers(2))]
+        touches = _TOUCHES[trait, 1 if scores[trait] >= 3.0 else -1]
+        touch = touches[int(rng.integers(len(touches)))]
+        return touch if rng.random() < TOUCHES else ""
+
+    def _favour(self, what: str, count: int, scale: float = FAVOUR) -> Floats:
+        weights = np.exp(scale * self._rng(what).gumbel(size=count))
+        return np.asarray(weights / weights.sum(), dtype=np.float64)
+
+    def _rng(self, *what: str) -> np.random.Generator:
+        return rng_at(0, "private life", self._id, *what)

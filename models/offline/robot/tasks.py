@@ -1,0 +1,122 @@
+"""The robot's tasks for an intention it accepted: what the activity usually needs, and what this person used before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from coopera.core.errors import ModelCallError
+from coopera.core.household import HandOver, PickPlace, plain
+from coopera.core.people import Frozen
+from coopera.core.replies import HandOverDraft, HandOverReply, PickPlaceDraft, PickPlaceReply
+from coopera.models.offline.household.offers import wants
+from coopera.models.offline.household.placing import (
+    Placement,
+    by_name,
+    feasible_places,
+    fill_up,
+    makeshift_places,
+    placement,
+)
+from coopera.models.offline.household.reading import Memory, Surroundings, clip, memories
+from coopera.models.offline.household.sense import CommonSense
+
+USED_BEFORE = 1.5  # logits for a thing or a placement that a recalled task of this person shows
+HALF_USED = 0.5  # the same for a placement of which only the thing was used
+DOUBT = 0.5  # scale of the noise among equally plausible things at the usual temperature
+USUAL_TEMPERATURE = 0.7
+
+Answer = Callable[[CommonSense, Mapping[str, Any], np.random.Generator, float], Frozen]
+
+
+def pick_and_place(
+    sense: CommonSense, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float
+) -> PickPlaceReply:
+    """Answer robot/tasks_type1: the most plausible placements that the home allows, without the one already done."""
+    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
+    fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    recalled = memories(variables["recalled_tasks"], int(variables["hour"]))
+    used = wants([memory.text for memory in recalled])
+    done = variables["first_task"] or ""
+    places = [i for i in feasible_places(activity, fixed, movable) if not _is(activity.places[i], done)]
+    logits = []
+    for thing, spot in (activity.places[i] for i in places):
+        exact = any((want.thing, want.spot) == (plain(thing), plain(spot)) for want in used)
+        half = any(want.thing == plain(thing) for want in used)
+        logits.append(USED_BEFORE if exact else HALF_USED if half else 0.0)
+    chosen: list[Placement] = []
+    for index in (places[i] for i in _ranked(logits, rng, temperature)[:count]):
+        chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], by_name))
+    if len(chosen) < count:
+        spare = makeshift_places(sense, activity, fixed, movable)
+        chosen = fill_up(chosen, [place for place in spare if not _is_act(place.act(), done)], count)
+    if not chosen:
+        raise ModelCallError("robot/tasks_type1: the home has no movable or no fixed object to make a task of")
+    return PickPlaceReply(
+        tasks=[
+            PickPlaceDraft(
+                thought=clip(f"The person will want the {plain(p.thing.name)} on the {plain(p.spot.name)}.", 300),
+                act=p.act(),
+                **_reasons(variables, recalled, plain(p.thing.name)),
+            )
+            for p in chosen
+        ]
+    )
+
+
+def hand_overs(
+    sense: CommonSense, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float
+) -> HandOverReply:
+    """Answer robot/tasks_type2: the things that the activity most plausibly needs, from a box that has everything."""
+    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
+    recalled = memories(variables["recalled_tasks"], int(variables["hour"]))
+    names = activity.thing_names
+    used = sense.mentioned(" ".join(memory.text for memory in recalled), names)
+    order = _ranked([USED_BEFORE if name in used else 0.0 for name in names], rng, temperature)
+    things = [names[i] for i in order[:count]]
+    return HandOverReply(
+        tasks=[
+            HandOverDraft(
+                thought=clip(f"To {activity.things[thing]}, the person will want the {thing}.", 300),
+                act=HandOver(object=thing),
+                **_reasons(variables, recalled, thing),
+            )
+            for thing in things
+        ]
+    )
+
+
+def _ranked(logits: Sequence[float], rng: np.random.Generator, temperature: float) -> list[int]:
+    """Order by plausibility; among equals chance decides, more so at a higher temperature."""
+    noise = DOUBT * temperature / USUAL_TEMPERATURE * rng.gumbel(size=len(logits))
+    return [int(i) for i in np.argsort(-(np.asarray(logits) + noise), kind="stable")]
+
+
+def _is(pair: tuple[str, str], done: str) -> bool:
+    want = wants([done])[0]
+    return (want.thing, want.spot) == (plain(pair[0]), plain(pair[1]))
+
+
+def _is_act(act: PickPlace, done: str) -> bool:
+    return _is((act.object, act.receptacle), done)
+
+
+def _reasons(variables: Mapping[str, Any], recalled: Sequence[Memory], thing: str) -> dict[str, str]:
+    shown = next((memory for memory in recalled if f" {thing} " in f" {memory.text} "), None)
+    traits = variables["big_five"]
+    human = "Nothing is known of this person yet." if not traits else "It is a usual need; the traits do not decide it."
+    return {
+        "reason_human": human,
+        "reason_intentions": clip(f'It belongs to "{variables["intention"]}".', 400),
+        "reason_tasks": clip(
+            f"It was used before: {shown.text}." if shown else "No remembered task has it; it is usual for this.", 400
+        ),
+    }
+
+
+ANSWERS: dict[str, Answer] = {
+    "robot/tasks_type1": pick_and_place,
+    "robot/tasks_type2": hand_overs,
+}

@@ -1,0 +1,185 @@
+"""The words in which the home's acts are planned: steps, plans, who takes up which floor, and what cannot be done."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from coopera.core.errors import SimulationError
+from coopera.core.household import Agent, plain
+from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, Stand
+from coopera.simulation.acts.state import HomeState, PersonState, ThingState
+from coopera.simulation.bodies.elbowroom import Elbowroom
+from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.motions.library import Library, Motion
+from coopera.simulation.shapes.rotations import Array
+
+APART = 0.60
+"""Two standing bodies keep their middles this far apart (twice the navigation radius, metres)."""
+_APART_SEATED = 0.50
+
+
+class UnableError(SimulationError):
+    """An act cannot be done; the text is the reason that its outcome gives."""
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """An agent goes along corner points, perhaps with a thing in hand (a name, or a text from the magic box)."""
+
+    agent: Agent
+    points: list[Point]
+    carries: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The robot turns on the spot to a heading."""
+
+    yaw: float
+
+
+@dataclass(frozen=True, slots=True)
+class Handle:
+    """An agent stands, reaches for a point and there takes a thing (`put` is None) or puts it down.
+
+    `posture` is the body's pose, or the arm's posture, at the moment of the grasp.
+    """
+
+    agent: Agent
+    stand: Stand
+    posture: Array
+    name: str
+    put: ThingState | None
+
+
+@dataclass(frozen=True, slots=True)
+class Give:
+    """The robot stands before the person and hands over a thing from the magic box at a point."""
+
+    stand: Stand
+    posture: Array
+    point: tuple[float, float, float]
+    thing: str
+
+
+@dataclass(frozen=True, slots=True)
+class Play:
+    """The person does a motion at its place."""
+
+    person: PersonState
+    motion: Motion
+
+
+Step = Walk | Turn | Handle | Give | Play
+
+
+class Watch(Protocol):
+    """Called before each deed of the person: lets the robot go where it will see it."""
+
+    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
+        """Add the robot's drive to the plan; the deed is the person in the middle of it."""
+        ...
+
+
+class Placed(NamedTuple):
+    """A body on the floor plan, with its pose (person) or posture (robot)."""
+
+    x: float
+    y: float
+    yaw: float
+    pose: Array
+
+
+@dataclass(slots=True)
+class Plan:
+    """Steps in order, the home afterwards, the distance the acting agent goes, and the furniture it acts at.
+
+    `blocked` names what last kept the robot's arm from a posture that it could otherwise have taken.
+    """
+
+    state: HomeState
+    steps: list[Step] = field(default_factory=list)
+    metres: float = 0.0
+    at: list[str] = field(default_factory=list)
+    blocked: str | None = None
+
+    def mark(self) -> tuple[HomeState, int, float]:
+        """Remember where the plan stands."""
+        return self.state, len(self.steps), self.metres
+
+    def rewind(self, mark: tuple[HomeState, int, float]) -> None:
+        """Forget all that was planned since a mark."""
+        self.state, count, self.metres = mark
+        del self.steps[count:]
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """What never changes while a home is lived in."""
+
+    scene: Scene
+    navigator: Navigator
+    motions: Library
+    robot: RobotBody
+    room: Elbowroom
+    search: Callable[[str], str] | None = None
+
+    def fixed(self, name: str) -> SceneObject:
+        """The piece of furniture of that name."""
+        found = self.scene.object(name)
+        if found is None:
+            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+        if not found.fixed:
+            raise UnableError(f"the {plain(name)} is no piece of furniture")
+        return found
+
+    def movable(self, name: str) -> SceneObject:
+        """The movable thing of that name."""
+        found = self.scene.object(name)
+        if found is None:
+            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+        if found.fixed:
+            raise UnableError(f"the {plain(name)} cannot be carried")
+        return found
+
+
+def other(agent: Agent) -> Agent:
+    """The one who is not acting."""
+    return "robot" if agent == "human" else "human"
+
+
+def discs(state: HomeState, agent: Agent) -> list[Disc]:
+    """The floor that an agent takes up: where it stands, and where the person sits or would get up to."""
+    if agent == "robot":
+        return [Disc(*state.robot.spot)]
+    person = state.person
+    found = [Disc(*person.spot)]
+    if math.dist(person.spot, person.place) > 0.1:
+        found.append(Disc(*person.place, _APART_SEATED - RADIUS))
+    return found
+
+
+def clear_of(place: Point, taken: list[Disc]) -> bool:
+    """Whether a standing body at a place touches none of the discs."""
+    return bool(all_clear_of(np.array([place]), taken)[0])
+
+
+def all_clear_of(places: Array, taken: list[Disc]) -> NDArray[np.bool_]:
+    """The same for each of many places; shape (n, 2) to (n,)."""
+    clear = np.ones(len(places), dtype=bool)
+    for disc in taken:
+        clear &= np.hypot(places[:, 0] - disc.x, places[:, 1] - disc.y) >= disc.radius + RADIUS - 1e-9
+    return clear
+
+
+def stand_up(person: PersonState, spot: Point) -> PersonState:
+    """The person standing about at a spot, with what they hold."""
+    return PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing)

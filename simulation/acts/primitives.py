@@ -1,0 +1,102 @@
+"""Single steps for those who plan themselves: go somewhere, take a thing, put down what one holds.
+
+They are the parts of which the skills are made, each planned completely before anything changes.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from coopera.core.household import Agent, plain
+from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, discs, other
+from coopera.simulation.acts.skills import put, take
+from coopera.simulation.acts.state import HomeState
+from coopera.simulation.acts.walking import walk
+from coopera.simulation.homes.scene import SceneObject
+
+
+class Result(NamedTuple):
+    """How a step ended; a failure has its reason and has changed nothing."""
+
+    ok: bool
+    reason: str = ""
+    metres: float = 0.0
+
+
+def go_to(ground: Ground, state: HomeState, agent: Agent, target: str) -> Plan:
+    """Plan a walk to a room, to a piece of furniture or to where a thing is.
+
+    Raises:
+        UnableError: If there is no such place, or no way to it.
+    """
+    plan, start = Plan(state), state.spot(agent)
+    room = ground.scene.room(target)
+    if room is not None:
+        middle = ground.navigator.middle_of(room.name)
+        goals = [middle] if middle is not None else []
+    else:
+        thing = ground.scene.object(target)
+        if thing is None:
+            raise UnableError(f"there is no room and no object {target!r} in this home")
+        where = state.thing(thing)
+        at = thing if thing.fixed else (ground.scene.object(where.on or "") or where.position[:2])
+        stands = ground.navigator.approach(at, start, point=None if thing.fixed else where.position[:2])
+        goals = [(stand.x, stand.y) for stand in stands]
+        plan.at = [thing.name] if thing.fixed else []
+    taken = discs(state, other(agent))
+    for goal in sorted(goals, key=lambda goal: not clear_of(goal, taken)):
+        mark = plan.mark()
+        try:
+            walk(ground, plan, agent, goal)
+        except UnableError:
+            plan.rewind(mark)
+            continue
+        return plan
+    raise UnableError(f"the {agent} finds no way to the {plain(target)}")
+
+
+def pick(ground: Ground, state: HomeState, agent: Agent, thing: str) -> Plan:
+    """Plan to go to a thing and take it; it is then in the agent's hand.
+
+    Raises:
+        UnableError: If the hand is full or the thing is out of reach.
+    """
+    held = _held(state, agent)
+    if held is not None:
+        raise UnableError(f"the {agent} already holds the {plain(held)}")
+    plan, wanted = Plan(state), ground.movable(thing)
+    if _held(state, other(agent)) == wanted.name:
+        raise UnableError(f"the {other(agent)} holds the {plain(thing)}")
+    take(ground, plan, agent, wanted)
+    plan.state = _with_held(plan.state, agent, wanted.name)
+    return plan
+
+
+def place(ground: Ground, state: HomeState, agent: Agent, receptacle: str) -> Plan:
+    """Plan to carry what is in the agent's hand to a piece of furniture and put it down there.
+
+    Raises:
+        UnableError: If the hand is empty, or the furniture full or out of reach.
+    """
+    plan, thing = Plan(state), _own(ground, state, agent)
+    put(ground, plan, agent, thing, ground.fixed(receptacle))
+    plan.state = _with_held(plan.state, agent, None)
+    return plan
+
+
+def _own(ground: Ground, state: HomeState, agent: Agent) -> SceneObject:
+    held = _held(state, agent)
+    if held is None:
+        raise UnableError(f"the {agent} holds nothing")
+    thing = ground.scene.object(held)
+    if thing is None:
+        raise UnableError(f"the {plain(held)} is from the magic box, and can only be used or handed over")
+    return thing
+
+
+def _held(state: HomeState, agent: Agent) -> str | None:
+    return state.person.thing if agent == "human" else state.robot.thing
+
+
+def _with_held(state: HomeState, agent: Agent, name: str | None) -> HomeState:
+    return state.with_person(thing=name) if agent == "human" else state.with_robot(thing=name)

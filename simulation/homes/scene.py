@@ -1,0 +1,368 @@
+"""A home as plain data: rooms, doors and objects, in a JSON file that a person can edit.
+
+Units are metres and radians, Z is up, yaw turns about Z. An object's own frame has its width along x, its
+depth along y, its base centre at the origin, and its front towards +y; so at yaw 0 it faces +y.
+Walls are not written down: they stand on the edges of the rooms, with a gap at each door.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, TypeAlias
+
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
+
+from coopera.core.errors import ConfigError
+from coopera.core.household import ObjectMap, SceneId
+from coopera.core.people import Frozen
+from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, merge
+
+SHIPPED = Path(__file__).parents[1] / "scenes"
+SCHEMA_VERSION = 1
+DOOR_WIDTH = 0.95
+
+ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
+"""What a home may be called."""
+Kind: TypeAlias = Literal["fixed", "movable"]
+Length = Annotated[float, Field(gt=0, le=20)]
+Place = Annotated[float, Field(ge=-100, le=100)]
+Label = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
+
+
+class Room(Frozen):
+    """An axis-aligned rectangular room; `kind` is "bedroom" where `name` may be "bedroom 2"."""
+
+    name: str = Field(min_length=1, max_length=60)
+    kind: str = Field(min_length=1, max_length=60)
+    x0: Place
+    y0: Place
+    x1: Place
+    y1: Place
+
+    @model_validator(mode="after")
+    def _has_area(self) -> Room:
+        if self.x1 - self.x0 < 0.8 or self.y1 - self.y0 < 0.8:
+            raise ValueError(f"room {self.name!r} must be at least 0.8 m wide and deep (x0 < x1, y0 < y1)")
+        return self
+
+    @property
+    def bounds(self) -> Bounds:
+        """The room's rectangle."""
+        return Bounds(self.x0, self.y0, self.x1, self.y1)
+
+    @property
+    def centre(self) -> Point:
+        """The middle of the floor."""
+        return (self.x0 + self.x1) / 2, (self.y0 + self.y1) / 2
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point lies in the room, its edge included."""
+        return self.x0 <= x <= self.x1 and self.y0 <= y <= self.y1
+
+
+class Door(Frozen):
+    """An opening in the wall that two rooms share; (x, y) is its middle."""
+
+    between: tuple[str, str]
+    x: Place
+    y: Place
+    width: float = Field(DOOR_WIDTH, ge=0.7, le=3.0)
+
+
+class MeshPart(Frozen):
+    """A mesh of one colour: an OBJ file in the folder <home>.meshes/ beside the home's file, in the object's frame."""
+
+    file: str = Field(pattern=r"^[a-z0-9_-]{1,64}\.obj$")
+    colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
+
+
+class SceneObject(Frozen):
+    """One object of the home, in its initial place.
+
+    `position` is the centre of its base. `size` is (width, depth, height) in its own frame. `on` names the
+    fixed object that carries a movable one; a movable thing without it stands on the floor. `mesh` is what it looks
+    like where it is not drawn from our own shapes; the box of its size stands for it in all other respects.
+    """
+
+    id: int = Field(ge=0)
+    name: Label
+    cls: Label
+    category: str = Field(min_length=1, max_length=60)
+    fixed: bool
+    room: str
+    position: tuple[Place, Place, Place]
+    yaw: Annotated[float, Field(ge=-100, le=100)] = 0.0
+    size: tuple[Length, Length, Length]
+    colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
+    on: str | None = None
+    mesh: list[MeshPart] = Field([], max_length=16)
+
+    @property
+    def xy(self) -> Point:
+        """The base centre on the floor plan."""
+        return self.position[0], self.position[1]
+
+    @property
+    def top(self) -> float:
+        """Height of the highest point above the floor."""
+        return self.position[2] + self.size[2]
+
+    @property
+    def facing(self) -> float:
+        """Direction of the front as a heading (0 looks along +x)."""
+        return self.yaw + math.pi / 2
+
+    @property
+    def rgb(self) -> tuple[float, float, float]:
+        """The main colour, each channel in [0, 1]."""
+        return rgb_of(self.colour)
+
+    @property
+    def bounds(self) -> Bounds:
+        """The axis-aligned rectangle around the turned footprint."""
+        cos, sin = abs(math.cos(self.yaw)), abs(math.sin(self.yaw))
+        half_x = (self.size[0] * cos + self.size[1] * sin) / 2
+        half_y = (self.size[0] * sin + self.size[1] * cos) / 2
+        x, y = self.xy
+        return Bounds(x - half_x, y - half_y, x + half_x, y + half_y)
+
+    def to_world(self, x: float, y: float, z: float = 0.0) -> tuple[float, float, float]:
+        """Turn a point of the object's frame into world coordinates."""
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return self.position[0] + x * cos - y * sin, self.position[1] + x * sin + y * cos, self.position[2] + z
+
+    def to_local(self, x: float, y: float) -> Point:
+        """Turn a point of the floor plan into the object's frame."""
+        dx, dy = x - self.position[0], y - self.position[1]
+        cos, sin = math.cos(self.yaw), math.sin(self.yaw)
+        return dx * cos + dy * sin, dy * cos - dx * sin
+
+
+def rgb_of(colour: str) -> tuple[float, float, float]:
+    """Turn "#rrggbb" into channels in [0, 1]."""
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue
+
+
+class Scene(Frozen):
+    """A whole home. Rooms do not overlap; ids and names are unique over all objects."""
+
+    version: Literal[1] = 1
+    id: SceneId = Field(pattern=ID)
+    seed: int | None = None
+    rooms: list[Room] = Field(min_length=1)
+    doors: list[Door] = []
+    objects: list[SceneObject] = []
+    stage: list[Wall] | None = None
+    """Where the walls of an imported home stand, which need not be on the edges of its rooms."""
+    _meshes: Path | None = PrivateAttr(None)
+
+    @property
+    def meshes(self) -> Path | None:
+        """The folder of its objects' meshes; None where the home was not read from a file, or has none."""
+        return self._meshes
+
+    @model_validator(mode="after")
+    def _is_consistent(self) -> Scene:
+        for what, values in (
+            ("room name", [room.name for room in self.rooms]),
+            ("object name", [thing.name for thing in self.objects]),
+            ("object id", [thing.id for thing in self.objects]),
+        ):
+            twice = [value for value, count in Counter(values).items() if count > 1]
+            if twice:
+                raise ValueError(f"each {what} must be unique, but {twice[0]!r} is used more than once")
+        rooms = {room.name for room in self.rooms}
+        for door in self.doors:
+            if door.between[0] == door.between[1] or not rooms.issuperset(door.between):
+                raise ValueError(f"a door must join two of this home's rooms, not {' and '.join(door.between)!r}")
+        carriers = {thing.name for thing in self.objects if thing.fixed}
+        for thing in self.objects:
+            if thing.room not in rooms:
+                raise ValueError(f"object {thing.name!r}: room must be one of {sorted(rooms)}, not {thing.room!r}")
+            if thing.fixed and thing.on is not None:
+                raise ValueError(f"object {thing.name!r}: only a movable object may be `on` another")
+            if thing.on is not None and thing.on not in carriers:
+                raise ValueError(f"object {thing.name!r}: `on` must name a fixed object, not {thing.on!r}")
+        return self
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the home with some fields changed; what was worked out of the old ones is not carried over."""
+        copied = super().model_copy(update=update, deep=deep)
+        for derived in ("_by_name", "fixed", "movable"):
+            copied.__dict__.pop(derived, None)
+        return copied
+
+    @cached_property
+    def _by_name(self) -> dict[str, SceneObject]:
+        return {thing.name: thing for thing in self.objects}
+
+    @cached_property
+    def fixed(self) -> tuple[SceneObject, ...]:
+        """The furniture, by name."""
+        return tuple(sorted((thing for thing in self.objects if thing.fixed), key=lambda thing: thing.name))
+
+    @cached_property
+    def movable(self) -> tuple[SceneObject, ...]:
+        """The movable things, by name."""
+        return tuple(sorted((thing for thing in self.objects if not thing.fixed), key=lambda thing: thing.name))
+
+    @property
+    def bounds(self) -> Bounds:
+        """The rectangle around all rooms."""
+        edges = [room.bounds for room in self.rooms]
+        return Bounds(
+            min(edge.x0 for edge in edges),
+            min(edge.y0 for edge in edges),
+            max(edge.x1 for edge in edges),
+            max(edge.y1 for edge in edges),
+        )
+
+    def object(self, name: str) -> SceneObject | None:
+        """The object of that name, or None."""
+        return self._by_name.get(name)
+
+    def room(self, name: str) -> Room | None:
+        """The room of that name, or None."""
+        return next((room for room in self.rooms if room.name == name), None)
+
+    def room_at(self, x: float, y: float) -> Room:
+        """The room that holds a point, or else the nearest one (ties: the first listed)."""
+        inside = next((room for room in self.rooms if room.contains(x, y)), None)
+        return inside or min(self.rooms, key=lambda room: room.bounds.distance(x, y))
+
+    def object_map(self, kind: Kind) -> ObjectMap:
+        """{name: (id, room)} of the initial places, sorted by name."""
+        return {thing.name: (thing.id, thing.room) for thing in (self.fixed if kind == "fixed" else self.movable)}
+
+    def walls(self) -> list[Wall]:
+        """Pieces of wall along the rooms' edges, doors left open; a shared edge is one wall. Or those of the stage.
+
+        Sorted by axis, place and start, so that the order does not depend on that of the rooms.
+        """
+        if self.stage is not None:
+            return sorted(self.stage)
+        lines: dict[tuple[Literal["x", "y"], float], list[tuple[float, float]]] = {}
+        for room in self.rooms:
+            for at in (room.y0, room.y1):
+                lines.setdefault(("x", round(at, 2)), []).append((room.x0, room.x1))
+            for at in (room.x0, room.x1):
+                lines.setdefault(("y", round(at, 2)), []).append((room.y0, room.y1))
+        walls: list[Wall] = []
+        for (axis, at), spans in sorted(lines.items()):
+            gaps = [_gap(door, axis) for door in self.doors if self._stands_on(door, axis, at)]
+            walls += [Wall(axis, at, start, end) for start, end in cut(merge(spans), gaps)]
+        return walls
+
+    def _stands_on(self, door: Door, axis: str, at: float) -> bool:
+        across, along = (door.y, door.x) if axis == "x" else (door.x, door.y)
+        if abs(across - at) > 2 * TOUCH:
+            return False
+        for name in door.between:
+            room = self.room(name)
+            if room is None:
+                return False
+            low, high = (room.x0, room.x1) if axis == "x" else (room.y0, room.y1)
+            edges = (room.y0, room.y1) if axis == "x" else (room.x0, room.x1)
+            if min(abs(edge - at) for edge in edges) > 2 * TOUCH or not low <= along <= high:
+                return False
+        return True
+
+
+def _gap(door: Door, axis: str) -> tuple[float, float]:
+    middle = door.x if axis == "x" else door.y
+    return middle - door.width / 2, middle + door.width / 2
+
+
+def list_scenes(folders: Sequence[Path] = ()) -> list[str]:
+    """Ids of the homes that ship with coopera and of those in `folders` (imported ones), sorted."""
+    return sorted(_scene_files(folders))
+
+
+def load_scene(id_or_path: str | Path, folders: Sequence[Path] = ()) -> Scene:
+    """Read a home by its id (shipped, or a file <id>.json in `folders`) or from a JSON file.
+
+    Raises:
+        ConfigError: If there is no such home, or its file cannot be used; names the file and the field.
+    """
+    known = _scene_files(folders)
+    given = str(id_or_path)
+    path = known.get(given, Path(given))
+    if given not in known and not (path.suffix == ".json" or _is_file(path)):
+        raise ConfigError(f"There is no scene {given!r}; known are {', '.join(sorted(known)) or 'none'}.")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError) as err:  # ValueError: bytes that are no text, or a path that cannot be
+        raise ConfigError(f"The scene file {path} cannot be read: {err}.") from err
+    scene = parse_scene(text, str(path))
+    if given in known and scene.id != given:
+        raise ConfigError(f"The scene file {path}, field id: must be {given!r} as the file's name, not {scene.id!r}.")
+    return _with_meshes(scene, path)
+
+
+def _with_meshes(scene: Scene, path: Path) -> Scene:
+    """Say where the meshes of a home lie that was read from a file."""
+    folder = path.with_suffix(".meshes")
+    for number, thing in enumerate(scene.objects):
+        for part in thing.mesh:
+            if not (folder / part.file).is_file():
+                raise ConfigError(
+                    f"The scene file {path}, field objects.{number}.mesh: there is no file {folder / part.file}."
+                )
+            scene._meshes = folder
+    return scene
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # such as a name that is too long
+        return False
+
+
+def parse_scene(text: str, source: str) -> Scene:
+    """Read a home from JSON text; `source` names it in errors.
+
+    Raises:
+        ConfigError: If the text is no JSON or no home; names the field and what was expected.
+    """
+    try:
+        return Scene.model_validate(json.loads(text, parse_constant=_refuse))
+    except json.JSONDecodeError as err:
+        raise ConfigError(f"The scene file {source}, line {err.lineno}, is not valid JSON: {err.msg}.") from err
+    except RecursionError as err:
+        raise ConfigError(f"The scene file {source} is not valid JSON: it is nested too deeply.") from err
+    except ValidationError as err:
+        first = err.errors()[0]
+        field = ".".join(str(part) for part in first["loc"]) or "the whole file"
+        raise ConfigError(f"The scene file {source}, field {field}: {first['msg']}.") from err
+
+
+def _refuse(constant: str) -> float:
+    raise json.JSONDecodeError(f"{constant} is no number", "", 0)
+
+
+def dump_scene(scene: Scene) -> str:
+    """Write a home as JSON text with one room, door or object per line."""
+    data = scene.model_dump(mode="json", exclude_defaults=False)
+    parts = []
+    for key, value in data.items():
+        if key == "stage" and value is None:
+            continue
+        if isinstance(value, list):
+            if key == "objects":
+                value = [{name: field for name, field in row.items() if name != "mesh" or field} for row in value]
+            rows = ",\n".join("    " + json.dumps(row, ensure_ascii=False) for row in value)
+            parts.append(f'  "{key}": [\n{rows}\n  ]' if value else f'  "{key}": []')
+        else:
+            parts.append(f'  "{key}": {json.dumps(value)}')
+    return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+def _scene_files(folders: Sequence[Path]) -> dict[str, Path]:
+    return {path.stem: path for folder in (SHIPPED, *folders) for path in sorted(folder.glob("*.json"))}

@@ -1,0 +1,203 @@
+"""Put a home into pybullet as bodies that are seen and hit by rays; nothing moves by itself.
+
+Every room is one body (its floor and the painted inner faces of its walls), every object is one body. There is no
+ceiling, so that a camera may look in from above. No dynamics: a thing is moved by setting its pose.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from coopera.simulation.homes.catalogue import catalogue, parts_of
+from coopera.simulation.homes.floorplan import WALL_THICKNESS, Point, Wall
+from coopera.simulation.homes.meshes import part_file
+from coopera.simulation.homes.scene import Room, Scene, SceneObject, rgb_of
+from coopera.simulation.shapes.kit import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
+from coopera.simulation.sight.engine import pybullet
+
+WALL_HEIGHT = 2.4
+_UNSEEN = -1
+_KIND = {
+    "box": pybullet.GEOM_BOX,
+    "cylinder": pybullet.GEOM_CYLINDER,
+    "sphere": pybullet.GEOM_SPHERE,
+    "capsule": pybullet.GEOM_CAPSULE,
+}
+
+
+@dataclass(slots=True)
+class BuiltHome:
+    """A home's bodies in one pybullet client."""
+
+    client: int
+    drawn: bool = True
+    """Whether bodies can be seen; rays hit them in any case."""
+    rooms: dict[str, int] = field(default_factory=dict)
+    """Body of each room, by its name."""
+    bodies: dict[str, int] = field(default_factory=dict)
+    """Body of each object, by its name."""
+    names: dict[int, str] = field(default_factory=dict)
+    """Name of each object, by its body."""
+
+    def move(self, name: str, position: tuple[float, float, float], yaw: float) -> None:
+        """Set an object's base centre and yaw; nothing else is touched."""
+        turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
+        pybullet.resetBasePositionAndOrientation(self.bodies[name], position, turn, physicsClientId=self.client)
+
+    def move_to(
+        self, name: str, position: tuple[float, float, float], orientation: tuple[float, float, float, float]
+    ) -> None:
+        """Set an object's base centre and full orientation (quaternion x, y, z, w), as while it is carried."""
+        pybullet.resetBasePositionAndOrientation(self.bodies[name], position, orientation, physicsClientId=self.client)
+
+    def add(self, name: str, cls: str, size: Size, colour: Colour) -> int:
+        """Add one more thing (out of the magic box) far below the floor, to be moved into sight; returns its body."""
+        body = _body(self.client, self.visual(parts_of(cls, size, colour)), size)
+        self.bodies[name], self.names[body] = body, name
+        self.move(name, (0.0, 0.0, -50.0), 0.0)
+        return body
+
+    def visual(self, parts: list[Part]) -> int:
+        """What a body of some parts looks like, for pybullet."""
+        return _visual(self.client, parts) if self.drawn else _UNSEEN
+
+    def remove(self, name: str) -> None:
+        """Take a thing that was added out of the world again."""
+        body = self.bodies.pop(name)
+        del self.names[body]
+        pybullet.removeBody(body, physicsClientId=self.client)
+
+
+def build(scene: Scene, client: int, *, drawn: bool = True) -> BuiltHome:
+    """Create all bodies of a home in a connected pybullet client, rooms first, then objects in the scene's order.
+
+    What they look like takes most of the time; where only rays are wanted, they need not be `drawn`.
+    """
+    home = BuiltHome(client, drawn)
+    walls = scene.walls()
+    for room in scene.rooms:
+        home.rooms[room.name] = _room_body(home, room, walls if scene.stage is None else [])
+    for start in range(0, len(scene.stage or []), MOST_PARTS):
+        _stage_body(home, walls[start : start + MOST_PARTS])
+    for thing in scene.objects:
+        if drawn and thing.mesh and scene.meshes is not None:
+            visual = _mesh_visual(client, thing, scene.meshes)
+        else:
+            visual = home.visual(parts_of(thing.cls, thing.size, thing.rgb))
+        body = _body(client, visual, thing.size)
+        home.bodies[thing.name], home.names[body] = body, thing.name
+        home.move(thing.name, thing.position, thing.yaw)
+    return home
+
+
+def _body(client: int, visual: int, size: Size) -> int:
+    """One body that looks like something, with a box around it for rays."""
+    half = [size[0] / 2, size[1] / 2, size[2] / 2]
+    hull = pybullet.createCollisionShape(
+        pybullet.GEOM_BOX, halfExtents=half, collisionFramePosition=[0, 0, half[2]], physicsClientId=client
+    )
+    return int(
+        pybullet.createMultiBody(
+            baseMass=0, baseCollisionShapeIndex=hull, baseVisualShapeIndex=visual, physicsClientId=client
+        )
+    )
+
+
+def _visual(client: int, parts: list[Part]) -> int:
+    if len(parts) > MOST_PARTS:
+        raise ValueError(f"a body takes at most {MOST_PARTS} parts, not {len(parts)}")
+    return int(
+        pybullet.createVisualShapeArray(
+            shapeTypes=[_KIND[part.kind] for part in parts],
+            halfExtents=[list(part.half) for part in parts],
+            radii=[part.radius for part in parts],
+            lengths=[part.length for part in parts],
+            rgbaColors=[list(part.rgba) for part in parts],
+            visualFramePositions=[list(part.position) for part in parts],
+            visualFrameOrientations=[list(part.orientation) for part in parts],
+            physicsClientId=client,
+        )
+    )
+
+
+def _mesh_visual(client: int, thing: SceneObject, folder: Path) -> int:
+    """What an imported thing looks like."""
+    count = len(thing.mesh)
+    return int(
+        pybullet.createVisualShapeArray(
+            shapeTypes=[pybullet.GEOM_MESH] * count,
+            fileNames=[str(part_file(folder, part)) for part in thing.mesh],
+            meshScales=[[1.0, 1.0, 1.0]] * count,
+            halfExtents=[[0.0, 0.0, 0.0]] * count,
+            radii=[0.0] * count,
+            lengths=[0.0] * count,
+            rgbaColors=[[*rgb_of(part.colour), 1.0] for part in thing.mesh],
+            visualFramePositions=[[0.0, 0.0, 0.0]] * count,
+            physicsClientId=client,
+        )
+    )
+
+
+def _room_body(home: BuiltHome, room: Room, walls: list[Wall]) -> int:
+    """Floor and walls of a room, in the colours of its kind; each wall is half of what two rooms share."""
+    kind = catalogue().rooms.get(room.kind)
+    floor = rgb_of(kind.floor) if kind else (0.7, 0.66, 0.6)
+    paint = rgb_of(kind.wall) if kind else WHITE
+    w, d = room.x1 - room.x0, room.y1 - room.y0
+    kit = Kit((w, d, WALL_HEIGHT), paint)
+    kit.box((0, 0, -0.05), (w, d, 0.05), floor)
+    cx, cy = room.centre
+    for wall in walls:
+        for piece in _faces(room, wall):
+            x, y, along = piece
+            size = (along, WALL_THICKNESS / 2) if wall.axis == "x" else (WALL_THICKNESS / 2, along)
+            kit.box((x - cx, y - cy, 0), (*size, WALL_HEIGHT), shade(paint, 0.94 if wall.axis == "x" else 1.0))
+    return _boxes(home, kit.parts[:MOST_PARTS], (cx, cy))
+
+
+def _stage_body(home: BuiltHome, walls: list[Wall]) -> int:
+    """Some walls of an imported home, as they stand."""
+    kit = Kit((1.0, 1.0, WALL_HEIGHT), WHITE)
+    for wall in walls:
+        b = wall.bounds
+        paint = shade(WHITE, 0.88 if wall.axis == "x" else 0.94)
+        kit.box(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, 0), (b.x1 - b.x0, b.y1 - b.y0, WALL_HEIGHT), paint)
+    return _boxes(home, kit.parts, (0.0, 0.0))
+
+
+def _boxes(home: BuiltHome, parts: list[Part], at: Point) -> int:
+    """One body of boxes that are seen and hit as they are."""
+    visual = home.visual(parts)
+    solid = pybullet.createCollisionShapeArray(
+        shapeTypes=[pybullet.GEOM_BOX for _ in parts],
+        halfExtents=[list(part.half) for part in parts],
+        collisionFramePositions=[list(part.position) for part in parts],
+        physicsClientId=home.client,
+    )
+    return int(
+        pybullet.createMultiBody(
+            baseMass=0,
+            baseCollisionShapeIndex=solid,
+            baseVisualShapeIndex=visual,
+            basePosition=[*at, 0],
+            physicsClientId=home.client,
+        )
+    )
+
+
+def _faces(room: Room, wall: Wall) -> list[tuple[float, float, float]]:
+    """The room's own half of a wall on its edge: middle of the piece and its length; empty if it is elsewhere."""
+    quarter = WALL_THICKNESS / 4
+    low, high = (room.x0, room.x1) if wall.axis == "x" else (room.y0, room.y1)
+    edges = (room.y0, room.y1) if wall.axis == "x" else (room.x0, room.x1)
+    start, end = max(wall.start, low), min(wall.end, high)
+    if end - start < 0.02:
+        return []
+    found = []
+    for edge, inwards in ((edges[0], 1), (edges[1], -1)):
+        if abs(edge - wall.at) < 0.03:
+            along, across = (start + end) / 2, wall.at + inwards * quarter
+            found.append((along, across, end - start) if wall.axis == "x" else (across, along, end - start))
+    return found

@@ -1,0 +1,113 @@
+"""The robot as an onlooker: where it goes to see the person, and the pictures of a recording."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, discs
+from coopera.simulation.acts.walking import walk
+from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.sight.cameras import Focus, around, robot_camera, view_camera, watching_place
+from coopera.simulation.sight.engine import Renderer
+from coopera.simulation.sight.recording import Moment, Recording, robot_still
+from coopera.simulation.sight.stage import Camera, Image, Stage
+
+
+class Watcher:
+    """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
+
+    def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
+        """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
+        self.ground = ground
+        self.stage = Stage(ground.scene, ground.robot, renderer=None)
+        self._renderer = renderer
+        self._drawn: Stage | None = None
+
+    def close(self) -> None:
+        """Give pybullet back."""
+        self.stage.close()
+        if self._drawn is not None:
+            self._drawn.close()
+
+    @property
+    def drawn(self) -> Stage:
+        """The stage that pictures are taken of."""
+        if self._drawn is None:
+            self._drawn = Stage(self.ground.scene, self.ground.robot, self._renderer)
+        return self._drawn
+
+    def watch(self, plan: Plan, deed: Placed, spot: Point) -> None:
+        """Add to a plan: the robot drives to where it will see a deed of the person, out of their way.
+
+        Args:
+            plan: The plan so far; the robot's drive is added.
+            deed: The person in the middle of the deed.
+            spot: The floor from which they do it.
+        """
+        person = plan.state.person
+        route = self.ground.navigator.route(person.spot, spot)
+        # It must not see itself in the way.
+        elsewhere = robot_still(self.ground.robot, plan.state)._replace(x=-100.0, y=-100.0)
+        self.stage.show(plan.state, Moment(deed, elsewhere, None, None, {}))
+        focus = self._focus(deed)
+        place = watching_place(
+            self.stage,
+            self.ground.navigator,
+            focus,
+            plan.state.robot.spot,
+            [*(route.points or []), spot, (deed.x, deed.y)],
+            discs(plan.state, "human"),
+        )
+        if place is not None and math.dist(place, plan.state.robot.spot) > 0.3:
+            metres, steps, state = plan.metres, list(plan.steps), plan.state
+            try:
+                walk(self.ground, plan, "robot", place)
+            except UnableError:  # it cannot get there: it watches from where it is
+                plan.steps, plan.state = steps, state
+            if math.dist(person.spot, spot) < 0.05 and plan.state.person.spot != person.spot:
+                plan.steps, plan.state = steps, state  # who is at the deed already is not sent away
+            plan.metres = metres
+        x, y = plan.state.robot.spot
+        yaw = math.atan2(deed.y - y, deed.x - x)
+        plan.steps.append(Turn(yaw))
+        plan.state = plan.state.with_robot(yaw=yaw)
+
+    def film(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, list[Image]]:
+        """Render uniformly sampled moments: pictures by view, "robot" and "human", in order of time."""
+        views: dict[int, Camera] = {}
+        pictures: dict[str, list[Image]] = {"robot": [], "human": []}
+        for tick in np.linspace(0, recording.ticks - 1, count).round().astype(int):
+            index, within = recording.find(int(tick))
+            shot = recording.shots[index]
+            if index not in views:
+                views[index] = self._view(recording, shot.at(shot.deed))
+            moment = shot.at(within)
+            self.drawn.show(recording.state, moment)
+            pictures["robot"].append(self.drawn.picture(robot_camera(self.drawn.body, moment.robot), size)[0])
+            pictures["human"].append(self.drawn.picture(views[index], size)[0])
+        return pictures
+
+    def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
+        """Yield each n-th tick with both views side by side, the robot's on the left."""
+        views: dict[int, Camera] = {}
+        for tick in range(0, recording.ticks, every):
+            index, within = recording.find(tick)
+            shot = recording.shots[index]
+            if index not in views:
+                views[index] = self._view(recording, shot.at(shot.deed))
+            moment = shot.at(within)
+            self.drawn.show(recording.state, moment)
+            eyes = (robot_camera(self.drawn.body, moment.robot), views[index])
+            yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in eyes], axis=1)
+
+    def _view(self, recording: Recording, moment: Moment) -> Camera:
+        self.drawn.show(recording.state, moment)
+        return view_camera(self.drawn, self.ground.scene, self._focus(moment.person))
+
+    def _focus(self, person: Placed) -> Focus:
+        """The person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
+        scene = self.ground.scene
+        return Focus(person, around(scene, person), scene.room_at(person.x, person.y).name)

@@ -1,0 +1,73 @@
+from __future__ import annotations
+
+import io
+import json
+
+import pytest
+from rich.console import Console
+
+from coopera.core.errors import ConfigError
+from coopera.report.tree import print_json, print_trees
+from coopera.rundir.directory import RunDir
+
+
+def shown(run: RunDir, day: int | None, hour: int | None) -> str:
+    console = Console(width=4000, record=True, file=io.StringIO())
+    print_trees(run, day, hour, console)
+    return console.export_text()
+
+
+def test_an_hour_shows_everything_that_was_thought_done_and_judged(small_run: RunDir) -> None:
+    text = shown(small_run, 0, 10)
+    record = small_run.read_day(0)[1]
+    assert "day 0, 10 am · amara in maple" in text
+    assert f"intention: {record.human.intention.text}" in text
+    assert "who they are: It suits how I am." in text
+    for task in record.human.tasks:
+        assert f"{task.id} {task.act.describe()}" in text
+    assert "reflect_profile: 1 of 2 fine" in text
+    assert "score 0.600 = recency 1.000 x relevance 0.610" in text
+    for candidate in record.robot.intentions:
+        assert f"{candidate.probability:.3f} intention {candidate.text}" in text
+    assert ("right" in text) == any(task.correct for task in record.robot.tasks)
+    counts = record.success.predicate
+    assert f"(tp {counts.tp}, fp {counts.fp}, fn {counts.fn}, tn {counts.tn}, unscored {counts.unscored})" in text
+    assert "robot/intentions · offline routine model" in text
+    assert "evening" not in text
+
+
+def test_a_failed_hour_says_why_and_shows_the_faults(small_run: RunDir) -> None:
+    text = shown(small_run, 1, 16)
+    assert "failed: human/intention: the model's reply cannot be used" in text
+    assert text.count("fault no JSON object found") == 3
+    assert "4 attempts" in text
+
+
+def test_a_day_ends_with_its_evening_and_no_markup_is_taken_from_data(small_run: RunDir) -> None:
+    text = shown(small_run, 0, None)
+    assert text.count("day 0, ") == 9
+    assert "day 0, evening" in text
+    assert "rest <b>early</b>." in text
+
+
+def test_json_is_one_line_and_the_files_as_they_are(small_run: RunDir, capsys: pytest.CaptureFixture[str]) -> None:
+    print_json(small_run, 0, 10)
+    out = capsys.readouterr().out
+    assert out.count("\n") == 1
+    assert json.loads(out) == json.loads((small_run.root / "trace/day-00/hour-10.json").read_text())
+    print_json(small_run, None, None)
+    found = json.loads(capsys.readouterr().out)
+    assert len(found) == 4 * (8 + 1)
+    assert "feedback" in found[8]
+    assert [one["hour"] for one in found[:8]] == list(range(9, 17))
+
+
+@pytest.mark.parametrize(
+    ("day", "hour", "sentence"),
+    [(9, None, "--day: there is no day 9 in .*; it has days 0 to 3"), (0, 8, "--hour: there is no hour 8 on day 0")],
+)
+def test_a_day_or_hour_that_is_not_there_is_refused(
+    small_run: RunDir, day: int, hour: int | None, sentence: str
+) -> None:
+    with pytest.raises(ConfigError, match=sentence):
+        shown(small_run, day, hour)

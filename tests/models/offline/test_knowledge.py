@@ -1,0 +1,244 @@
+"""The household file: what is shipped hangs together, and what does not is refused with file, activity and field."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from coopera.core.errors import ConfigError
+from coopera.core.household import plain
+from coopera.core.people import TRAITS, BigFive
+from coopera.models.offline.household.knowledge import SHIPPED, Activity, load, shipped
+
+ROOT = Path(__file__).parents[3]
+ACTIVITIES = shipped().activities
+KINDS = (
+    "kitchen",
+    "living room",
+    "dining room",
+    "bedroom",
+    "bathroom",
+    "study",
+    "hallway",
+    "laundry room",
+    "hobby room",
+)
+
+
+@lru_cache(maxsize=2)
+def _read(name: str) -> Any:
+    return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
+
+
+def test_about_forty_activities_are_shipped_and_each_hour_offers_many() -> None:
+    assert 40 <= len(ACTIVITIES) <= 60
+    for hour in range(13):
+        assert sum(activity.hours[hour] >= 0.5 for activity in ACTIVITIES) >= 10
+
+
+@pytest.mark.parametrize("activity", ACTIVITIES, ids=lambda a: a.id)
+def test_an_activity_is_described_in_full(activity: Activity) -> None:
+    assert 4 <= len(activity.wordings) <= 6
+    assert re.match(r"I\b|Knitting", activity.statement)
+    assert 8 <= len(activity.things) <= 12
+    assert 7 <= len(activity.places) <= 10
+    assert len(set(activity.places)) == len(activity.places)
+    assert set(activity.rooms) <= set(KINDS)
+    assert activity.source
+
+
+@pytest.mark.parametrize("activity", ACTIVITIES, ids=lambda a: a.id)
+def test_wordings_are_high_level_speak_of_nobody_and_name_no_object(activity: Activity) -> None:
+    catalogue = _read("simulation/homes/catalogue.yaml")
+    objects = {plain(cls) for kind in ("fixed", "movable") for cls in catalogue[kind]} | set(activity.things)
+    for wording in activity.wordings:
+        assert not re.search(r"\b(I|my|me|he|she)\b", wording)
+        named = [thing for thing in objects if re.search(rf"\b{re.escape(thing)}s?\b", wording.lower())]
+        assert named == []
+
+
+def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
+    catalogue = _read("simulation/homes/catalogue.yaml")
+    for activity in ACTIVITIES:
+        assert {thing for thing, _ in activity.places} <= set(catalogue["movable"])
+        assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
+    assert shipped().furniture <= set(catalogue["fixed"])
+
+
+def test_each_motion_of_an_activity_can_be_made_at_one_of_its_spots() -> None:
+    suits = shipped().suits
+    homeless = [(a.id, m) for a in ACTIVITIES for m in a.all_motions if not any(suits(m, spot) for spot in a.fixed)]
+    assert homeless == []
+    assert suits("chop vegetables", "kitchen_counter")
+    assert not suits("chop vegetables", "armchair")
+    assert suits("chop vegetables", "ping_pong_table")  # unknown to the file
+    assert suits("dance", "armchair")  # needs no special place
+
+
+def test_everything_that_is_placed_fits_where_it_is_placed() -> None:
+    catalogue = _read("simulation/homes/catalogue.yaml")
+
+    def fits(thing: str, spot: str) -> bool:
+        (width, depth, height), kind = catalogue["movable"][thing]["size"], catalogue["fixed"][spot]
+        for _, x0, x1, y0, y1, clear in kind["surfaces"]:
+            room = sorted(((x1 - x0) * kind["size"][0], (y1 - y0) * kind["size"][1]))
+            if min(width, depth) <= room[0] and max(width, depth) <= room[1] and height <= clear:
+                return True
+        return spot in catalogue["movable"][thing]["put"]  # homes have it there, so it does
+
+    assert [(a.id, *place) for a in ACTIVITIES for place in a.places if not fits(*place)] == []
+
+
+def test_motions_are_those_of_the_simulation_and_look_as_it_says() -> None:
+    motions = _read("simulation/motions/motions.yaml")["motions"]
+    assert shipped().looks_like == {motion["caption"]: motion["class"] for motion in motions}
+
+
+def test_activities_can_be_told_apart_by_more_than_one_thing() -> None:
+    for one in ACTIVITIES:
+        for other in ACTIVITIES:
+            if one.id < other.id:
+                assert len(set(one.things) & set(other.things)) <= len(one.things) // 2, (one.id, other.id)
+
+
+def test_an_average_personality_is_drawn_nowhere_and_loadings_point_both_ways() -> None:
+    household = shipped()
+    assert np.all(household.trait_pull(BigFive()) == 0)
+    tidy, paint = household.index["tidy"], household.index["paint"]
+    pull = household.trait_pull(BigFive(conscientiousness=5, openness=1))
+    assert pull[tidy] > 0 > pull[paint]
+    for trait in range(len(TRAITS)):
+        assert household.loadings[:, trait].max() > 0 > household.loadings[:, trait].min()
+
+
+@lru_cache(maxsize=1)
+def _three_activities() -> str:
+    data = yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+    data["activities"] = data["activities"][:3]
+    for activity in data["activities"]:
+        activity["follows"] = []
+    return json.dumps(data)
+
+
+def _broken(tmp_path: Path, change: Any) -> Path:
+    data = json.loads(_three_activities())
+    change(data)
+    path = tmp_path / "household.yaml"
+    path.write_text(yaml.safe_dump(data), encoding="utf-8")
+    return path
+
+
+def test_a_correct_small_file_is_read(tmp_path: Path) -> None:
+    assert [a.id for a in load(_broken(tmp_path, lambda data: None)).activities] == ["breakfast", "lunch", "dinner"]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "said"),
+    [
+        ("hours", [1.0] * 12, r"activity 'lunch', field 'hours'.*13"),
+        ("hours", [0.0] * 13, r"activity 'lunch', field 'hours'.*above 0"),
+        ("statement", 7, r"activity 'lunch', field 'statement'"),
+        ("big_five", {"grumpiness": 0.5}, r"activity 'lunch', field 'big_five'.*'grumpiness' is not one of openness"),
+        ("big_five", {"openness": 3}, r"activity 'lunch', field 'big_five.openness'"),
+        ("follows", ["fly"], r"activity 'lunch', field 'follows': there is no activity 'fly'"),
+        ("motions", ["fly"], r"activity 'lunch', field 'motions': 'fly' is not listed under looks_like"),
+        ("assumed", ["openness"], r"activity 'lunch', field 'assumed': 'openness' has no loading in big_five"),
+        ("wordings", ["Cook a proper dinner", "Eat"], r"field 'wordings'.*'Cook a proper dinner'"),
+        ("things", {}, r"activity 'lunch', field 'things'"),
+        ("colour", "red", r"activity 'lunch', field 'colour'"),
+    ],
+)
+def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field: str, value: Any, said: str) -> None:
+    path = _broken(tmp_path, lambda data: data["activities"][1].update({field: value}))
+    with pytest.raises(ConfigError, match=said) as refused:
+        load(path)
+    assert str(path) in str(refused.value)
+
+
+def test_a_place_for_a_motion_that_does_not_exist_is_refused(tmp_path: Path) -> None:
+    path = _broken(tmp_path, lambda data: data["done_at"].update({"fly": ["sofa"]}))
+    with pytest.raises(ConfigError, match=r"household\.yaml: field 'done_at': 'fly' is not listed under looks_like"):
+        load(path)
+
+
+def _own(tmp_path: Path, **fields: Any) -> Path:
+    path = tmp_path / "own.yaml"
+    path.write_text(yaml.safe_dump({"extends": "shipped", **fields}), encoding="utf-8")
+    return path
+
+
+def _activity(index: int, **changed: Any) -> dict[str, Any]:
+    return {**json.loads(_three_activities())["activities"][index], **changed}
+
+
+def test_a_file_of_ones_own_replaces_adds_and_keeps(tmp_path: Path) -> None:
+    wordings = ["Fly a kite indoors", "Test the wind"]
+    new = _activity(1, id="kite", wordings=wordings, motions=["fly"], follows=["lunch"])
+    lunch = _activity(1, wordings=["Eat nothing at noon", "Fast for an hour"])
+    own = load(_own(tmp_path, activities=[lunch, new], looks_like={"fly": "exercise"}, done_at={"fly": ["sofa"]}))
+    assert list(own.index) == [*shipped().index, "kite"]
+    assert own.activities[own.index["lunch"]].wordings == tuple(lunch["wordings"])
+    assert own.activities[own.index["dinner"]] == shipped().activities[shipped().index["dinner"]]
+    assert own.suits("fly", "sofa")
+    assert not own.suits("fly", "bed")
+    assert load(_own(tmp_path)) == shipped()
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"extends": "nothing"}, r"field 'extends'"),
+        ({"activities": [{"id": "kite"}]}, r"activity 'kite', field 'wordings'"),
+        ({"activities": "kite"}, r"field 'activities'"),
+        ({"colour": "red"}, r"field 'colour'"),
+    ],
+)
+def test_a_mistake_in_a_file_of_ones_own_is_refused_by_its_name(
+    tmp_path: Path, fields: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(ConfigError, match=rf"own\.yaml: {said}"):
+        load(_own(tmp_path, **fields))
+
+
+def test_a_file_of_ones_own_may_neither_double_an_id_nor_take_a_wording_of_another(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"own\.yaml: activity 'kite', field 'id': each id may be used once only"):
+        load(_own(tmp_path, activities=[_activity(1, id="kite"), _activity(1, id="kite")]))
+    with pytest.raises(ConfigError, match=r"own\.yaml: activity 'kite', field 'wordings'.*stands also in"):
+        load(_own(tmp_path, activities=[_activity(1, id="kite")]))
+    with pytest.raises(ConfigError, match=r"activity 'kite', field 'things\.plate': 'fly' is not listed"):
+        load(
+            _own(
+                tmp_path,
+                activities=[
+                    _activity(1, id="kite", wordings=["a b", "c d"], things={**_activity(1)["things"], "plate": "fly"})
+                ],
+            )
+        )
+
+
+def test_what_is_assumed_says_so_and_the_documentation_counts_it() -> None:
+    assert [a.id for a in ACTIVITIES if bool(a.assumed) != ("assumption" in a.source)] == []
+    assumed = sum(len(activity.assumed) for activity in ACTIVITIES)
+    loadings = sum(len(activity.big_five) for activity in ACTIVITIES)
+    assert f"{assumed} of the {loadings} loadings" in (ROOT / "docs/offline-model.md").read_text(encoding="utf-8")
+
+
+def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:
+    path = _broken(tmp_path, lambda data: data["activities"][2].update({"id": "lunch"}))
+    with pytest.raises(ConfigError, match="activity 'lunch', field 'id'"):
+        load(path)
+
+
+@pytest.mark.parametrize("content", [b"activities: [", b"\xff\xfe", b"[]", b"activities: 3\nlooks_like: {a: b}\n"])
+def test_what_is_no_household_file_is_refused(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "home.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError, match=r"home\.yaml"):
+        load(path)
