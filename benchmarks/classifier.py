@@ -26,11 +26,11 @@ from langchain_core.embeddings import Embeddings
 
 from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Lived, Robot, draw_person, live_day
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.core.protocols import Classifier
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, Inputs, Kind, make_classifier
+from coopera.models.classifiers import CLASSIFIERS, Inputs, make_classifier
 from coopera.models.classifiers.calibration import score_at
 from coopera.prompts import PromptLibrary
 
@@ -101,17 +101,17 @@ class Day(NamedTuple):
 
 
 def live(
-    number: int, make: Callable[[Kind], Classifier], embeddings: Embeddings, days: int, mode: str = "warm"
+    number: int, make: Callable[[CandidateKind], Classifier], embeddings: Embeddings, days: int, mode: str = "warm"
 ) -> list[Day]:
     """Let a robot with two classifiers of a make live with a person, learning in the evenings as `Learner` does."""
     person = draw_person(0, number)
     robot = Robot(person, 0, embeddings)
-    judges: dict[Kind, Classifier] = {"intention": make("intention"), "task": make("task")}
-    lessons: dict[Kind, list[Example]] = {"intention": [], "task": []}
+    judges: dict[CandidateKind, Classifier] = {"intention": make("intention"), "task": make("task")}
+    lessons: dict[CandidateKind, list[Example]] = {"intention": [], "task": []}
     results = []
     for day in range(days):
         lived = live_day(person, 0, day)
-        asked: dict[Kind, list[Judged]] = {"intention": [], "task": []}
+        asked: dict[CandidateKind, list[Judged]] = {"intention": [], "task": []}
         seconds = 0.0
         for hour in lived:
             seconds += _live_hour(robot, judges, hour, asked)
@@ -132,7 +132,7 @@ def live(
 
 
 def _live_hour(
-    robot: Robot, judges: Mapping[Kind, Classifier], hour: Lived, asked: Mapping[Kind, list[Judged]]
+    robot: Robot, judges: Mapping[CandidateKind, Classifier], hour: Lived, asked: Mapping[CandidateKind, list[Judged]]
 ) -> float:
     """Imagine and judge for one hour, adding to `asked`; returns the seconds that judging took."""
     guesses = robot.imagine_intentions(hour)
@@ -202,7 +202,7 @@ def main() -> None:
         chosen.out.write_text(json.dumps(everything, indent=1) + "\n", encoding="utf-8")
 
 
-def _make(name: str, embeddings: Embeddings, inputs: Inputs, recipe: Path | None, kind: Kind) -> Classifier:
+def _make(name: str, embeddings: Embeddings, inputs: Inputs, recipe: Path | None, kind: CandidateKind) -> Classifier:
     simple: dict[str, Callable[[], Classifier]] = {"always-yes": AlwaysYes, "frequency": Frequency}
     if name in simple:
         return simple[name]()

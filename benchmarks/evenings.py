@@ -23,10 +23,10 @@ from langchain_core.embeddings import Embeddings
 
 from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Robot, draw_person, live_day
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, Kind, make_classifier
+from coopera.models.classifiers import CLASSIFIERS, make_classifier
 from coopera.models.classifiers.causal import open_base
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.prompts import PromptLibrary
@@ -37,11 +37,11 @@ INSTRUCT = PromptLibrary().instruct
 SAMPLES, TOKENS = 3, 100  # the authors' code: so many texts of so many tokens for each verdict
 
 
-def imagined(days: int, embeddings: Embeddings) -> dict[Kind, list[list[Example]]]:
+def imagined(days: int, embeddings: Embeddings) -> dict[CandidateKind, list[list[Example]]]:
     """What a robot imagines and is told on each of some days."""
     person = draw_person(0, PERSON)
     robot = Robot(person, 0, embeddings)
-    found: dict[Kind, list[list[Example]]] = {"intention": [], "task": []}
+    found: dict[CandidateKind, list[list[Example]]] = {"intention": [], "task": []}
     for day in range(days):
         lived = live_day(person, 0, day)
         intentions, tasks = [], []
@@ -59,7 +59,9 @@ def imagined(days: int, embeddings: Embeddings) -> dict[Kind, list[list[Example]
     return found
 
 
-def evening(name: str, day: int, lived: dict[Kind, list[list[Example]]], embeddings: Embeddings, recipe: Path) -> float:
+def evening(
+    name: str, day: int, lived: dict[CandidateKind, list[list[Example]]], embeddings: Embeddings, recipe: Path
+) -> float:
     """Processor seconds of learning in the evening of a day (from 1), going on from the evening before."""
     seconds = 0.0
     for kind, days in lived.items():
@@ -73,7 +75,7 @@ def evening(name: str, day: int, lived: dict[Kind, list[list[Example]]], embeddi
     return seconds
 
 
-def verdicts(lived: dict[Kind, list[list[Example]]], recipe: Path, timed: int) -> str:
+def verdicts(lived: dict[CandidateKind, list[list[Example]]], recipe: Path, timed: int) -> str:
     """25 verdicts by one forward pass, and by sampling as the authors' code does, at the same model."""
     base = open_base(read_recipe(recipe).model_dump_json())
     texts = [INSTRUCT(example) for example in lived["intention"][0][:25]]

@@ -27,14 +27,14 @@ from typing import Any, NamedTuple
 
 from coopera import Config, resume_study, run_study
 from coopera.config.schema import default_data_dir
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.core.household import Collab
 from coopera.core.protocols import Classifier
 from coopera.core.randomness import rng_at
 from coopera.evaluation import METHODS, register
 from coopera.evaluation.statistics import bootstrap_mean
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import Kind, make_classifier
+from coopera.models.classifiers import make_classifier
 from coopera.people.shipped import shipped_ids
 
 
@@ -55,7 +55,7 @@ class Shuffled:
         return self._inner.train(dealt, seed=seed)
 
 
-def shuffled(kind: Kind) -> Classifier:
+def shuffled(kind: CandidateKind) -> Classifier:
     """A new kernel classifier behind `Shuffled`."""
     embeddings = bundled(default_data_dir() / "embeddings.sqlite")
     return Shuffled(make_classifier("kernel", kind=kind, embeddings=embeddings))

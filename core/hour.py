@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
-from coopera.core.people import BigFive, Frozen, PersonId, Picture
+from coopera.core.people import Belief, BigFive, Frozen, PersonId
+
+CandidateKind: TypeAlias = Literal["intention", "task"]
+"""What the robot imagines and a classifier judges."""
 
 
 class Reasons(Frozen):
@@ -39,7 +42,7 @@ class Task(Frozen):
 class Recalled(Frozen):
     """One retrieved memory: score = recency x relevance (PAPER §3.2, Memory Retrieval)."""
 
-    kind: Literal["intention", "task"]
+    kind: CandidateKind
     text: str
     hour: int
     relevance: float
@@ -147,7 +150,7 @@ class RobotHour(Frozen):
     """Which defined fallbacks were used, e.g. "no intention accepted"."""
     with_whom: PersonId | None = None
     """Whom the robot took the person for, where nobody said so."""
-    picture: Picture | None = None
+    belief: Belief | None = None
     """What it took the person for, where traits are inferred each hour."""
 
 
@@ -247,7 +250,7 @@ class FeedbackItem(Frozen):
     """The person's yes or no, with a reason, to one thing the robot imagined."""
 
     hour: int
-    kind: Literal["intention", "task"]
+    kind: CandidateKind
     text: str
     accepted: bool
     helpful: bool | None
@@ -257,7 +260,7 @@ class FeedbackItem(Frozen):
     """How helpful, from 1 to 5, where feedback is graded."""
 
 
-class ToldHour(Frozen):
+class HourAccount(Frozen):
     """What the person tells the robot in the evening of one hour: what they did, and yes or no to what was imagined.
 
     In `robot`, the robot's own hour, `correct` is None throughout: what a measure says of it is not told.
@@ -270,16 +273,16 @@ class ToldHour(Frozen):
     feedback: list[FeedbackItem] = []
 
 
-class Told(Frozen):
+class DayAccount(Frozen):
     """All that a robot learns from in the evening of a day. `day` is the person's own calendar, from 0 (`episode_day`).
 
-    `picture` is what the robot believes of the person since this evening. Hours that failed are left out.
+    `belief` is what the robot believes of the person since this evening. Hours that failed are left out.
     """
 
     person: PersonId
     day: int
-    hours: list[ToldHour]
-    picture: Picture = Picture()
+    hours: list[HourAccount]
+    belief: Belief = Belief()
 
 
 class Evening(Frozen):
@@ -291,7 +294,7 @@ class Evening(Frozen):
     person: PersonId
     scene: SceneId
     feedback: list[FeedbackItem]
-    picture: Picture
+    belief: Belief
     traits_reasons: dict[str, str] = {}
     learned: dict[str, Any] = {}
     calls: list[ModelCall] = []

@@ -68,7 +68,7 @@ class Persona(Frozen):
     provenance: Provenance | None = None
 
 
-class Picture(Frozen):
+class Belief(Frozen):
     """What the robot believes about one person: inferred Big Five and a three-sentence profile.
 
     `None` until the first evening (PAPER App. D: empty at the first collaboration).

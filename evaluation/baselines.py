@@ -10,7 +10,7 @@ from collections import Counter
 from typing import Any, NamedTuple
 
 from coopera.core.clock import Clock, hour_label
-from coopera.core.hour import IntentionCandidate, Observation, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Observation, Proposal, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver
 from coopera.core.people import PersonId
 from coopera.graphs.robot import RobotInput
@@ -46,9 +46,9 @@ class Habit:
         chosen = max(past, key=lambda one: (times[one.intention], one.clock.now))
         return _propose(chosen, times[chosen.intention] / len(past))
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
         """Remember the day."""
-        self._past += occasions_of(told)
+        self._past += occasions_of(account)
         return {"occasions": len(self._past)}
 
 
@@ -83,13 +83,13 @@ class Finetuned:
         )
         return _propose(similar, round(float(chances[best]), 9))
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
         """Train anew on all evenings so far."""
         from sklearn.feature_extraction.text import TfidfVectorizer  # noqa: PLC0415 - heavy
         from sklearn.linear_model import LogisticRegression  # noqa: PLC0415
         from sklearn.pipeline import make_pipeline  # noqa: PLC0415
 
-        self._past += occasions_of(told)
+        self._past += occasions_of(account)
         labels = [one.intention for one in self._past]
         if len(set(labels)) > 1:
             texts = [_shown(one.person, one.clock, one.sight) for one in self._past]
@@ -101,17 +101,17 @@ class Finetuned:
         return {"occasions": len(self._past), "intentions": len(set(labels))}
 
 
-def occasions_of(told: Told) -> list[Occasion]:
+def occasions_of(account: DayAccount) -> list[Occasion]:
     """The hours that the person told of in an evening."""
     return [
         Occasion(
-            person=told.person,
-            clock=Clock(day=told.day, hour=hour.hour),
+            person=account.person,
+            clock=Clock(day=account.day, hour=hour.hour),
             sight=sight_of(hour.robot.observation),
             intention=hour.intention,
             acts=list(hour.tasks[1:]),
         )
-        for hour in told.hours
+        for hour in account.hours
     ]
 
 

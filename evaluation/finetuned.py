@@ -10,7 +10,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.errors import CooperaError
-from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import Collab, HandOver, PickPlace
 from coopera.core.people import Frozen, PersonId
 from coopera.evaluation.baselines import Occasion, occasions_of, offer, sight_of
@@ -80,9 +80,9 @@ class FinetunedModel:
             intentions=[IntentionCandidate(text=said.intention, probability=1.0, accepted=True)], tasks=tasks
         )
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
         """Train on all that was told so far, or on the newest of it."""
-        self._past += occasions_of(told)
+        self._past += occasions_of(account)
         lessons = [lesson(one) for one in self._past]
         return dict(self._chat.train(lessons, seed=seed)) if lessons else {"lessons": 0}
 

@@ -27,7 +27,7 @@ METHODS: dict[str, Method] = {
         Method(
             name="direct_finetuning", traits=False, own=Finetuned, tunes=FinetunedModel
         ),  # see coopera.evaluation.baselines and coopera.evaluation.finetuned for what it learns
-        replace(OURS, name="oracle", intentions="told", verdicts="accept", learns=False),
+        replace(OURS, name="oracle", intentions="given", verdicts="accept", learns=False),
         replace(OURS, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
         replace(OURS, name="intention_agnostic", intentions="skipped"),
         replace(OURS, name="human_context_agnostic", time_only=True),

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from coopera import Config, check_method, run_study
-from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver
 from coopera.evaluation import register
 from coopera.graphs import Method, RobotContext
@@ -36,10 +36,10 @@ class Habits:
         tasks = [TaskCandidate(intention=usual.text, thought="as before", act=act, accepted=True) for act in acts]
         return Proposal(intentions=[usual], tasks=tasks)
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
         """Count what the person says they had in hand."""
-        acts = [(hour.hour, act) for hour in told.hours for act in hour.tasks if isinstance(act, FreeMotion)]
-        self.seen.update((told.person, hour, act.in_hand) for hour, act in acts)
+        acts = [(hour.hour, act) for hour in account.hours for act in hour.tasks if isinstance(act, FreeMotion)]
+        self.seen.update((account.person, hour, act.in_hand) for hour, act in acts)
         return {"things": len(self.seen)}
 
 

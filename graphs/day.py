@@ -21,15 +21,15 @@ from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
 from coopera.core.household import SceneId
 from coopera.core.interview import Question
-from coopera.core.people import PersonId, Picture
+from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
 from coopera.core.replies import GradesReply, VerdictsReply
 from coopera.graphs.hour import build_hour_graph, human_context
 from coopera.graphs.human import as_tasks, when, who
-from coopera.graphs.learning import told_of
+from coopera.graphs.learning import account_of
 from coopera.graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
 from coopera.graphs.services import Services
-from coopera.graphs.traits import revise, told
+from coopera.graphs.traits import accounts, revise
 
 
 class DayInput(TypedDict):
@@ -37,12 +37,12 @@ class DayInput(TypedDict):
 
     plan: DayPlan
     worlds: dict[SceneId, dict[str, Any]]
-    pictures: dict[PersonId, Picture]
+    beliefs: dict[PersonId, Belief]
     learned: list[int]
 
 
 class DayState(DayInput, total=False):
-    """State of a day. `worlds`, `pictures` and `learned` are handed on to the next day.
+    """State of a day. `worlds`, `beliefs` and `learned` are handed on to the next day.
 
     `learned`: the days of this episode, in order, whose evenings the classifiers have learned from.
     """
@@ -55,7 +55,7 @@ class DayState(DayInput, total=False):
 
 def first_day(plan: DayPlan) -> DayInput:
     """The input of a day that no other came before."""
-    return DayInput(plan=plan, worlds={}, pictures={}, learned=[])
+    return DayInput(plan=plan, worlds={}, beliefs={}, learned=[])
 
 
 def build_day_graph(
@@ -72,10 +72,10 @@ def build_day_graph(
         home.restore(state["worlds"].get(plan.scene, {}))
         services.ask.take_calls()
         runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
-        picture = state["pictures"].get(plan.person, Picture())
+        belief = state["beliefs"].get(plan.person, Belief())
         services = _with_person(services)
         done = hours.invoke(
-            {"plan": plan, "position": state["position"], "picture": picture, "pictures": state["pictures"]},
+            {"plan": plan, "position": state["position"], "belief": belief, "beliefs": state["beliefs"]},
             context=services,
         )
         return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
@@ -119,22 +119,22 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Revise the robot's picture of the person from what it was told today. Writes `pictures`, `traits_reasons`.
+    """Revise the robot's belief about the person from what it was told today. Writes `beliefs`, `traits_reasons`.
 
-    A reply that cannot be read leaves the picture as it was.
+    A reply that cannot be read leaves the belief as it was.
     """
     services, plan = runtime.context, state["plan"]
-    past = told(services.recorder.read_day(plan.day), plan.episode_day * 24)
-    picture = state["pictures"].get(plan.person, Picture())
+    past = accounts(services.recorder.read_day(plan.day), plan.episode_day * 24)
+    belief = state["beliefs"].get(plan.person, Belief())
     if not services.method.traits or not past:
         return {"traits_reasons": {}}
     clock = plan.clock(len(plan.hours) - 1)
     at = Address(plan.person, clock.day, clock.hour, "infer_traits")
     try:
-        seen, reasons = revise(services.ask, at, clock, past, picture, evening=True)
+        seen, reasons = revise(services.ask, at, clock, past, belief, evening=True)
     except ModelOutputError as err:
         return {"traits_reasons": {"failed": str(err)}}
-    return {"pictures": {**state["pictures"], plan.person: seen}, "traits_reasons": reasons}
+    return {"beliefs": {**state["beliefs"], plan.person: seen}, "traits_reasons": reasons}
 
 
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -156,9 +156,9 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     )
     if not services.method.learns:
         return {"measured": {}}
-    picture = state["pictures"].get(plan.person, Picture())
-    told = told_of(plan, hours, state["feedback"], picture)
-    measured = services.pupil.learn(plan.day, state["learned"], told)
+    belief = state["beliefs"].get(plan.person, Belief())
+    account = account_of(plan, hours, state["feedback"], belief)
+    measured = services.pupil.learn(plan.day, state["learned"], account)
     return {"measured": measured, "learned": [*state["learned"], plan.day]}
 
 
@@ -173,7 +173,7 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             person=plan.person,
             scene=plan.scene,
             feedback=state["feedback"],
-            picture=state["pictures"].get(plan.person, Picture()),
+            belief=state["beliefs"].get(plan.person, Belief()),
             traits_reasons=state["traits_reasons"],
             learned=state["measured"],
             calls=services.ask.take_calls(),

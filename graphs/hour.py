@@ -20,7 +20,7 @@ from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
 from coopera.core.household import Outcome
-from coopera.core.people import PersonId, Picture
+from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.graphs.earlier_life import Shown
@@ -44,8 +44,8 @@ class HourInput(TypedDict):
 
     plan: DayPlan
     position: int
-    picture: Picture
-    pictures: NotRequired[dict[PersonId, Picture]]
+    belief: Belief
+    beliefs: NotRequired[dict[PersonId, Belief]]
 
 
 class HourState(HourInput, total=False):
@@ -83,7 +83,7 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
             return {"human": again.human} if again.human else {"failure": again.reason}
         ctx = human_context(runtime.context, state["plan"])
         ctx.memories.forget_from(_clock(state).now)
-        ctx = replace(ctx, told=runtime.context.told(state["plan"], _clock(state)))
+        ctx = replace(ctx, logged=runtime.context.logged(state["plan"], _clock(state)))
         given = HumanInput(clock=_clock(state), hours=state["plan"].hours)
         return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
 
@@ -91,18 +91,16 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         plan, guessed = state["plan"], _with_whom(state, runtime.context)
         ctx = robot_context(runtime.context, plan, guessed)
         ctx.guesses.forget_from(_clock(state).now)
-        picture = (
-            state["picture"] if ctx.person == plan.person else state.get("pictures", {}).get(ctx.person, Picture())
-        )
+        belief = state["belief"] if ctx.person == plan.person else state.get("beliefs", {}).get(ctx.person, Belief())
         if runtime.context.hourly_traits and ctx.method.traits:
-            picture = _revised(runtime.context, plan, _clock(state), ctx.person, picture)
-        given = RobotInput(clock=_clock(state), observation=state["observation"], picture=picture)
+            belief = _revised(runtime.context, plan, _clock(state), ctx.person, belief)
+        given = RobotInput(clock=_clock(state), observation=state["observation"], belief=belief)
         helper = robot if ctx.own is None else own
-        if ctx.method.intentions == "told":
-            helper, given = oracle, OracleInput(**given, told=state["human"].intention.text)
+        if ctx.method.intentions == "given":
+            helper, given = oracle, OracleInput(**given, true_intention=state["human"].intention.text)
         helped = robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))
-        believed = picture if runtime.context.hourly_traits else None
-        return {"robot": helped.model_copy(update={"with_whom": guessed, "picture": believed})}
+        believed = belief if runtime.context.hourly_traits else None
+        return {"robot": helped.model_copy(update={"with_whom": guessed, "belief": believed})}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
     nodes: dict[str, Node] = {
@@ -126,7 +124,7 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Have the person do the first task while the robot watches. Writes `observation`.
 
     The robot gets sampled frames, in type 1 the task's text too (PAPER §3.1), and, where its model cannot look at
-    pictures, what a perception module reports.
+    beliefs, what a perception module reports.
     """
     services, plan, clock = runtime.context, state["plan"], _clock(state)
     home, first = services.home(plan.scene), state["human"].tasks[0]
@@ -252,7 +250,7 @@ def robot_context(services: Services, plan: DayPlan, guessed: PersonId | None = 
 def _with_whom(state: HourState, services: Services) -> PersonId | None:
     """Guess the person from what was seen today; None where the robot is told, as on the first day with somebody."""
     plan, clock = state["plan"], _clock(state)
-    if services.told_who:
+    if services.identity_known:
         return None
     dawn = plan.episode_day * 24
     known = {}
@@ -271,8 +269,8 @@ def _with_whom(state: HourState, services: Services) -> PersonId | None:
     return max(likely, key=lambda person: likely[person])
 
 
-def _revised(services: Services, plan: DayPlan, clock: Clock, person: PersonId, before: Picture) -> Picture:
-    """The picture of the person in the light of today's guesses; one that cannot be read leaves it as it was."""
+def _revised(services: Services, plan: DayPlan, clock: Clock, person: PersonId, before: Belief) -> Belief:
+    """The belief about the person in the light of today's guesses; one that cannot be read leaves it as it was."""
     helped = [
         (hour.hour, hour.robot)
         for hour in services.recorder.read_day(plan.day)

@@ -13,16 +13,15 @@ from pydantic import ValidationError
 
 from coopera.core.clock import Clock
 from coopera.core.errors import CooperaError, LearningError, RunError
-from coopera.core.hour import DayPlan, Example, FeedbackItem, HourRecord, Told, ToldHour
-from coopera.core.people import PersonId, Picture
+from coopera.core.hour import CandidateKind, DayAccount, DayPlan, Example, FeedbackItem, HourAccount, HourRecord
+from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Classifier, Recorder
 from coopera.core.randomness import seed_at
-from coopera.graphs.method import Kind
 from coopera.graphs.rehearsal import keep
 
-__all__ = ["EXAMPLES", "KEPT", "KINDS", "Kind", "Learner", "Mode", "example", "labelled", "told_of"]
+__all__ = ["EXAMPLES", "KEPT", "KINDS", "Learner", "Mode", "example", "labelled", "account_of"]
 
-KINDS: tuple[Kind, Kind] = ("intention", "task")
+KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
 EXAMPLES, KEPT = "examples.jsonl", "kept.jsonl"
 Mode: TypeAlias = Literal["warm", "fresh"]
 _LOG = logging.getLogger(__name__)
@@ -32,12 +31,12 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
     """What a classifier is shown of a candidate in the robot's present state (PAPER App. C.2).
 
     Args:
-        state: With the keys `clock`, `recalled`, `picture` and `intentions` of `RobotState`.
+        state: With the keys `clock`, `recalled`, `belief` and `intentions` of `RobotState`.
         person: Whom the robot is with.
         intention: The candidate, or the intention that a candidate task belongs to.
         task: The candidate task in words.
     """
-    picture: Picture = state["picture"]
+    belief: Belief = state["belief"]
     recalled = state["recalled"]
     order = [candidate.text for candidate in state["intentions"]]
     return Example(
@@ -46,21 +45,23 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
         hour=state["clock"].hour,
         candidate=task if task is not None else intention,
         intention=intention if task is not None else "",
-        profile=picture.profile or "",
-        big_five=picture.big_five,
+        profile=belief.profile or "",
+        big_five=belief.big_five,
         intentions=[m.text for m in recalled if m.kind == "intention"],
         tasks=[m.text for m in recalled if m.kind == "task"],
         rank=order.index(intention) if intention in order else None,
     )
 
 
-def told_of(plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[FeedbackItem], picture: Picture) -> Told:
+def account_of(
+    plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[FeedbackItem], belief: Belief
+) -> DayAccount:
     """What the person tells of a day: the true intentions and tasks, and the answers; failed hours are left out."""
     answers: dict[int, list[FeedbackItem]] = {}
     for item in feedback:
         answers.setdefault(item.hour, []).append(item)
     lived = [
-        ToldHour(
+        HourAccount(
             hour=hour.hour,
             intention=hour.human.intention.text,
             tasks=[task.act for task in hour.human.tasks],
@@ -72,32 +73,32 @@ def told_of(plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[Feedb
         for hour in hours
         if hour.human is not None and hour.robot is not None
     ]
-    return Told(person=plan.person, day=plan.episode_day, hours=lived, picture=picture)
+    return DayAccount(person=plan.person, day=plan.episode_day, hours=lived, belief=belief)
 
 
-def labelled(told: Told) -> dict[Kind, list[Example]]:
+def labelled(account: DayAccount) -> dict[CandidateKind, list[Example]]:
     """Turn a day's candidates and the person's yes and no into examples.
 
     The true intention, told in the evening, is one more positive (as in the authors' code). An answer that
     could not be read makes no example.
     """
-    examples: dict[Kind, list[Example]] = {"intention": [], "task": []}
-    for hour in told.hours:
+    examples: dict[CandidateKind, list[Example]] = {"intention": [], "task": []}
+    for hour in account.hours:
         known = {
-            "clock": Clock(day=told.day, hour=hour.hour),
+            "clock": Clock(day=account.day, hour=hour.hour),
             "recalled": hour.robot.recalled,
-            "picture": told.picture,
+            "belief": account.belief,
             "intentions": hour.robot.intentions,
         }
-        said: dict[Kind, dict[str, bool]] = {kind: _answers(hour, kind) for kind in KINDS}
+        said: dict[CandidateKind, dict[str, bool]] = {kind: _answers(hour, kind) for kind in KINDS}
         imagined = [c.text for c in hour.robot.intentions if c.text in said["intention"]]
         verdicts = {hour.intention: True, **{text: said["intention"][text] for text in imagined}}
         for text, yes in verdicts.items():
-            examples["intention"].append(_label(example(known, told.person, intention=text), yes))
+            examples["intention"].append(_label(example(known, account.person, intention=text), yes))
         for task in hour.robot.tasks:
             text = task.act.describe()
             if text in said["task"]:
-                shown = example(known, told.person, intention=task.intention, task=text)
+                shown = example(known, account.person, intention=task.intention, task=text)
                 examples["task"].append(_label(shown, said["task"][text]))
     return examples
 
@@ -113,11 +114,11 @@ class Learner:
         classifiers: The classifiers in use, by kind.
     """
 
-    fresh: Mapping[Kind, Callable[[], Classifier]]
+    fresh: Mapping[CandidateKind, Callable[[], Classifier]]
     recorder: Recorder
     seed: int = 0
     mode: Mode = "warm"
-    classifiers: dict[Kind, Classifier] = field(init=False)
+    classifiers: dict[CandidateKind, Classifier] = field(init=False)
     _days: tuple[int, ...] | None = field(init=False, default=None)  # None: in no state that is on file
 
     def __post_init__(self) -> None:
@@ -141,7 +142,7 @@ class Learner:
             self._recover(kind, days)
         self._days = days
 
-    def learn(self, day: int, earlier: Sequence[int], told: Told) -> dict[str, Any]:
+    def learn(self, day: int, earlier: Sequence[int], account: DayAccount) -> dict[str, Any]:
         """Train on an evening, on top of those of the episode's earlier days, and save everything.
 
         A classifier that cannot learn from it stays as it was, and `failed` says why.
@@ -154,7 +155,7 @@ class Learner:
         """
         self.be_at(earlier)
         self._days = None
-        examples = labelled(told)
+        examples = labelled(account)
         learned: dict[str, Any] = {}
         for kind in KINDS:
             _write(self._folder(day, kind) / EXAMPLES, examples[kind])
@@ -166,7 +167,7 @@ class Learner:
         self.classifiers = {kind: self.fresh[kind]() for kind in KINDS}
         self._days = ()
 
-    def _recover(self, kind: Kind, days: Sequence[int]) -> None:
+    def _recover(self, kind: CandidateKind, days: Sequence[int]) -> None:
         """Load the last classifier that is whole and train those after it again."""
         for done in range(len(days), 0, -1):
             try:
@@ -180,7 +181,7 @@ class Learner:
         for position in range(done, len(days)):
             self._train(kind, days[position], days[:position])
 
-    def _train(self, kind: Kind, day: int, earlier: Sequence[int]) -> dict[str, Any]:
+    def _train(self, kind: CandidateKind, day: int, earlier: Sequence[int]) -> dict[str, Any]:
         """Train one classifier on an evening whose examples are on file, and save it."""
         folder = self._folder(day, kind)
         today = _read(folder / EXAMPLES)
@@ -198,7 +199,7 @@ class Learner:
         self.classifiers[kind].save(folder)
         return measured
 
-    def _before(self, kind: Kind, earlier: Sequence[int]) -> list[Example]:
+    def _before(self, kind: CandidateKind, earlier: Sequence[int]) -> list[Example]:
         """The earlier examples to learn from again: all of them, or those that were kept."""
         if self.mode == "warm" and earlier:
             try:
@@ -211,7 +212,7 @@ class Learner:
             every = [*_renewed(every, today), *today]
         return every if self.mode == "fresh" else keep(every)
 
-    def _folder(self, day: int, kind: Kind) -> Path:
+    def _folder(self, day: int, kind: CandidateKind) -> Path:
         return self.recorder.adapters_folder(day) / kind
 
 
@@ -224,7 +225,7 @@ def _renewed(before: Sequence[Example], today: Sequence[Example]) -> list[Exampl
     return [e.model_copy(update=newest[e.person]) if e.person in newest else e for e in before]
 
 
-def _answers(hour: ToldHour, kind: Kind) -> dict[str, bool]:
+def _answers(hour: HourAccount, kind: CandidateKind) -> dict[str, bool]:
     return {item.text: item.helpful for item in hour.feedback if item.kind == kind and item.helpful is not None}
 
 

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from coopera.core.hour import CandidateKind
     from coopera.core.protocols import Classifier
     from coopera.graphs.own_robot import MakeRobot, Robot
-
-Kind: TypeAlias = Literal["intention", "task"]
-"""What a classifier judges."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +25,7 @@ class Method:
         order: Whether the classifiers see the robot's own order of its guesses. DEVIATES: the paper's do not, but they
             see nothing of what the robot saw either, and its order sums that up.
         time_only: Whether the classifiers see nothing but the candidate and the time.
-        intentions: "inferred" from what is seen; "told" by the person; "skipped", so that what is seen stands where an
+        intentions: "inferred" from what is seen; "given" by the person; "skipped", so that what is seen stands where an
             intention would and tasks are imagined for it directly.
         guesses: How many intentions are imagined; by default the paper's number.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything, "reject"
@@ -37,7 +35,7 @@ class Method:
         other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
         own: The class of a robot of one's own, which then takes the place of our graph (`coopera.graphs.own_robot`).
-            Of the other fields it meets `traits` (whether the evening infers a picture of the person) and `learns`.
+            Of the other fields it meets `traits` (whether the evening infers a belief about the person) and `learns`.
         tunes: Makes the robot that takes the place of `own` where the robot's model is one of Hugging Face: it
             finetunes that model, given by its name, by a recipe (None: the shipped one). Models elsewhere are refused.
     """
@@ -47,13 +45,13 @@ class Method:
     context: bool = True
     order: bool = True
     time_only: bool = False
-    intentions: Literal["inferred", "told", "skipped"] = "inferred"
+    intentions: Literal["inferred", "given", "skipped"] = "inferred"
     guesses: int | None = None
     verdicts: Literal["classifiers", "accept", "reject"] = "classifiers"
     learns: bool = True
     other_backbone: bool = False
     robot: bool = True
-    judge: Callable[[Kind], Classifier] | None = None
+    judge: Callable[[CandidateKind], Classifier] | None = None
     own: MakeRobot | None = None
     tunes: Callable[[str, Path | None], Robot] | None = None
 

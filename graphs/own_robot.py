@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, runtime_checkable
 from pydantic import ValidationError
 
 from coopera.core.errors import CooperaError, RunError
-from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import Collab
 from coopera.core.protocols import Recorder
 from coopera.core.randomness import seed_at
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from coopera.graphs.services import RobotContext
 
 _LOG = logging.getLogger(__name__)
-TOLD = "told.json"
+ACCOUNT = "account.json"
 _ACT = {1: "pick_place", 2: "hand_over"}
 
 
@@ -51,7 +51,7 @@ class Robot(Protocol):
         """Say what the person may be up to and which tasks would help, each with a verdict.
 
         Args:
-            given: The clock, what was observed of the first task, and the picture of the person so far.
+            given: The clock, what was observed of the first task, and the belief about the person so far.
             ctx: The services: the one door to language models, the home's objects, the memories of what was told.
 
         Raises:
@@ -59,7 +59,7 @@ class Robot(Protocol):
         """
         ...
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
+    def learn(self, account: DayAccount, /, *, seed: int) -> dict[str, Any]:
         """Learn from an evening; returns what was measured in training, as plain numbers and words."""
         ...
 
@@ -116,28 +116,28 @@ class OwnRobot:
                 _LOG.warning("%s: its evenings are taught again", err)
                 self.robot = self.make()
         for day in days:
-            self._teach(day, _read(self._told(day)))
+            self._teach(day, _read(self._account(day)))
 
-    def learn(self, day: int, earlier: Sequence[int], told: Told) -> dict[str, Any]:
+    def learn(self, day: int, earlier: Sequence[int], account: DayAccount) -> dict[str, Any]:
         """Teach an evening, on top of those of the earlier days, and keep it on file."""
         self.be_at(earlier)
-        path = self._told(day)
+        path = self._account(day)
         path.parent.mkdir(parents=True, exist_ok=True)
         part = path.with_suffix(".part")
-        part.write_text(told.model_dump_json(), encoding="utf-8")
+        part.write_text(account.model_dump_json(), encoding="utf-8")
         os.replace(part, path)
-        measured = self._teach(day, told)
+        measured = self._teach(day, account)
         if isinstance(self.robot, Saves):
             self._folder(day).mkdir(parents=True, exist_ok=True)
             self.robot.save(self._folder(day))
         self._days = (*earlier, day)
         return measured
 
-    def _teach(self, day: int, told: Told) -> dict[str, Any]:
-        return self.robot.learn(told, seed=seed_at(self.seed, "learn", day))
+    def _teach(self, day: int, account: DayAccount) -> dict[str, Any]:
+        return self.robot.learn(account, seed=seed_at(self.seed, "learn", day))
 
-    def _told(self, day: int) -> Path:
-        return self.recorder.adapters_folder(day) / TOLD
+    def _account(self, day: int) -> Path:
+        return self.recorder.adapters_folder(day) / ACCOUNT
 
     def _folder(self, day: int) -> Path:
         return self.recorder.adapters_folder(day) / "robot"
@@ -172,8 +172,8 @@ def checked(proposal: Proposal, collab: Collab, method: str) -> Proposal:
     return proposal.model_copy(update={"tasks": list(once.values())})
 
 
-def _read(path: Path) -> Told:
+def _read(path: Path) -> DayAccount:
     try:
-        return Told.model_validate_json(path.read_text(encoding="utf-8"))
+        return DayAccount.model_validate_json(path.read_text(encoding="utf-8"))
     except (OSError, ValidationError) as err:
         raise RunError(f"{path}: what the robot was told this evening cannot be read: {err}") from err

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any
 
 from coopera.core.clock import Clock, hour_label
-from coopera.core.hour import Recalled
+from coopera.core.hour import CandidateKind, Recalled
 from coopera.graphs.method import Numbers
 from coopera.graphs.services import Memories
 from coopera.memory import MemoryStream
-
-Kind = Literal["intention", "task"]
 
 
 def recall_both(memories: Memories, query: str, now: Clock, *, since: int | None) -> list[Recalled]:
@@ -47,7 +45,9 @@ def as_memory(text: str, hour: int, now: Clock) -> dict[str, Any]:
     return {"when": when, "hours_ago": now.now - hour, "text": text}
 
 
-def _top(stream: MemoryStream, kind: Kind, query: str, now: Clock, k: int, since: int | None) -> list[Recalled]:
+def _top(
+    stream: MemoryStream, kind: CandidateKind, query: str, now: Clock, k: int, since: int | None
+) -> list[Recalled]:
     return [
         Recalled(kind=kind, text=r.text, hour=r.hour, relevance=r.relevance, recency=r.recency, score=r.score)
         for r in stream.recall(query, now.now, k, since=since)

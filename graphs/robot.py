@@ -19,13 +19,22 @@ from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError, RunError
-from coopera.core.hour import Example, IntentionCandidate, Observation, Reasons, Recalled, RobotHour, TaskCandidate
+from coopera.core.hour import (
+    CandidateKind,
+    Example,
+    IntentionCandidate,
+    Observation,
+    Reasons,
+    Recalled,
+    RobotHour,
+    TaskCandidate,
+)
 from coopera.core.household import Outcome
-from coopera.core.people import Picture
+from coopera.core.people import Belief
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
 from coopera.graphs.human import when
-from coopera.graphs.learning import Kind, example
+from coopera.graphs.learning import example
 from coopera.graphs.method import Numbers
 from coopera.graphs.own_robot import checked
 from coopera.graphs.recall import as_variables, best, recall_both
@@ -39,13 +48,13 @@ class RobotInput(TypedDict):
 
     clock: Clock
     observation: Observation
-    picture: Picture
+    belief: Belief
 
 
 class OracleInput(RobotInput):
     """What an oracle is given besides: the truth. Only the graph of a method that says so has this input."""
 
-    told: str
+    true_intention: str
 
 
 class Imagined(TypedDict):
@@ -58,7 +67,7 @@ class Imagined(TypedDict):
 class RobotState(RobotInput, total=False):
     """Working state of the robot's hour; a key is absent until its node has run."""
 
-    told: str  # the true intention, of an oracle alone
+    true_intention: str  # the true intention, of an oracle alone
     recalled: list[Recalled]  # by observe
     intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
     imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
@@ -72,7 +81,7 @@ class TaskRequest(TypedDict):
 
     clock: Clock
     observation: Observation
-    picture: Picture
+    belief: Belief
     recalled: list[Recalled]
     intention: IntentionCandidate
     rank: int
@@ -127,7 +136,7 @@ def propose(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]
     ctx = runtime.context
     if ctx.own is None:
         raise RunError(f"method {ctx.method.name}: there is no robot of one's own to ask.")
-    given = RobotInput(clock=state["clock"], observation=state["observation"], picture=state["picture"])
+    given = RobotInput(clock=state["clock"], observation=state["observation"], belief=state["belief"])
     said = checked(ctx.own.help(given, ctx), ctx.collab, ctx.method.name)
     return {"recalled": said.recalled, "intentions": said.intentions, "tasks": said.tasks, "fallbacks": said.fallbacks}
 
@@ -154,8 +163,8 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
     """
     ctx, clock, seen = runtime.context, state["clock"], state["observation"]
-    if ctx.method.intentions == "told":
-        return {"intentions": [IntentionCandidate(text=state["told"])]}
+    if ctx.method.intentions == "given":
+        return {"intentions": [IntentionCandidate(text=state["true_intention"])]}
     if ctx.method.intentions == "skipped":
         return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
     percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
@@ -167,7 +176,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         images=_pictures(seen, ctx),
         variables={
             **when(clock),
-            **belief(state["picture"], ctx),
+            **belief_variables(state["belief"], ctx),
             **as_variables(state["recalled"], clock),
             "rooms": ctx.home.rooms,
             "percept": percept,
@@ -193,7 +202,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
 def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Keep the likely intentions. Reads and completes `intentions`.
 
-    Where none is accepted the most probable one goes on, and that is said. An intention that was told or skipped
+    Where none is accepted the most probable one goes on, and that is said. An intention that was given or skipped
     needs no verdict.
     DEVIATES: the authors' code then takes one at random.
     """
@@ -222,7 +231,7 @@ def one_per_accepted(state: RobotState) -> list[Send]:
             TaskRequest(
                 clock=state["clock"],
                 observation=state["observation"],
-                picture=state["picture"],
+                belief=state["belief"],
                 recalled=state["recalled"],
                 intention=intention,
                 rank=rank,
@@ -255,7 +264,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
             images=_pictures(state["observation"], ctx) if direct else (),
             variables={
                 **when(clock),
-                **belief(state["picture"], ctx),
+                **belief_variables(state["belief"], ctx),
                 **as_variables(state["recalled"], clock),
                 **extra,
                 "intention": intention.text,
@@ -305,13 +314,13 @@ def act(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     return {"outcomes": [runtime.context.home.perform("robot", task.act) for task in accepted]}
 
 
-def belief(picture: Picture, ctx: RobotContext) -> dict[str, Any]:
+def belief_variables(belief: Belief, ctx: RobotContext) -> dict[str, Any]:
     """The inferred traits as prompts read them; nothing where the method goes without."""
-    known = picture if ctx.method.traits else Picture()
+    known = belief if ctx.method.traits else Belief()
     return {"big_five": known.big_five.model_dump() if known.big_five else None, "profile": known.profile}
 
 
-def _verdicts(ctx: RobotContext, kind: Kind, asked: Sequence[Example]) -> list[float]:
+def _verdicts(ctx: RobotContext, kind: CandidateKind, asked: Sequence[Example]) -> list[float]:
     if ctx.method.verdicts != "classifiers":
         return [1.0 if ctx.method.verdicts == "accept" else 0.0] * len(asked)
     return ctx.learner.classifiers[kind].probabilities(asked) if asked else []

@@ -46,9 +46,9 @@ class Memories(NamedTuple):
 
     def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
         """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""
-        told = list(hours)
-        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in told])
-        self.tasks.extend([Record(task, now, {}) for now, _, tasks in told for task in tasks])
+        added = list(hours)
+        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in added])
+        self.tasks.extend([Record(task, now, {}) for now, _, tasks in added for task in tasks])
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class HumanContext:
     embeddings: Embeddings
     model: PersonModel = FULL
     sizes: SearchSizes = SearchSizes()
-    told: LoggedHour | None = None
+    logged: LoggedHour | None = None
     """What a real person wrote down of this hour."""
     interview: Interview | None = None
     """How a real person in the loop is asked."""
@@ -95,7 +95,7 @@ class RobotContext:
     """The folder to which the observation's frames are relative."""
 
 
-def nothing_was_told(_plan: DayPlan, _clock: Clock) -> None:
+def nothing_was_logged(_plan: DayPlan, _clock: Clock) -> None:
     """Nobody wrote anything down: the person is simulated."""
 
 
@@ -143,7 +143,7 @@ class Services:
     """How much Search finds for an intention."""
     lived: Lived | None = None
     """Days that were lived before, which the people live again; by default they live new ones."""
-    told: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_told
+    logged: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_logged
     """What a real person wrote down of an hour."""
     in_the_loop: bool = False
     """Whether a real person is asked, by interrupts."""
@@ -151,10 +151,10 @@ class Services:
     """Whether the evening's feedback is grades from 1 to 5 instead of yes or no."""
     interview: Interview | None = None
     """How the node that runs now asks the person; set by the day graph."""
-    told_who: bool = True
+    identity_known: bool = True
     """Whether the robot is told whom it is with, or guesses it (`coopera.graphs.identity`)."""
     hourly_traits: bool = False
-    """Whether the robot revises its picture of the person each hour, from its own guesses, or in the evening alone."""
+    """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
 

@@ -19,8 +19,8 @@ Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
 
 def stated_intention(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> Intention | None:
     """The intention that a real person wrote down or gives now; None where the person is simulated."""
-    if ctx.told:
-        return Intention(text=ctx.told.intention)
+    if ctx.logged:
+        return Intention(text=ctx.logged.intention)
     if ctx.interview:
         question = Question(kind="intention", **_when_and_where(ctx, clock, today))
         return Intention(text=ask_until_read(ctx.interview, question, read_intention))
@@ -31,8 +31,8 @@ def stated_steps(
     ctx: HumanContext, clock: Clock, today: Sequence[str], intention: Intention, found: Found
 ) -> list[str]:
     """The steps of this hour in a real person's words; none where the model is to find them."""
-    if ctx.told:
-        return ctx.told.tasks
+    if ctx.logged:
+        return ctx.logged.tasks
     if ctx.interview:
         question = Question(
             kind="tasks",

@@ -16,11 +16,11 @@ from coopera.core.clock import Clock
 from coopera.core.hour import DayPlan, FeedbackItem
 from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
-from coopera.core.people import BigFive, PersonId, Picture
+from coopera.core.people import Belief, BigFive, PersonId
 from coopera.graphs.day import build_day_graph
 from coopera.graphs.services import Services
 
-STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, Picture)
+STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, Belief)
 """The classes that stand in checkpoints; a checkpointer's serialiser must be given them."""
 
 
@@ -36,7 +36,7 @@ class StudyState(StudyInput, total=False):
     ahead: int  # by next_day: how many days have been started
     plan: DayPlan  # by next_day
     worlds: dict[SceneId, dict[str, Any]]
-    pictures: dict[PersonId, Picture]
+    beliefs: dict[PersonId, Belief]
     learned: list[int]
 
 
@@ -89,7 +89,7 @@ def next_day(state: StudyState, runtime: Runtime[Services]) -> dict[str, Any]:
     plan = state["schedule"][ahead]
     update: dict[str, Any] = {"ahead": ahead + 1, "plan": plan}
     if ahead == 0 or state["schedule"][ahead - 1].episode != plan.episode:
-        update |= {"worlds": {}, "pictures": {}, "learned": []}
+        update |= {"worlds": {}, "beliefs": {}, "learned": []}
     return update
 
 

@@ -1,4 +1,4 @@
-"""Traits inference: the robot's picture of the person, revised in the evening and, if wanted, hour by hour.
+"""Traits inference: the robot's belief about the person, revised in the evening and, if wanted, hour by hour.
 
 PAPER App. D. In the evening it rests on what the person told. During the day nobody tells anything, so that an hourly
 revision rests on the robot's own guesses of the hours before; the evening starts again from the evening before.
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from coopera.core.clock import Clock
 from coopera.core.hour import HourRecord, RobotHour
-from coopera.core.people import Picture
+from coopera.core.people import Belief
 from coopera.core.protocols import Ask
 from coopera.core.randomness import Address
 from coopera.core.replies import TraitsReply
@@ -26,7 +26,7 @@ class Past(NamedTuple):
     tasks: list[str]
 
 
-def told(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
+def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
     """What the person told of a day's hours; failed hours are left out."""
     return [
         Past(dawn + hour.hour, hour.human.intention.text, [task.act.describe() for task in hour.human.tasks])
@@ -52,20 +52,20 @@ def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
 
 
 def revise(
-    ask: Ask, at: Address, clock: Clock, past: Sequence[Past], before: Picture, *, evening: bool
-) -> tuple[Picture, dict[str, str]]:
-    """Ask for a revised picture.
+    ask: Ask, at: Address, clock: Clock, past: Sequence[Past], before: Belief, *, evening: bool
+) -> tuple[Belief, dict[str, str]]:
+    """Ask for a revised belief.
 
     Args:
         ask: The one door to language models.
         at: The address of the call.
         clock: Now.
         past: The hours it rests on.
-        before: The picture so far.
+        before: The belief so far.
         evening: Whether they were told, or guessed.
 
     Returns:
-        The picture, and the reasons for its parts.
+        The belief, and the reasons for its parts.
 
     Raises:
         ModelOutputError: If the reply cannot be read.
@@ -82,4 +82,4 @@ def revise(
         },
     )
     reasons = {"big_five": reply.reasons_big_five, "profile": reply.reasons_profile}
-    return Picture(big_five=reply.big_five, profile=reply.profile), reasons
+    return Belief(big_five=reply.big_five, profile=reply.profile), reasons

@@ -66,7 +66,7 @@ class Grammars:
         return self._compiled[text].deep_copy()
 
 
-class Row:
+class HeldReply:
     """One reply of a batch as it grows."""
 
     def __init__(self, *, temperature: float, seed: int, limit: int, ends: Sequence[int]) -> None:
@@ -133,7 +133,7 @@ class Row:
 class Drawing(LogitsProcessor):
     """Chooses each row's next token, so that `generate` only has to take the highest score."""
 
-    def __init__(self, rows: Sequence[Row]) -> None:
+    def __init__(self, rows: Sequence[HeldReply]) -> None:
         """Draw for the rows of one batch, in order."""
         self._rows = rows
 

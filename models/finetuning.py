@@ -15,18 +15,18 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 
 from coopera.core.errors import CooperaError
+from coopera.core.hour import CandidateKind
 from coopera.models.classifiers.causal import CausalBase, open_base
 from coopera.models.classifiers.evening import must_be_finite, one_thread
 from coopera.models.classifiers.instruction import InstructRecipe, read_recipe
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from coopera.models.classifiers.text import Kind
 from coopera.models.huggingface import HuggingFaceChat, wrap
 
 VERSION = 1
 WEIGHTS, CONFIG = "adapter_model.safetensors", "adapter_config.json"  # as peft names and reads them
-_KIND: Kind = "intention"  # which of the base's two adapters is used
+_KIND: CandidateKind = "intention"  # which of the base's two adapters is used
 
-Row: TypeAlias = tuple[list[int], list[int]]
+TokenPair: TypeAlias = tuple[list[int], list[int]]
 """A question and its reply as tokens."""
 
 
@@ -125,7 +125,7 @@ class FinetunedChat:
             raise CooperaError(f"{path}: the adapter is damaged (its tensors are not those of this model and recipe)")
         self._learned = learned
 
-    def _fit(self, base: CausalBase, rows: Sequence[Row], epochs: int, rng: np.random.Generator) -> float:
+    def _fit(self, base: CausalBase, rows: Sequence[TokenPair], epochs: int, rng: np.random.Generator) -> float:
         """Train the active adapter to give the replies' tokens; return the last epoch's mean loss."""
         recipe, parameters = self._recipe, base.parameters(_KIND)
         optimizer = torch.optim.AdamW(parameters, lr=recipe.learning_rate, weight_decay=recipe.weight_decay)
@@ -151,7 +151,7 @@ class FinetunedChat:
         logits = base.model(input_ids=ids, use_cache=False).logits[0, len(question) - 1 : -1].float()
         return nn.functional.cross_entropy(logits, ids[0, len(question) :])
 
-    def _row(self, question: str, reply: str) -> Row:
+    def _row(self, question: str, reply: str) -> TokenPair:
         """The tokens of a question, in the model's own chat form, and of a reply with its end."""
         tokenizer = self._base().tokenizer
         asked = tokenizer.apply_chat_template(

@@ -36,7 +36,7 @@ from typing_extensions import override
 from coopera.core.errors import ConfigError, ModelCallError
 from coopera.core.lazy import made_once
 from coopera.models.batching import Batcher
-from coopera.models.constrained import Drawing, Grammars, Row
+from coopera.models.constrained import Drawing, Grammars, HeldReply
 from coopera.models.settings import CallSettings
 
 _GPU_BATCH = 16
@@ -178,18 +178,18 @@ class HuggingFaceChat(BaseChatModel):
         new = out[:, given["input_ids"].shape[1] :].tolist()
         return [self._message(*entry) for entry in zip(new, rows, lengths, strict=True)]
 
-    def _row(self, question: _Question, length: int) -> Row:
+    def _row(self, question: _Question, length: int) -> HeldReply:
         loaded = self._loaded
         if length >= loaded.room:
             raise ModelCallError(f"{self.path}: a prompt of {length} tokens does not fit into its {loaded.room}")
         room = loaded.room - length
         limit = min(question.max_tokens, room)
-        row = Row(temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends)
+        row = HeldReply(temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends)
         if question.schema is not None and loaded.grammars is not None:
             row.hold_to(loaded.grammars, question.schema, room)
         return row
 
-    def _message(self, new: list[int], row: Row, tokens_in: int) -> AIMessage:
+    def _message(self, new: list[int], row: HeldReply, tokens_in: int) -> AIMessage:
         end = next((n for n, token in enumerate(new) if token in self._loaded.ends), None)
         ids = new[: len(new) if end is None else end]
         text = self._loaded.tokenizer.decode(ids, skip_special_tokens=True, clean_up_tokenization_spaces=False)

@@ -15,20 +15,19 @@ from typing import Any, cast
 
 from coopera.config.schema import Config
 from coopera.core.errors import CooperaError
-from coopera.core.hour import DayPlan, FeedbackItem, HourRecord, Told, ToldHour
+from coopera.core.hour import CandidateKind, DayAccount, DayPlan, FeedbackItem, HourAccount, HourRecord
 from coopera.core.household import Collab
-from coopera.core.people import Picture
+from coopera.core.people import Belief
 from coopera.evaluation.methods import METHODS, register
 from coopera.graphs import Method, Services, build_day_graph, first_day
 from coopera.graphs.day import DayInput
-from coopera.graphs.learning import told_of
-from coopera.graphs.method import Kind
+from coopera.graphs.learning import account_of
 from coopera.rundir.directory import RunDir
 from coopera.studies.assemble import open_services
 from coopera.studies.catalogues import resolve
 from coopera.studies.study import new_run, plan_days
 
-_HANDED_ON = ("worlds", "pictures", "learned")
+_HANDED_ON = ("worlds", "beliefs", "learned")
 
 
 class ConformanceError(CooperaError):
@@ -141,30 +140,32 @@ def _check_odd_evenings(services: Services, days: Sequence[DayPlan], name: str) 
     if not services.method.learns:
         return
     plan = days[0]
-    usual = told_of(plan, services.recorder.read_day(plan.day), [], Picture())
-    odd: dict[str, Told] = {
+    usual = account_of(plan, services.recorder.read_day(plan.day), [], Belief())
+    odd: dict[str, DayAccount] = {
         "without any hour": usual.model_copy(update={"hours": []}),
         "without a readable answer": _answered(usual, None),
         "with nothing but yes": _answered(usual, True),
         "with nothing but no": _answered(usual, False),
     }
-    for what, told in odd.items():
+    for what, account in odd.items():
         services.pupil.be_at([])
         try:
-            services.pupil.learn(plan.day, [], told)
+            services.pupil.learn(plan.day, [], account)
         except (CooperaError, ValueError, ArithmeticError, LookupError) as err:
             raise ConformanceError(f"{name}: an evening {what} must be learned from without harm: {err}") from err
 
 
-def _answered(told: Told, yes: bool | None) -> Told:
+def _answered(account: DayAccount, yes: bool | None) -> DayAccount:
     """The same day with one answer to everything."""
 
-    def answers(hour: ToldHour) -> list[FeedbackItem]:
-        asked: list[tuple[Kind, str, bool | None]] = [("intention", c.text, c.accepted) for c in hour.robot.intentions]
+    def answers(hour: HourAccount) -> list[FeedbackItem]:
+        asked: list[tuple[CandidateKind, str, bool | None]] = [
+            ("intention", c.text, c.accepted) for c in hour.robot.intentions
+        ]
         asked += [("task", t.act.describe(), t.accepted) for t in hour.robot.tasks]
         return [
             FeedbackItem(hour=hour.hour, kind=kind, text=text, accepted=bool(accepted), helpful=yes)
             for kind, text, accepted in asked
         ]
 
-    return told.model_copy(update={"hours": [h.model_copy(update={"feedback": answers(h)}) for h in told.hours]})
+    return account.model_copy(update={"hours": [h.model_copy(update={"feedback": answers(h)}) for h in account.hours]})

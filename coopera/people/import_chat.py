@@ -38,7 +38,7 @@ _NAMES = [
 _OWN_NAME = re.compile(r"\b[Mm]y name is ([A-Z][a-z]{1,20})\b")
 
 
-class Row(NamedTuple):
+class ConversationRow(NamedTuple):
     """One row of the file: `number` counts conversations from 1, `line` is where the row ends in the file."""
 
     number: int
@@ -64,7 +64,7 @@ class Imported(NamedTuple):
     failed: dict[PersonId, str]
 
 
-def read_rows(path: Path) -> list[Row]:
+def read_rows(path: Path) -> list[ConversationRow]:
     """Read the published CSV; blank rows are skipped, a byte-order mark and quoted line breaks are understood.
 
     Raises:
@@ -78,7 +78,7 @@ def read_rows(path: Path) -> list[Row]:
     return rows
 
 
-def _rows(text: str, path: Path) -> Iterator[Row]:
+def _rows(text: str, path: Path) -> Iterator[ConversationRow]:
     csv.field_size_limit(_FIELD_LIMIT)
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     number = 0
@@ -92,7 +92,7 @@ def _rows(text: str, path: Path) -> Iterator[Row]:
             where = f"{path}, line {reader.line_num} (row {number})"
             if len(cells) != len(header):
                 raise ConfigError(f"{where}: expected {len(header)} columns as in the header, found {len(cells)}.")
-            row = Row(number, reader.line_num, *(cells[index].strip() for index in at))
+            row = ConversationRow(number, reader.line_num, *(cells[index].strip() for index in at))
             if not row.profile_1:
                 raise ConfigError(f"{where}: the column {COLUMNS[0]!r} must hold a persona, and it is empty.")
             if len(row.profile_1) > _LONGEST:
@@ -166,7 +166,7 @@ def import_people(
     return Imported(written, kept, {person: failed[person] for person in rows if person in failed})
 
 
-def _make(person: PersonId, row: Row, path: Path, maker: Maker, stop: threading.Event) -> Persona:
+def _make(person: PersonId, row: ConversationRow, path: Path, maker: Maker, stop: threading.Event) -> Persona:
     """Ask for the profile and the Big Five of one row."""
 
     def ask(prompt: str, reply: type[Reply], draw: int, **variables: Any) -> Reply:

@@ -13,12 +13,12 @@ from coopera.core.hour import DayPlan, LoggedHour
 from coopera.core.people import PersonId
 from coopera.people.log_file import read_log
 
-Told: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
+Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
 _LOG = "log:"
 _ENDINGS = (".csv", ".jsonl", ".ndjson")
 
 
-def open_told(config: Config, days: Sequence[DayPlan]) -> Told | None:
+def open_logs(config: Config, days: Sequence[DayPlan]) -> Logs | None:
     """Read the logs that `human: log:PATH` names; None where nobody wrote a log.
 
     PATH is one person's log, or a folder with a log per person, named by id (amara.csv). The recorded days of a
@@ -32,7 +32,7 @@ def open_told(config: Config, days: Sequence[DayPlan]) -> Told | None:
     path = Path(config.human.removeprefix(_LOG)).expanduser()
     people = list(dict.fromkeys(plan.person for plan in days))
     logs = {person: _by_day(_find(path, person, people)) for person in people}
-    told: dict[tuple[int, int], LoggedHour] = {}
+    logged: dict[tuple[int, int], LoggedHour] = {}
     lived: dict[tuple[int, PersonId], int] = {}
     for plan in days:
         nth = lived.get((plan.episode, plan.person), 0)
@@ -50,8 +50,8 @@ def open_told(config: Config, days: Sequence[DayPlan]) -> Told | None:
                     f"{file}: day {day} has no hour {hour} ({hour_label(hour)}); the run lives "
                     f"{hour_label(plan.hours[0])} to {hour_label(plan.hours[-1])}, so write it down or use --hours."
                 )
-            told[plan.day, hour] = recorded[day][hour]
-    return lambda plan, clock: told[plan.day, clock.hour]
+            logged[plan.day, hour] = recorded[day][hour]
+    return lambda plan, clock: logged[plan.day, clock.hour]
 
 
 def _by_day(path: Path) -> tuple[Path, dict[int, dict[int, LoggedHour]]]:

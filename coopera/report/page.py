@@ -157,7 +157,7 @@ def _days(run: RunDir, records: Sequence[HourRecord], album: Album, people: Mapp
         evening = run.read_evening(day)
         person = people.get(of_day[0].person)
         key = (of_day[0].episode, of_day[0].person)
-        seen = evening.picture.big_five if evening else None
+        seen = evening.belief.big_five if evening else None
         traits = charts.traits(person.big_five if person else None, seen, before.get(key)) if seen else None
         before[key] = seen
         hours = [hour_view(record, evening, album) for record in of_day]

@@ -97,14 +97,14 @@ def evening_tree(evening: Evening) -> Tree:
         why = f" – {escape(item.reason)}" if item.reason else ""
         label = f"{hour_label(item.hour)}, {item.kind} [italic]{escape(item.text)}[/] (robot {said})"
         branch.add(f"{_MARK[item.helpful]} {label}{why}")
-    picture = tree.add("the robot's picture")
-    picture.add(escape(evening.picture.profile or "no profile yet"))
-    if evening.picture.big_five:
-        scores = (f"{trait} {getattr(evening.picture.big_five, trait):.2f}" for trait in TRAITS)
-        picture.add(", ".join(scores))
+    belief = tree.add("the robot's belief about the person")
+    belief.add(escape(evening.belief.profile or "no profile yet"))
+    if evening.belief.big_five:
+        scores = (f"{trait} {getattr(evening.belief.big_five, trait):.2f}" for trait in TRAITS)
+        belief.add(", ".join(scores))
     for what, why in evening.traits_reasons.items():
         if why:
-            picture.add(f"why ({escape(what)}): {escape(why)}")
+            belief.add(f"why ({escape(what)}): {escape(why)}")
     if evening.learned:
         learned = tree.add("learned")
         for name, measured in evening.learned.items():

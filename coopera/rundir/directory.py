@@ -24,7 +24,7 @@ from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
 from coopera.rundir.trace_files import read_json, read_record, write_record
 
-SCHEMA = 1
+SCHEMA = 2
 _PACKAGES = [
     "chromadb",
     "langchain-core",
@@ -138,6 +138,11 @@ class RunDir:
             RunError: If the run is finished, or another process is still writing it.
         """
         run = cls.open(path)
+        if run.info["schema"] < SCHEMA and run.state != "finished":
+            raise RunError(
+                f"{path / 'run.json'}: schema {run.info['schema']} was written by an older coopera, and this one reads "
+                f"such a run but cannot go on with it; use the version that began it."
+            )
         if run.state == "finished":
             raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
         if not run.resumable:

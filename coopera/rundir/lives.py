@@ -14,7 +14,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.hour import HourRecord, LoggedHour
 from coopera.core.people import Persona, PersonId
 from coopera.evaluation.people.figures import FULL, Figure
-from coopera.evaluation.people.lives import Belief, LivedDay, Lives
+from coopera.evaluation.people.lives import InferredTraits, LivedDay, Lives
 from coopera.people.log_file import read_log
 from coopera.rundir.directory import RunDir
 
@@ -32,7 +32,7 @@ class Source(NamedTuple):
     failed_hours: int
 
 
-class Found(NamedTuple):
+class FoundLives(NamedTuple):
     """The lives in some runs, by how the person was simulated, and where they come from."""
 
     variants: dict[str, Lives]
@@ -41,7 +41,7 @@ class Found(NamedTuple):
     collab: int
 
 
-def read_lives(paths: Sequence[Path]) -> Found:
+def read_lives(paths: Sequence[Path]) -> FoundLives:
     """Read what people did in some runs. A day that stands in two runs, as it may with two methods, counts once.
 
     Raises:
@@ -76,7 +76,9 @@ def read_lives(paths: Sequence[Path]) -> Found:
             raise ConfigError(
                 f"RUN: these runs hold one person only ({lives.people[0]}); the checks compare at least two people."
             )
-    return Found(dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))), sources, model, collab)
+    return FoundLives(
+        dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))), sources, model, collab
+    )
 
 
 def read_recorded(paths: Sequence[Path], people: Sequence[PersonId]) -> dict[PersonId, list[LoggedHour]]:
@@ -186,7 +188,7 @@ def _meet(known: dict[PersonId, Persona], run: RunDir, path: Path) -> None:
             raise ConfigError(f"{path}: {person} is somebody else here than in the runs before; analyse them apart.")
 
 
-def _beliefs(run: RunDir) -> list[Belief]:
+def _beliefs(run: RunDir) -> list[InferredTraits]:
     """The last belief about each person, of each robot (an episode has one)."""
-    last = {(one.episode, one.person): one.picture.big_five for one in run.evenings() if one.picture.big_five}
-    return [Belief(person, big_five) for (_, person), big_five in sorted(last.items()) if big_five]
+    last = {(one.episode, one.person): one.belief.big_five for one in run.evenings() if one.belief.big_five}
+    return [InferredTraits(person, big_five) for (_, person), big_five in sorted(last.items()) if big_five]

@@ -55,8 +55,9 @@ def read_record(path: Path, kind: type[Record]) -> Record:
 def _read_record(path: Path, kind: type[Record], state: tuple[int, int, int]) -> Record:
     """Read a record once while its file stays as it is: an evening, the summary and the report all ask for it."""
     data = read_json(path)
-    if kind is HourRecord and isinstance(data, dict):
+    if isinstance(data, dict):
         _underive(data)
+        _rename(data)
     try:
         return kind.model_validate(data)
     except ValidationError as err:
@@ -92,6 +93,13 @@ def intention_verdicts(evening: Evening | None, hour: int) -> dict[str, bool | N
     """What the person said in the evening of each intention that the robot imagined in an hour, by text."""
     items = evening.feedback if evening else []
     return {item.text: item.helpful for item in items if item.hour == hour and item.kind == "intention"}
+
+
+def _rename(data: dict[str, Any]) -> None:
+    """Give the fields of a trace of schema 1 their names of today."""
+    for part in (data, data.get("robot")):
+        if isinstance(part, dict) and "picture" in part:
+            part["belief"] = part.pop("picture")
 
 
 def _derive(data: dict[str, Any], record: HourRecord) -> None:

@@ -12,17 +12,17 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 
 from coopera.config.schema import Config
-from coopera.core.hour import ModelCall
+from coopera.core.hour import CandidateKind, ModelCall
 from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
-from coopera.graphs.learning import KINDS, Kind, Learner
+from coopera.graphs.learning import KINDS, Learner
 from coopera.graphs.own_robot import MakeRobot, OwnRobot
 from coopera.graphs.person import PERSON_MODELS
-from coopera.graphs.services import nothing_was_told
+from coopera.graphs.services import nothing_was_logged
 from coopera.memory import MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
 from coopera.models.budget import Meter
@@ -30,7 +30,7 @@ from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
 from coopera.models.transport import wait
-from coopera.people.real import Told
+from coopera.people.real import Logs
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_lived
@@ -111,7 +111,7 @@ def open_services(
     run: RunDir,
     people: Mapping[str, Persona],
     prompts: PromptLibrary | None = None,
-    told: Told | None = None,
+    logs: Logs | None = None,
 ) -> Iterator[Services]:
     """Open everything that a run works with, and close it at the end.
 
@@ -120,7 +120,7 @@ def open_services(
         run: The run directory, which may be asked to stop.
         people: Those who may take part, by id.
         prompts: The prompt folder, where it has been read already.
-        told: What a real person wrote down of the hours.
+        logs: What a real person wrote down of the hours.
     """
     with ExitStack() as stack:
         embeddings = open_embeddings(config)
@@ -143,7 +143,7 @@ def open_services(
                 config.seed,
                 config.learning,
             ),
-            told_who=config.who == "known",
+            identity_known=config.who == "known",
             hourly_traits=config.traits == "hourly",
             own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
             recorder=run,
@@ -154,7 +154,7 @@ def open_services(
             person=PERSON_MODELS[config.person],
             sizes=config.search,
             lived=open_lived(config),
-            told=told or nothing_was_told,
+            logged=logs or nothing_was_logged,
             in_the_loop=config.human == "me",
             graded=config.feedback == "graded",
         )
@@ -227,7 +227,7 @@ class _Streams:
 
 
 def _classifier(
-    config: Config, method: Method, kind: Kind, embeddings: Embeddings, instruct: Instruct
+    config: Config, method: Method, kind: CandidateKind, embeddings: Embeddings, instruct: Instruct
 ) -> Callable[[], Classifier]:
     if method.judge is not None:
         return partial(method.judge, kind)

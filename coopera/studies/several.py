@@ -43,7 +43,7 @@ def run_studies(
         processes: Over how many processes they are spread. With 1 they are threads of this one. More pay where servers
             are quick or homes busy, and cost seconds to start; each then loads weights of its own and keeps its part
             of the pace. As always with processes, a script must then do its work under `if __name__ == "__main__":`.
-        on_event: Told the number of the study and each node that ends, one at a time.
+        on_event: DayAccount the number of the study and each node that ends, one at a time.
 
     Returns:
         In the order of `configs`, what `run_study` returns, or the error that ended it.

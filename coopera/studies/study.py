@@ -30,7 +30,7 @@ from coopera.graphs.study import Waiting, waiting
 from coopera.models.backends import household_file
 from coopera.models.settings import Budget
 from coopera.people import shipped as humans
-from coopera.people.real import open_told
+from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
 from coopera.rundir.directory import RunDir
@@ -110,8 +110,8 @@ def resume_study(
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
         if knowledge_of(run.info["models"].values()) != run.info.get("knowledge", {}):
             raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
-        told = open_told(run.config, plan_days(run.config))
-        with open_services(run.config, run, run.people(), prompts, told) as services:
+        logs = open_logs(run.config, plan_days(run.config))
+        with open_services(run.config, run, run.people(), prompts, logs) as services:
             return _carry_on(run, services, on_event, ask_person)
 
 
@@ -125,7 +125,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
     config = resolve(config)
     prompts = PromptLibrary(config.prompts)
     people = [humans.find(person, config.data_dir) for person in config.humans or []]
-    told = open_told(config, plan_days(config))
+    logs = open_logs(config, plan_days(config))
     specs = {str(role): spec for role, spec in model_specs(config).items()}
     with ExitStack() as stack:
         made = RunDir.create(
@@ -139,7 +139,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
         )
         run = stack.enter_context(made)
         try:
-            services = stack.enter_context(open_services(config, run, run.people(), prompts, told))
+            services = stack.enter_context(open_services(config, run, run.people(), prompts, logs))
         except ConfigError:
             run.discard()
             raise

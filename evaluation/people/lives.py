@@ -30,7 +30,7 @@ class LivedDay(Frozen):
         return [task for tasks in self.tasks for task in tasks]
 
 
-class Belief(NamedTuple):
+class InferredTraits(NamedTuple):
     """The Big Five that a robot believed of a person at the end of their time together."""
 
     person: PersonId
@@ -43,7 +43,7 @@ class Lives:
 
     days: list[LivedDay]
     personas: dict[PersonId, Persona]
-    beliefs: list[Belief] = field(default_factory=list)
+    beliefs: list[InferredTraits] = field(default_factory=list)
 
     @property
     def people(self) -> list[PersonId]:

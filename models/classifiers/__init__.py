@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coopera.core.errors import ConfigError
-from coopera.models.classifiers.text import Inputs, Kind
+from coopera.core.hour import CandidateKind
+from coopera.models.classifiers.text import Inputs
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from coopera.core.protocols import Classifier
     from coopera.models.classifiers.instruction import Instruct
 
-__all__ = ["CLASSIFIERS", "Inputs", "Kind", "make_classifier"]
+__all__ = ["CLASSIFIERS", "Inputs", "make_classifier"]
 
 CLASSIFIERS: dict[str, str] = {
     "kernel": "ridge regression on a product kernel over frozen sentence embeddings; learns in a fraction of a second",
@@ -32,7 +33,7 @@ CLASSIFIERS: dict[str, str] = {
 def make_classifier(
     name: str,
     *,
-    kind: Kind,
+    kind: CandidateKind,
     embeddings: Embeddings,
     inputs: Inputs | None = None,
     recipe: Path | None = None,

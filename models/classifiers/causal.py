@@ -15,11 +15,11 @@ from torch import Tensor
 from transformers import AutoModelForCausalLM, AutoTokenizer
 
 from coopera.core.errors import ConfigError
+from coopera.core.hour import CandidateKind
 from coopera.core.lazy import made_once
 from coopera.models.classifiers.instruction import TAIL, InstructRecipe
-from coopera.models.classifiers.text import Kind
 
-KINDS: tuple[Kind, Kind] = ("intention", "task")
+KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
 
 
 class CausalBase:
@@ -33,7 +33,7 @@ class CausalBase:
         """
         self.recipe = recipe
         self.lock = threading.RLock()
-        self._inside: dict[Kind, object] = {}
+        self._inside: dict[CandidateKind, object] = {}
         model, self.tokenizer = _load(recipe)
         self.name = _name(model, recipe.base)
         config = LoraConfig(
@@ -57,19 +57,19 @@ class CausalBase:
         self._shapes = {kind: {name: tuple(t.shape) for name, t in self._read(kind).items()} for kind in KINDS}
         self.answers = _answers(self.tokenizer, recipe.base)
 
-    def put_in(self, kind: Kind, learned: Mapping[str, Tensor]) -> None:
+    def put_in(self, kind: CandidateKind, learned: Mapping[str, Tensor]) -> None:
         """Make an adapter the active one and give it these tensors, which are not copied again while they are in it."""
         if self._inside.get(kind) is not learned:
             set_peft_model_state_dict(self.model, dict(learned), adapter_name=kind)
             self._inside[kind] = learned
         self.model.set_adapter(kind)
 
-    def take_out(self, kind: Kind) -> dict[str, Tensor]:
+    def take_out(self, kind: CandidateKind) -> dict[str, Tensor]:
         """Return copies of an adapter's tensors, after training them; what was put in is in it no longer."""
         self._inside.pop(kind, None)
         return self._read(kind)
 
-    def fresh(self, kind: Kind, seed: int) -> dict[str, Tensor]:
+    def fresh(self, kind: CandidateKind, seed: int) -> dict[str, Tensor]:
         """Return the tensors of a new adapter: B at zero, A drawn, so that it changes nothing at first."""
         generator, drawn = torch.Generator().manual_seed(seed), {}
         for name, shape in self.shapes(kind).items():
@@ -79,11 +79,11 @@ class CausalBase:
                 drawn[name].uniform_(-bound, bound, generator=generator)
         return drawn
 
-    def parameters(self, kind: Kind) -> list[Any]:
+    def parameters(self, kind: CandidateKind) -> list[Any]:
         """What is trained of the active adapter."""
         return [p for name, p in self.model.named_parameters() if p.requires_grad and f".{kind}." in name]
 
-    def shapes(self, kind: Kind) -> dict[str, tuple[int, ...]]:
+    def shapes(self, kind: CandidateKind) -> dict[str, tuple[int, ...]]:
         """Names and shapes of an adapter's tensors."""
         return self._shapes[kind]
 
@@ -116,7 +116,7 @@ class CausalBase:
         half = self.recipe.tokens // 2
         return ids if len(ids) <= self.recipe.tokens else ids[:half] + ids[-half:]
 
-    def _read(self, kind: Kind) -> dict[str, Tensor]:
+    def _read(self, kind: CandidateKind) -> dict[str, Tensor]:
         found = get_peft_model_state_dict(self.model, adapter_name=kind, save_embedding_layers=False)
         return {name: found[name].detach().cpu().clone().contiguous() for name in sorted(found)}
 

@@ -16,13 +16,13 @@ from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
 from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
 from coopera.core.errors import CooperaError
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.core.lazy import made_once
 from coopera.memory.embeddings import as_array
 from coopera.models.classifiers.calibration import Scale, scale
 from coopera.models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from coopera.models.classifiers.text import Inputs, Kind, Lesson, lesson
+from coopera.models.classifiers.text import Inputs, Lesson, lesson
 
 VERSION = 1
 ARRAYS = "kernel.npz"
@@ -53,7 +53,7 @@ class KernelClassifier:
     day's few dozen labels and take a fraction of a second; `lora` is the way closer to the paper.
     """
 
-    def __init__(self, *, kind: Kind, embeddings: Embeddings, inputs: Inputs) -> None:
+    def __init__(self, *, kind: CandidateKind, embeddings: Embeddings, inputs: Inputs) -> None:
         """Start untrained."""
         self._kind = kind
         self._embeddings = embeddings

@@ -19,12 +19,12 @@ from torch import Tensor, nn
 from transformers import AutoTokenizer
 
 from coopera.core.errors import CooperaError
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.models.classifiers.adapters import AdaptedEncoder, Recipe
 from coopera.models.classifiers.calibration import best_share, score_at
 from coopera.models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from coopera.models.classifiers.text import Inputs, Kind, sentence_pair
+from coopera.models.classifiers.text import Inputs, sentence_pair
 
 VERSION = 1
 WEIGHTS = "lora.safetensors"
@@ -43,7 +43,9 @@ class LoraClassifier:
     that learns on one CPU core in minutes.
     """
 
-    def __init__(self, *, kind: Kind, inputs: Inputs, recipe: Recipe | None = None, base: Path | None = None) -> None:
+    def __init__(
+        self, *, kind: CandidateKind, inputs: Inputs, recipe: Recipe | None = None, base: Path | None = None
+    ) -> None:
         """Start untrained.
 
         Args:

@@ -15,13 +15,13 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor, nn
 
 from coopera.core.errors import CooperaError
-from coopera.core.hour import Example
+from coopera.core.hour import CandidateKind, Example
 from coopera.models.classifiers.calibration import Scale, scale
 from coopera.models.classifiers.causal import CausalBase, open_base
 from coopera.models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
 from coopera.models.classifiers.instruction import Instruct, InstructRecipe, read_recipe
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
-from coopera.models.classifiers.text import Inputs, Kind
+from coopera.models.classifiers.text import Inputs
 
 VERSION = 1
 WEIGHTS, CONFIG = "adapter_model.safetensors", "adapter_config.json"  # as peft names and reads them
@@ -34,7 +34,9 @@ class LoraInstructClassifier:
     DEVIATES from the authors' code, which samples three texts of 100 tokens for each candidate and looks for "yes".
     """
 
-    def __init__(self, *, kind: Kind, inputs: Inputs, instruct: Instruct, recipe: InstructRecipe | None = None) -> None:
+    def __init__(
+        self, *, kind: CandidateKind, inputs: Inputs, instruct: Instruct, recipe: InstructRecipe | None = None
+    ) -> None:
         """Start untrained; the base is loaded once for all classifiers of a recipe.
 
         Raises:

@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from coopera.core.clock import hour_label
 from coopera.core.hour import Example
 from coopera.core.people import TRAITS, BigFive, PersonId
-
-Kind: TypeAlias = Literal["intention", "task"]
 
 _NOBODY = PersonId("")
 _NO_HOUR = 12

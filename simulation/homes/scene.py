@@ -28,7 +28,7 @@ DOOR_WIDTH = 0.95
 
 ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
 """What a home may be called."""
-Kind: TypeAlias = Literal["fixed", "movable"]
+ObjectKind: TypeAlias = Literal["fixed", "movable"]
 Length = Annotated[float, Field(gt=0, le=20)]
 Place = Annotated[float, Field(ge=-100, le=100)]
 Label = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
@@ -65,7 +65,7 @@ class Room(Frozen):
         return self.x0 <= x <= self.x1 and self.y0 <= y <= self.y1
 
 
-class Door(Frozen):
+class Doorway(Frozen):
     """An opening in the wall that two rooms share; (x, y) is its middle."""
 
     between: tuple[str, str]
@@ -156,7 +156,7 @@ class Scene(Frozen):
     id: SceneId = Field(pattern=ID)
     seed: int | None = None
     rooms: list[Room] = Field(min_length=1)
-    doors: list[Door] = []
+    doors: list[Doorway] = []
     objects: list[SceneObject] = []
     stage: list[Wall] | None = None
     """Where the walls of an imported home stand, which need not be on the edges of its rooms."""
@@ -236,7 +236,7 @@ class Scene(Frozen):
         inside = next((room for room in self.rooms if room.contains(x, y)), None)
         return inside or min(self.rooms, key=lambda room: room.bounds.distance(x, y))
 
-    def object_map(self, kind: Kind) -> ObjectMap:
+    def object_map(self, kind: ObjectKind) -> ObjectMap:
         """{name: (id, room)} of the initial places, sorted by name."""
         return {thing.name: (thing.id, thing.room) for thing in (self.fixed if kind == "fixed" else self.movable)}
 
@@ -259,7 +259,7 @@ class Scene(Frozen):
             walls += [Wall(axis, at, start, end) for start, end in cut(merge(spans), gaps)]
         return walls
 
-    def _stands_on(self, door: Door, axis: str, at: float) -> bool:
+    def _stands_on(self, door: Doorway, axis: str, at: float) -> bool:
         across, along = (door.y, door.x) if axis == "x" else (door.x, door.y)
         if abs(across - at) > 2 * TOUCH:
             return False
@@ -274,7 +274,7 @@ class Scene(Frozen):
         return True
 
 
-def _gap(door: Door, axis: str) -> tuple[float, float]:
+def _gap(door: Doorway, axis: str) -> tuple[float, float]:
     middle = door.x if axis == "x" else door.y
     return middle - door.width / 2, middle + door.width / 2
 

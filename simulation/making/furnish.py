@@ -16,7 +16,7 @@ from scipy.ndimage import label
 from coopera.simulation.acts.navigation import CELL, RADIUS, Array, Mask, clearance
 from coopera.simulation.homes.catalogue import FLAT, FixedClass, catalogue
 from coopera.simulation.homes.floorplan import Bounds
-from coopera.simulation.homes.scene import Door, Room
+from coopera.simulation.homes.scene import Doorway, Room
 from coopera.simulation.homes.spots import Taken, is_free
 from coopera.simulation.shapes.kit import Size
 
@@ -62,7 +62,7 @@ class RoomPlan:
     """A room being furnished: its floor grid, the space that doors need, and the pieces so far."""
 
     room: Room
-    doors: Sequence[Door]
+    doors: Sequence[Doorway]
     outer: Bounds
     rng: np.random.Generator
     pieces: list[Piece] = field(default_factory=list)

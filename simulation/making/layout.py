@@ -14,7 +14,7 @@ from coopera.core.errors import SimulationError
 from coopera.core.household import SceneId
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.floorplan import TOUCH, Bounds
-from coopera.simulation.homes.scene import DOOR_WIDTH, Door, Room, Scene
+from coopera.simulation.homes.scene import DOOR_WIDTH, Doorway, Room, Scene
 
 USUAL_ROOMS = (
     "living room",
@@ -42,7 +42,7 @@ class Layout(NamedTuple):
     """Rooms and the doors between them; every room can be reached."""
 
     rooms: list[Room]
-    doors: list[Door]
+    doors: list[Doorway]
 
 
 class _Edge(NamedTuple):
@@ -167,7 +167,7 @@ def _tree(rooms: Sequence[Room], edges: Sequence[_Edge]) -> list[_Edge]:
     return chosen
 
 
-def _doors(rooms: Sequence[Room], edges: Sequence[_Edge], rng: np.random.Generator) -> list[Door]:
+def _doors(rooms: Sequence[Room], edges: Sequence[_Edge], rng: np.random.Generator) -> list[Doorway]:
     chosen = _tree(rooms, edges)
     more = [edge for edge in edges if edge not in chosen and _dislike(rooms, edge) <= 1.0]
     doors = []
@@ -175,5 +175,5 @@ def _doors(rooms: Sequence[Room], edges: Sequence[_Edge], rng: np.random.Generat
         low, high = edge.start + DOOR_WIDTH / 2 + 0.15, edge.end - DOOR_WIDTH / 2 - 0.15
         along = round(float(rng.choice([low, high, (low + high) / 2])), 2)
         x, y = (along, edge.at) if edge.axis == "x" else (edge.at, along)
-        doors.append(Door(between=(rooms[edge.first].name, rooms[edge.second].name), x=x, y=y))
+        doors.append(Doorway(between=(rooms[edge.first].name, rooms[edge.second].name), x=x, y=y))
     return doors

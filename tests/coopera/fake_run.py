@@ -29,7 +29,7 @@ from coopera.core.hour import (
     TaskVerdict,
 )
 from coopera.core.household import FreeMotion, HandOver, Outcome, Percept, PickPlace
-from coopera.core.people import TRAITS, BigFive, Persona, Picture
+from coopera.core.people import TRAITS, Belief, BigFive, Persona
 from coopera.core.randomness import rng_at
 from coopera.evaluation.success import count
 from coopera.people.shipped import find
@@ -231,7 +231,7 @@ def _evening(records: list[HourRecord], persona: Persona, days: int, seed: int) 
         person=first.person,
         scene=first.scene,
         feedback=items,
-        picture=Picture(
+        belief=Belief(
             big_five=BigFive(**guess),
             profile="They keep an orderly home. They care for others. They like warm drinks and rest <b>early</b>.",
         ),

@@ -54,7 +54,7 @@ def test_a_day_is_lived_hour_by_hour_and_ends_with_an_evening(make_services: Mak
     assert [hour.hour for hour in hours] == [9, 10, 11]
     assert all(hour.status == "ok" and hour.success and hour.calls for hour in hours)
     evening = services.recorder.evenings[0]  # type: ignore[attr-defined]
-    assert evening.picture.profile == "Cooks a lot."
+    assert evening.belief.profile == "Cooks a lot."
     assert evening.learned["intention"] == {"examples": 9, "positives": 3, "seen": 9.0}
 
 

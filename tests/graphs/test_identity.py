@@ -53,7 +53,7 @@ def live(services: Services, people: str) -> list[PersonId | None]:
         DayPlan(day=day, episode_day=day, person=by_letter[letter], scene=SceneId("toy"), hours=[9, 10])
         for day, letter in enumerate(people)
     ]
-    services = replace(services, people={MARA.id: MARA, BO.id: BO}, told_who=False)
+    services = replace(services, people={MARA.id: MARA, BO.id: BO}, identity_known=False)
     build_study_graph().invoke({"schedule": plans}, context=services)
     hours = [hour for day in range(len(people)) for hour in services.recorder.read_day(day)]
     return [hour.robot.with_whom for hour in hours if hour.robot]

@@ -56,7 +56,7 @@ POET = Life(
     ("desk_1", "stove_1"),
 )
 OFTEN = ("ours", "intention_agnostic", "frequency_prior")  # ways of their own; the others leave something out of ours
-HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "told"]
+HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "given"]
 
 
 def tasks(life: Life, collab: Collab) -> list[dict[str, Any]]:
@@ -68,7 +68,7 @@ def tasks(life: Life, collab: Collab) -> list[dict[str, Any]]:
     return [first, *({**task, "thought": f"To {life.intention}."} for task in rest)]
 
 
-class Told(NamedTuple):
+class DayAccount(NamedTuple):
     """Everything that reached the robot, and everything that it said."""
 
     prompts: list[Any]
@@ -120,7 +120,7 @@ def live(
     collab: Collab = 2,
     days: int = 1,
     **changed: bool,
-) -> Told:
+) -> DayAccount:
     """Live some days; return what reached the robot by the last of them, before that day's evening."""
     answers = type2_answers() | {
         "human/intention": lambda v: {"intention": life.intention, "reason_human": life.persona.profile},
@@ -167,7 +167,7 @@ def live(
         for robot in lived
         if robot
     ]
-    return Told(prompts, judged, given, said)
+    return DayAccount(prompts, judged, given, said)
 
 
 @pytest.mark.parametrize("collab", [1, 2])
@@ -194,7 +194,7 @@ def test_traits_inferred_hour_by_hour_rest_on_the_robots_own_guesses_alone(
     [(_, _, variables)] = [asked for asked in one.prompts if asked[0] == "robot/traits"]
     assert [memory["text"] for memory in variables["intentions"]] == ["Cook a meal"]
     assert one == other
-    assert [robot.picture.profile for robot in one.said] == [None, "Cooks a lot."]
+    assert [robot.belief.profile for robot in one.said] == [None, "Cooks a lot."]
 
 
 def test_the_audit_sees_what_an_oracle_is_told_and_what_every_robot_is_told_in_the_evening(

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coopera.core.errors import CooperaError, LearningError, RunError
-from coopera.core.hour import Example, FeedbackItem, IntentionCandidate, Observation, RobotHour, Told, ToldHour
-from coopera.core.people import PersonId, Picture
+from coopera.core.hour import DayAccount, Example, FeedbackItem, HourAccount, IntentionCandidate, Observation, RobotHour
+from coopera.core.people import Belief, PersonId
 from coopera.graphs.learning import KINDS, Learner, Mode
 from coopera.graphs.rehearsal import keep
 from tests.fakes import FolderRecorder, TableClassifier
@@ -46,7 +46,7 @@ class Broken(TableClassifier):
         return super().train(examples, seed=seed)
 
 
-def told(day: int, person: PersonId = ANN, *, hours: int = 3, yes: bool | None = None) -> Told:
+def account(day: int, person: PersonId = ANN, *, hours: int = 3, yes: bool | None = None) -> DayAccount:
     """A day on which the first guess was right, or all had one answer."""
     robot = RobotHour(
         observation=Observation(),
@@ -55,7 +55,7 @@ def told(day: int, person: PersonId = ANN, *, hours: int = 3, yes: bool | None =
     )
     answers = [None if yes is None else yes for _ in GUESSES]
     lived = [
-        ToldHour(
+        HourAccount(
             hour=9 + n,
             intention=GUESSES[0],
             tasks=[],
@@ -73,7 +73,7 @@ def told(day: int, person: PersonId = ANN, *, hours: int = 3, yes: bool | None =
         )
         for n in range(hours)
     ]
-    return Told(person=person, day=day, hours=lived, picture=Picture(profile=f"{person} since day {day}."))
+    return DayAccount(person=person, day=day, hours=lived, belief=Belief(profile=f"{person} since day {day}."))
 
 
 def learner(
@@ -82,7 +82,7 @@ def learner(
     """A learner that has lived some days, with people in turn."""
     one = Learner(dict.fromkeys(KINDS, make), FolderRecorder(folder), 7, mode)
     for day in range(days):
-        one.learn(day, list(range(day)), told(day, (ANN, BO)[day % people]))
+        one.learn(day, list(range(day)), account(day, (ANN, BO)[day % people]))
     return one
 
 
@@ -141,7 +141,7 @@ def test_records_that_cannot_be_read_are_named(tmp_path: Path) -> None:
 def test_where_training_fails_what_was_known_is_kept_and_that_is_said(tmp_path: Path) -> None:
     one = learner(tmp_path, Broken, days=1)
     before = dict(table(one))
-    measured = one.learn(1, [0], told(1))
+    measured = one.learn(1, [0], account(1))
     assert measured["intention"]["failed"] == "its loss became nan"
     assert table(one) == before
     again = learner(tmp_path, Broken)
@@ -155,17 +155,17 @@ def test_a_full_disk_ends_the_evening_with_its_reason_and_it_can_be_done_again(t
     full.parent.mkdir(parents=True)
     full.symlink_to("/dev/full")
     with pytest.raises(RunError, match=r"examples\.jsonl: the training examples .* cannot be saved: .*No space left"):
-        one.learn(1, [0], told(1))
+        one.learn(1, [0], account(1))
     full.unlink()
-    one.learn(1, [0], told(1))
+    one.learn(1, [0], account(1))
     assert table(one) == table(learner(tmp_path / "other", days=2))
 
 
 @pytest.mark.parametrize("yes", [True, False])
 def test_a_day_of_nothing_but_yes_or_no_and_one_without_hours_are_recorded(tmp_path: Path, yes: bool) -> None:
     one = learner(tmp_path)
-    assert one.learn(0, [], told(0, yes=yes))["intention"]["examples"] == 9
-    assert one.learn(1, [0], told(1, hours=0))["intention"]["examples"] == 9
+    assert one.learn(0, [], account(0, yes=yes))["intention"]["examples"] == 9
+    assert one.learn(1, [0], account(1, hours=0))["intention"]["examples"] == 9
 
 
 DAYS = st.lists(st.tuples(st.sampled_from([ANN, BO]), st.integers(0, 4)), max_size=8)

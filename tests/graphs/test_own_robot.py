@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from coopera.core.errors import CooperaError, RunError
-from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import HandOver, PickPlace
 from coopera.graphs import Method, RobotContext, Services
 from coopera.graphs.own_robot import OwnRobot
@@ -29,8 +29,8 @@ class Copycat:
             tasks=[offer(thing, accepted=thing != "novel") for thing in [*things, things[0]]],
         )
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, Any]:
-        for hour in told.hours:
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
+        for hour in account.hours:
             for item in hour.feedback:
                 if item.kind == "task" and item.helpful:
                     self.liked.append(item.text.removeprefix("bring the "))
@@ -104,18 +104,18 @@ def test_where_its_own_file_is_broken_the_evenings_are_taught_again(
 def test_a_damaged_evening_is_named(make_services: MakeServices) -> None:
     services = services_with(make_services, Copycat)
     run_study(services, n=1)
-    (services.recorder.adapters_folder(0) / "told.json").write_text("{")
-    with pytest.raises(RunError, match=r"told\.json: what the robot was told this evening cannot be read"):
+    (services.recorder.adapters_folder(0) / "account.json").write_text("{")
+    with pytest.raises(RunError, match=r"account\.json: what the robot was told this evening cannot be read"):
         OwnRobot(Copycat, services.recorder).be_at([0])
 
 
 def test_what_it_is_told_says_nothing_of_how_it_was_scored(make_services: MakeServices) -> None:
     services = services_with(make_services, Copycat)
     run_study(services, n=1)
-    told = Told.model_validate_json((services.recorder.adapters_folder(0) / "told.json").read_text())
-    assert [hour.intention for hour in told.hours] == ["Cook a meal"] * 3
-    assert {task.correct for hour in told.hours for task in hour.robot.tasks} == {None}
-    assert "success" not in told.model_dump_json()
+    account = DayAccount.model_validate_json((services.recorder.adapters_folder(0) / "account.json").read_text())
+    assert [hour.intention for hour in account.hours] == ["Cook a meal"] * 3
+    assert {task.correct for hour in account.hours for task in hour.robot.tasks} == {None}
+    assert "success" not in account.model_dump_json()
 
 
 PLACING = TaskCandidate(

@@ -166,7 +166,7 @@ def test_of_a_logged_hour_the_model_only_decomposes(make_services: MakeServices)
         10: LoggedHour(day=0, hour=10, intention="Cook"),
     }
     ask = ScriptedAsk(type2_answers())
-    services = make_services(ask=ask, method="none", told=lambda plan, clock: log[clock.hour])
+    services = make_services(ask=ask, method="none", logged=lambda plan, clock: log[clock.hour])
     build_study_graph().invoke({"schedule": [DAY]}, context=services)
     first, second = (hour.human for hour in services.recorder.read_day(0))
     assert first is not None

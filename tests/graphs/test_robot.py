@@ -11,7 +11,7 @@ from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Example, Observation
 from coopera.core.household import Percept, SceneId
-from coopera.core.people import BigFive, Picture
+from coopera.core.people import Belief, BigFive
 from coopera.graphs import RobotContext, build_robot_graph
 from coopera.graphs.hour import robot_context
 from coopera.graphs.robot import RobotInput, robot_hour
@@ -20,7 +20,7 @@ from tests.graphs.conftest import MakeServices
 
 TEN = Clock(day=1, hour=10)
 SEEN = Observation(percept=Percept(room="kitchen", near=["stove_1"], motion="stirring"))
-KNOWN = Picture(big_five=BigFive(openness=4), profile="Cooks a lot.")
+KNOWN = Belief(big_five=BigFive(openness=4), profile="Cooks a lot.")
 
 
 def robot(make_services: MakeServices, collab: int = 2, **options: Any) -> RobotContext:
@@ -28,8 +28,8 @@ def robot(make_services: MakeServices, collab: int = 2, **options: Any) -> Robot
     return robot_context(make_services(**options), plan)
 
 
-def watch(ctx: RobotContext, seen: Observation = SEEN, picture: Picture = KNOWN) -> Any:
-    given = RobotInput(clock=TEN, observation=seen, picture=picture)
+def watch(ctx: RobotContext, seen: Observation = SEEN, belief: Belief = KNOWN) -> Any:
+    given = RobotInput(clock=TEN, observation=seen, belief=belief)
     return robot_hour(build_robot_graph().invoke(given, context=ctx))  # type: ignore[arg-type]
 
 
@@ -67,7 +67,7 @@ def test_graphs_can_be_awaited_side_by_side_with_the_results_of_each_alone(make_
     contexts = [robot(make_services, ask=ScriptedAsk(answers)) for _ in range(4)]
 
     async def live() -> list[Any]:
-        graph, given = build_robot_graph(), RobotInput(clock=TEN, observation=SEEN, picture=KNOWN)
+        graph, given = build_robot_graph(), RobotInput(clock=TEN, observation=SEEN, belief=KNOWN)
         return await asyncio.gather(*(graph.ainvoke(given, context=ctx) for ctx in contexts))  # type: ignore[arg-type]
 
     assert [robot_hour(state) for state in asyncio.run(live())] == [watch(robot(make_services))] * 4
@@ -184,7 +184,7 @@ def test_in_type_1_the_robot_is_given_the_first_task_in_words_and_may_use_what_c
 
 def test_nothing_true_about_the_hour_is_an_input_of_the_robot() -> None:
     """These are the robot's input and services, and none of their types holds the truth; see also test_leaks.py."""
-    assert set(get_type_hints(RobotInput)) == {"clock", "observation", "picture"}
+    assert set(get_type_hints(RobotInput)) == {"clock", "observation", "belief"}
     assert set(Observation.model_fields) == {"frames", "percept", "first_task"}
     services = inspect.get_annotations(RobotContext)
     assert set(services) == {

@@ -21,7 +21,7 @@ from coopera.core.randomness import Address
 from coopera.core.replies import REPLIES, PickPlaceReply, VerdictsReply
 from coopera.models.backends import Backend, open_backend
 from coopera.models.batching import Batcher
-from coopera.models.constrained import Row
+from coopera.models.constrained import HeldReply
 from coopera.models.door import Door
 from coopera.models.huggingface import HuggingFaceChat, open_model
 from coopera.models.parsing import read_reply
@@ -170,7 +170,7 @@ def test_one_prompt_that_does_not_fit_does_not_spoil_the_others(llama: HuggingFa
 
 def test_draws_follow_the_softmax_at_the_temperature() -> None:
     scores = torch.tensor([2.0, 1.0, 0.0, -torch.inf])
-    row = Row(temperature=0.5, seed=3, limit=5000, ends=[9])
+    row = HeldReply(temperature=0.5, seed=3, limit=5000, ends=[9])
     drawn = [row.draw(scores) for _ in range(4000)]
     expected = torch.softmax(scores.double() / 0.5, dim=0).numpy()
     assert np.abs(np.bincount(drawn, minlength=4) / 4000 - expected).max() < 0.03

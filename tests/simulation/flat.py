@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from coopera.core.household import FreeMotion, HandOver, PickPlace
-from coopera.simulation.homes.scene import Door, Room, Scene, SceneObject
+from coopera.simulation.homes.scene import Doorway, Room, Scene, SceneObject
 
 _ROWS = [
     # name, category, room, position, yaw, size, carrier
@@ -47,7 +47,7 @@ def flat() -> Scene:
         for i, (name, category, room, position, yaw, size, carrier) in enumerate(_ROWS)
     ]
     return Scene(
-        id="flat", rooms=rooms, doors=[Door(between=("living room", "kitchen"), x=4.5, y=2.5)], objects=objects
+        id="flat", rooms=rooms, doors=[Doorway(between=("living room", "kitchen"), x=4.5, y=2.5)], objects=objects
     )
 
 

@@ -136,7 +136,7 @@ class _Semantics(Loose):
     region_annotations: list[Region] = []
 
 
-class Row(NamedTuple):
+class CatalogueRow(NamedTuple):
     """What semantics/objects.csv says of a template; empty where it says nothing."""
 
     name: str = ""
@@ -152,7 +152,7 @@ class Template(NamedTuple):
     asset: Path
     frame: Array
     """Rotation from the asset's own frame to Habitat's, shape (3, 3)."""
-    row: Row
+    row: CatalogueRow
     opening: bool
 
 
@@ -212,7 +212,7 @@ class Folder:
             raise FileNotFoundError(
                 f"{self._scene_file(id)}, field {field}: there is no file {key}{_OBJECT} below {self.root / 'objects'}."
             )
-        row = self._rows.get(key) or self._rows.get(key.partition("_part_")[0]) or Row()
+        row = self._rows.get(key) or self._rows.get(key.partition("_part_")[0]) or CatalogueRow()
         return self._template(path, row)
 
     def stage(self, id: str) -> Template | None:
@@ -223,14 +223,14 @@ class Folder:
         name = Path(placed.template_name).name.removesuffix(".stage_config.json")
         path = self.root / "stages" / f"{name}.stage_config.json"
         try:
-            return self._template(path, Row()) if path.exists() else None
+            return self._template(path, CatalogueRow()) if path.exists() else None
         except FileNotFoundError:
             return None
 
     def _scene_file(self, id: str) -> Path:
         return self.root / "scenes" / f"{id}{_INSTANCE}"
 
-    def _template(self, path: Path, row: Row) -> Template:
+    def _template(self, path: Path, row: CatalogueRow) -> Template:
         config = read_json(path, AssetConfig)
         asset = config.render_asset or config.collision_asset
         field = "render_asset" if config.render_asset or not config.collision_asset else "collision_asset"
@@ -248,13 +248,16 @@ class Folder:
         return {path.name.removesuffix(_OBJECT): path for path in sorted(self.root.glob(f"objects/**/*{_OBJECT}"))}
 
     @cached_property
-    def _rows(self) -> dict[str, Row]:
+    def _rows(self) -> dict[str, CatalogueRow]:
         path = self.root / "semantics" / "objects.csv"
         table = csv.DictReader(io.StringIO(read_text(path)), restval="")
         if "id" not in (table.fieldnames or []) or "super_category" not in (table.fieldnames or []):
             raise ConfigError(f"{path}, line 1: the columns must have the names id and super_category.")
         try:
-            return {row["id"]: Row(*((row.get(name) or "").strip() for name in Row._fields)) for row in table}
+            return {
+                row["id"]: CatalogueRow(*((row.get(name) or "").strip() for name in CatalogueRow._fields))
+                for row in table
+            }
         except csv.Error as err:
             raise ConfigError(f"{path}, line {table.line_num}: this is not valid CSV ({err}).") from err
 

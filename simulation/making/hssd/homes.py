@@ -63,7 +63,7 @@ class Box(NamedTuple):
     size: tuple[float, float, float]
 
 
-class Found(NamedTuple):
+class Recognised(NamedTuple):
     """An instance that is taken over: its place in the file, what it is made from, and its box."""
 
     number: int
@@ -192,7 +192,7 @@ def _room_around(boxes: list[Box], id: str) -> Room:
     return Room(name="home", kind="home", x0=edges[0], y0=edges[1], x1=edges[2], y1=edges[3])
 
 
-def _objects(folder: Folder, id: str, floor: float, skip_missing: bool, skipped: list[Skipped]) -> Iterator[Found]:
+def _objects(folder: Folder, id: str, floor: float, skip_missing: bool, skipped: list[Skipped]) -> Iterator[Recognised]:
     """The instances that are taken over."""
     for number, instance in enumerate(folder.scene(id).object_instances):
         what = f"object_instances.{number} ({instance.template_name})"
@@ -217,10 +217,10 @@ def _objects(folder: Folder, id: str, floor: float, skip_missing: bool, skipped:
         elif max(box.size) > LONGEST or max(abs(x), abs(y)) > 100:
             skipped.append(Skipped(what, f"is larger than {LONGEST:.0f} m, or farther than 100 m away"))
         else:
-            yield Found(number, template, instance, box)
+            yield Recognised(number, template, instance, box)
 
 
-def _name(scene: Scene, found: list[Found]) -> list[SceneObject]:
+def _name(scene: Scene, found: list[Recognised]) -> list[SceneObject]:
     """Objects with names of their own and what carries them; ids are the places in HSSD's file."""
     count: Counter[str] = Counter()
     objects: list[SceneObject] = []
@@ -248,7 +248,7 @@ def _name(scene: Scene, found: list[Found]) -> list[SceneObject]:
 
 
 def _drawn(
-    objects: list[SceneObject], found: list[Found], skipped: list[Skipped]
+    objects: list[SceneObject], found: list[Recognised], skipped: list[Skipped]
 ) -> tuple[list[SceneObject], dict[str, str]]:
     """The objects with their meshes, and the meshes' files; what has no triangles is drawn from our own shapes."""
     files: dict[str, str] = {}

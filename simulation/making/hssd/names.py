@@ -6,7 +6,7 @@ import re
 import zlib
 
 from coopera.simulation.homes.catalogue import catalogue
-from coopera.simulation.making.hssd.files import Row
+from coopera.simulation.making.hssd.files import CatalogueRow
 
 _SAME = {
     **{"couch": "sofa", "loveseat": "sofa", "settee": "sofa", "easy_chair": "armchair", "chair": "dining_chair"},
@@ -29,7 +29,7 @@ def slug(text: str, keep: str = "_") -> str:
     return re.sub(rf"[^a-z0-9{re.escape(keep)}]+", joint, text.lower()).strip(joint)[:60]
 
 
-def class_of(row: Row) -> str:
+def class_of(row: CatalogueRow) -> str:
     """The class of an object: its name, else its WordNet key, else its super-category (PAPER's code does so too)."""
     lemma = row.wnsynsetkey.partition(".")[0]
     words = [slug(name) for name in (row.name, lemma, row.super_category) if slug(name)]

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from coopera.checks.method import ConformanceError, check_method
-from coopera.core.hour import IntentionCandidate, Proposal, TaskCandidate, Told
+from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import HandOver
 from coopera.evaluation import METHODS
 from coopera.graphs import Method, RobotContext
@@ -26,8 +26,8 @@ class Forgetful:
             intentions=[usual], tasks=[TaskCandidate(intention=usual.text, thought="", act=act, accepted=True)]
         )
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, int]:
-        return {"hours": len(told.hours)}
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, int]:
+        return {"hours": len(account.hours)}
 
 
 class Fragile(Forgetful):
@@ -36,8 +36,8 @@ class Fragile(Forgetful):
     def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
         return Proposal()
 
-    def learn(self, told: Told, *, seed: int) -> dict[str, int]:
-        return {"first": min(hour.hour for hour in told.hours)}
+    def learn(self, account: DayAccount, *, seed: int) -> dict[str, int]:
+        return {"first": min(hour.hour for hour in account.hours)}
 
 
 @pytest.mark.parametrize("name", [name for name, method in METHODS.items() if method.robot])

@@ -12,7 +12,7 @@ from coopera.core.hour import (
     RobotHour,
 )
 from coopera.core.household import SceneId
-from coopera.core.people import PersonId, Picture
+from coopera.core.people import Belief, PersonId
 from coopera.report.learned import by_activity, by_hour, calibration, intention_pairs, task_pairs
 from coopera.rundir.summary import fallbacks
 
@@ -65,7 +65,7 @@ EVENING = Evening(
         for c in hour.robot.intentions
         for yes in [None if c.text == "Tidy" else c.text == hour.human.intention.text]
     ],
-    picture=Picture(),
+    belief=Belief(),
 )
 
 

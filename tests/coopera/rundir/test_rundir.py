@@ -50,7 +50,7 @@ def failed_hour(day: int, hour: int) -> HourRecord:
 
 def test_a_new_run_says_who_writes_it_and_with_what(run: RunDir) -> None:
     found = info(run)
-    assert (found["state"], found["pid"], found["schema"]) == ("running", os.getpid(), 1)
+    assert (found["state"], found["pid"], found["schema"]) == ("running", os.getpid(), 2)
     assert {"coopera", "python", "langgraph"} <= set(found["versions"])
     assert found["prompts"] == {"human/intention": "ab"}
     assert run.people()["amara"].name == "Amara Osei"
@@ -308,6 +308,29 @@ def test_a_damaged_run_is_refused_in_one_sentence(tmp_path: Path, file: str, tex
     (run.root / file).write_text(text)
     with pytest.raises(RunError, match=sentence):
         RunDir.open(run.root)
+
+
+def as_schema_1(root: Path, state: str) -> None:
+    """Write a run again as the first version did: its belief about the person was called a picture."""
+    for path in root.glob("trace/*/*.json"):
+        path.write_text(path.read_text().replace('"belief":', '"picture":'))
+    said = json.loads((root / "run.json").read_text())
+    (root / "run.json").write_text(json.dumps(said | {"schema": 1, "state": state}))
+
+
+def test_a_run_of_the_first_version_is_read_with_the_names_of_today(tmp_path: Path) -> None:
+    run = fake_run(tmp_path / "run", days=2, hours=2, frames=1)
+    before = [record.model_dump() for record in (*run.hours(), *run.evenings())]
+    as_schema_1(run.root, "finished")
+    again = RunDir.open(run.root)
+    assert [record.model_dump() for record in (*again.hours(), *again.evenings())] == before
+
+
+def test_a_run_of_the_first_version_is_not_gone_on_with(tmp_path: Path) -> None:
+    run = fake_run(tmp_path / "run", days=1, hours=1, frames=1)
+    as_schema_1(run.root, "stopped")
+    with pytest.raises(RunError, match="schema 1 was written by an older coopera"):
+        resume_study(run.root)
 
 
 def test_a_damaged_hour_is_named_with_its_field(tmp_path: Path) -> None:

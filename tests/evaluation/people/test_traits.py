@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from coopera.core.people import BigFive, PersonId
-from coopera.evaluation.people.lives import Belief, Lives
+from coopera.evaluation.people.lives import InferredTraits, Lives
 from coopera.evaluation.people.traits import coherence, diversity, mean_sd, pearson
 from tests.evaluation.people.lived import day, lives, persona
 
@@ -49,7 +49,7 @@ def test_knowing_what_people_are_like_on_average_counts_only_in_the_pooled_figur
 
 def test_what_several_robots_believe_of_a_person_is_averaged() -> None:
     who = known_people([0.0, 0.0, 0.0])
-    wrong = [Belief(belief.person, BigFive(openness=6 - belief.big_five.openness)) for belief in who.beliefs]
+    wrong = [InferredTraits(belief.person, BigFive(openness=6 - belief.big_five.openness)) for belief in who.beliefs]
     both = Lives(who.days, who.personas, [*who.beliefs, *wrong])
     assert {f.measure: f.value for f in coherence(both)}["aligned"] is None  # they cancel: 3 for everybody
 
@@ -68,6 +68,7 @@ def known_people(errors: list[float], **average: float) -> Lives:
     who = {n: persona(n, openness=s, **average) for n, s in zip(names, scores, strict=False)}
     found = lives([day(name, does=["rest"]) for name in names], **who)
     beliefs = [
-        Belief(PersonId(n), BigFive(openness=s + e, **average)) for n, s, e in zip(names, scores, errors, strict=False)
+        InferredTraits(PersonId(n), BigFive(openness=s + e, **average))
+        for n, s, e in zip(names, scores, errors, strict=False)
     ]
     return Lives(found.days, found.personas, beliefs)

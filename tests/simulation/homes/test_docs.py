@@ -17,6 +17,6 @@ def test_the_home_in_the_documentation_is_one() -> None:
 def test_the_schema_describes_every_field_that_a_person_writes() -> None:
     schema = Scene.model_json_schema()
     assert {"id", "rooms", "doors", "objects"} <= set(schema["properties"])
-    for part in ("Room", "Door", "SceneObject"):
+    for part in ("Room", "Doorway", "SceneObject"):
         assert schema["$defs"][part]["additionalProperties"] is False
         assert schema["$defs"][part]["description"]

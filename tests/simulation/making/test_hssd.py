@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from coopera.core.errors import ConfigError
 from coopera.simulation.homes.glb import read_glb
 from coopera.simulation.homes.scene import SceneObject
-from coopera.simulation.making.hssd.files import AssetConfig, Folder, Instance, Row, Template
+from coopera.simulation.making.hssd.files import AssetConfig, CatalogueRow, Folder, Instance, Template
 from coopera.simulation.making.hssd.homes import HIGHEST, Imported, box_of, import_scene
 from tests.simulation.synthetic_hssd import (
     BED,
@@ -79,7 +79,7 @@ def test_every_instance_has_its_own_box_to_the_millimetre(imported: Imported, nu
 
 def test_a_thing_in_any_pose_gets_the_least_upright_box_around_it(hssd: Path) -> None:
     asset = hssd / "objects/b/b2mug.glb"
-    template = Template(AssetConfig(), asset, np.eye(3), Row(), False)
+    template = Template(AssetConfig(), asset, np.eye(3), CatalogueRow(), False)
     for seed in range(20):
         quaternion = np.random.default_rng(seed).normal(size=4)
         instance = Instance(template_name=MUG, rotation=tuple(quaternion), translation=(1, 2, 3))
