@@ -73,7 +73,7 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     (tmp_path / "misspelt.yaml").write_text("dayz: 3\n")
     (tmp_path / "column.csv").write_text("user 1 personas,Best Generated Conversation\na,b\n")
     head = b"user 1 personas,user 2 personas,Best Generated Conversation\n"
-    (tmp_path / "bytes.csv").write_bytes(head + b"caf\xe9,b,c\n")
+    (tmp_path / "bytes.csv").write_bytes(head + b"na\xefve,b,c\n")
     (tmp_path / "rows.csv").write_bytes(head + b"\n")
     before = files_in(tmp_path)
     said = coopera(*args)
