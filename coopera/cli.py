@@ -27,7 +27,7 @@ app = typer.Typer(
     help="A person with a personality lives in a simulated home, and a robot learns to help that person.",
     epilog="Exit codes: 0 done, 1 the work failed, 2 the input is wrong, 130 stopped by Ctrl-C.",
     no_args_is_help=True,
-    add_completion=False,
+    rich_markup_mode=None,  # help names values and defaults in brackets, which Rich would take for its own
     pretty_exceptions_enable=False,
 )
 app.command()(run.run)

@@ -9,6 +9,7 @@ from pydantic import Field
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Belief, BigFive, Frozen, PersonId
+from coopera.core.setting import Setting
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
 """What the robot imagines and a classifier judges."""
@@ -64,8 +65,16 @@ class SearchSizes(Frozen):
     In collaboration type 1 as many of the fixed and as many of the movable objects.
     """
 
-    objects: int = Field(30, strict=True, ge=1, le=1000)
-    motions: int = Field(5, strict=True, ge=1, le=1000)
+    objects: Annotated[
+        int,
+        Field(strict=True, ge=1, le=1000),
+        Setting("Objects the person is offered for an intention.", flag="--search-objects"),
+    ] = 30
+    motions: Annotated[
+        int,
+        Field(strict=True, ge=1, le=1000),
+        Setting("Motions the person is offered for an intention.", flag="--search-motions"),
+    ] = 5
 
 
 class TaskVerdict(Frozen):

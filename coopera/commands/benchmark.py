@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list
+from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list, nested, option
 
 STOPPED = 130
 FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episodes, --days, --hours"
@@ -26,8 +26,8 @@ def benchmark(
     ] = None,
     scenes: Annotated[str | None, typer.Option(metavar="ID,…|N", help="Homes, or how many.")] = None,
     episodes: Annotated[int | None, typer.Option(help="Episodes of each setting. [default: as the paper]")] = None,
-    days: Annotated[int | None, typer.Option(help="Days of each episode. [default: as the setting has it]")] = None,
-    hours: Annotated[int | None, typer.Option(help="Hours of each day, from 9 am. [default: 13]")] = None,
+    days: Annotated[int | None, option("days")] = None,
+    hours: Annotated[int | None, option("hours")] = None,
     workers: Annotated[int, typer.Option(min=1, max=256, help="Processes on this machine.")] = 1,
     ray: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here.")] = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="The benchmark's folder; run again, it goes on.")] = Path(
@@ -37,7 +37,7 @@ def benchmark(
     model: Model = None,
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
-    classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    classifier: Annotated[str | None, option("classifier")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Run methods on the same days of the same people, and write tables, figures and statistics.
@@ -59,9 +59,7 @@ def benchmark(
         "hours": hours,
     }
     found = bench.load_grid(grid, flags)
-    shared: dict[str, Any] = {"base_url": base_url, "prompts": prompts, "classifier": classifier}
-    if model is not None:
-        shared["models"] = dict.fromkeys(("human", "robot", "judge"), model)
+    shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
     bench.claim_folder(planned)
     failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)

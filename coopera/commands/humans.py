@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder
+from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 
 app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 
@@ -48,9 +48,7 @@ def show(
 def import_humans(
     file: Annotated[Path, typer.Argument(metavar="FILE.csv", help="Synthetic-Persona-Chat as published.")],
     limit: Annotated[int | None, typer.Option(min=1, help="Take the first rows only.")] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR, or the user's own]")
-    ] = None,
+    out: DataFolder = None,
     workers: Annotated[int, typer.Option(min=1, max=64, help="Rows worked on at the same time.")] = 4,
     force: Annotated[bool, typer.Option("--force", help="Write anew those who are there already.")] = False,
     model: Model = None,

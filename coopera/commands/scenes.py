@@ -9,15 +9,11 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson
+from coopera.commands.options import AsJson, DataFolder
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
 Home = Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")]
 Png = Annotated[Path | None, typer.Option(metavar="FILE", help="Write a picture.")]
-DataFolder = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR or the user's]"),
-]
 Force = Annotated[bool, typer.Option("--force", help="Replace homes that are there already.")]
 _COLUMNS = ("id", "rooms", "fixed", "movable")
 
