@@ -38,10 +38,10 @@ def run(
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     classifier: Annotated[
-        str | None, typer.Option(metavar="NAME", help="kernel, lora or lora-instruct. [default: kernel]")
+        str | None, typer.Option(metavar="NAME", help="How the robot judges: kernel, lora, … [default: kernel]")
     ] = None,
     classifier_config: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Recipe of lora-instruct, such as another base.")
+        Path | None, typer.Option(metavar="FILE", help="Recipe of a classifier that takes one, as lora-instruct does.")
     ] = None,
     learning: Annotated[
         str | None,

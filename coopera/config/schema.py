@@ -42,7 +42,7 @@ _EXPECTED = {
     "models.judge": "a model such as offline",
     "base_url": "an address such as http://localhost:8000/v1",
     "prompts": "the path of a folder",
-    "classifier": "kernel, lora or lora-instruct",
+    "classifier": "the name of a classifier",
     "classifier_config": "the path of a recipe file",
     "learning": "warm or fresh",
     "who": "known or unknown",
@@ -121,7 +121,8 @@ class Config(Frozen):
         base_url: Address of an OpenAI-compatible server, where a model needs one.
         prompts: A folder whose files replace shipped prompts of the same name.
         classifier: Kind of the robot's yes/no classifiers.
-        classifier_config: Recipe of `lora-instruct`, by default the paper's (models/classifiers/lora_instruct.yaml).
+        classifier_config: Recipe of a classifier that takes one: `lora-instruct`, whose own is the paper's
+            (models/classifiers/lora_instruct.yaml).
         learning: Whether an evening goes on from the one before, with the day's examples and a fixed number of earlier
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         who: Whether the robot is told whom it is with; "unknown" tells it on the first day with somebody, and has it
@@ -162,7 +163,7 @@ class Config(Frozen):
     models: Models = Models()
     base_url: Annotated[str, Field(pattern=r"^https?://\S+$")] | None = None
     prompts: Path | None = None
-    classifier: Literal["kernel", "lora", "lora-instruct"] = "kernel"
+    classifier: Text = "kernel"
     classifier_config: Path | None = None
     learning: Literal["warm", "fresh"] = "warm"
     who: Literal["known", "unknown"] = "known"
