@@ -30,7 +30,7 @@ from coopera.core.hour import CandidateKind, Example
 from coopera.core.protocols import Classifier
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, Inputs, make_classifier
+from coopera.models.classifiers import Inputs, known_classifiers, make_classifier
 from coopera.models.classifiers.calibration import score_at
 from coopera.prompts import PromptLibrary
 
@@ -163,7 +163,7 @@ def _f1(asked: Sequence[Judged]) -> float:
 
 def main() -> None:
     """Run the comparison and print it as a table."""
-    names = ["always-yes", "frequency", *CLASSIFIERS]
+    names = ["always-yes", "frequency", *known_classifiers()]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--people", type=int, default=8, help="how many people (default 8)")
     parser.add_argument("--first", type=int, default=FIRST_TEST_PERSON, help="number of the first person")

@@ -26,7 +26,7 @@ from benchmarks.toy_household import Robot, draw_person, live_day
 from coopera.core.hour import CandidateKind, Example
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, make_classifier
+from coopera.models.classifiers import known_classifiers, make_classifier
 from coopera.models.classifiers.causal import open_base
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.prompts import PromptLibrary
@@ -110,7 +110,7 @@ def verdicts(lived: dict[CandidateKind, list[list[Example]]], recipe: Path, time
 def main() -> None:
     """Print the evenings as a table, then the cost of verdicts."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--classifiers", nargs="+", choices=list(CLASSIFIERS), default=list(CLASSIFIERS))
+    parser.add_argument("--classifiers", nargs="+", choices=known_classifiers(), default=known_classifiers())
     parser.add_argument("--days", nargs="+", type=int, default=[1, 5, 20, 50])
     parser.add_argument("--hidden", type=int, default=64, help="width of the random causal model")
     parser.add_argument("--layers", type=int, default=2, help="layers of the random causal model")

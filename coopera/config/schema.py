@@ -132,13 +132,19 @@ class Config(Frozen):
         ),
     ] = None
     classifier: Annotated[
-        Literal["kernel", "lora", "lora-instruct"],
-        Setting("Kind of the robot's yes/no classifiers.", flag="--classifier", listed="classifiers"),
+        Text,
+        Setting(
+            "The robot's yes/no classifiers.",
+            "the name of a classifier",
+            flag="--classifier",
+            metavar="NAME",
+            listed="classifiers",
+        ),
     ] = "kernel"
     classifier_config: Annotated[
         Path | None,
         Setting(
-            "Recipe of lora-instruct, such as another base.",
+            "Recipe of a classifier that takes one, such as another base of lora-instruct.",
             "the path of a recipe file",
             flag="--classifier-config",
             metavar="FILE",

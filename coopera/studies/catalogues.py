@@ -12,6 +12,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
 from coopera.graphs.person import PERSON_MODELS
 from coopera.models.backends import household_file
+from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
@@ -168,9 +169,11 @@ def _refuse_what_comes_later(config: Config) -> None:
     """Refuse choices that are named in the design but not built yet."""
     if config.pictures == "video":
         need_video()
+    check_recipe = find_classifier(config.classifier).check_recipe
     if config.classifier_config is not None:
-        if config.classifier != "lora-instruct" and not tuned_model(config):
-            raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")
-        read_recipe(config.classifier_config)
+        check_recipe = read_recipe if tuned_model(config) else check_recipe
+        if check_recipe is None:
+            raise ConfigError(f"classifier_config: the classifier {config.classifier} takes no recipe file.")
+        check_recipe(config.classifier_config)
     if config.prompts is not None and not config.prompts.is_dir():
         raise ConfigError(f"prompts: {config.prompts} must be a folder of prompt files, and there is no such folder.")

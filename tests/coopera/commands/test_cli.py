@@ -38,7 +38,10 @@ def files_in(folder: Path) -> list[str]:
         (["run", "--scenes", "castle"], "scenes: there is no home 'castle'"),
         (["run", "--method", "magic"], "method: there is no method 'magic'"),
         (["run", "--setting", "3", "--humans", "amara,bruno"], "humans: setting 3 takes 3 or a multiple of it, not 2"),
-        (["run", "--classifier", "oracle"], "--classifier must be kernel, lora or lora-instruct, not 'oracle'."),
+        (
+            ["run", "--classifier", "oracle"],
+            "classifier: there is no classifier 'oracle' (did you mean lora? known are",
+        ),
         (["run", "--pictures", "film"], "--pictures must be sampled, none or video, not 'film'."),
         (["run", "--prompts", "missing"], "prompts: missing must be a folder of prompt files"),
         (["run", "--model", "replay:missing"], "missing: this folder holds no run"),
