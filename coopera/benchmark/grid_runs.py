@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import yaml
 
+from coopera.config.at_most import at_most, smaller
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import Config, load_config
 from coopera.core.errors import ConfigError, RunError
@@ -195,7 +196,19 @@ def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
     given = {name: value for name, value in flags.items() if value is not None}
     if path:
         read_grid(data, str(path))
-    return read_grid({**data, **given}, str(path) if path and not given else "the grid")
+    return _cut(read_grid({**data, **given}, str(path) if path and not given else "the grid"))
+
+
+def _cut(grid: Grid) -> Grid:
+    """Cut a grid to the sizes of COOPERA_AT_MOST."""
+    most = at_most()
+    return grid.model_copy(
+        update={
+            "settings": grid.settings[: most.settings],
+            "methods": grid.methods[: most.methods],
+            **{name: smaller(getattr(grid, name), getattr(most, name)) for name in ("episodes", "days", "hours")},
+        }
+    )
 
 
 def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Config:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from coopera.config.at_most import cut
 from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
@@ -53,6 +54,8 @@ def load_catalogues(config: Config) -> Catalogues:
 def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     """Fill in what the setting decides and check every name; humans, scenes, days and out are then set.
 
+    Sizes are cut to those of COOPERA_AT_MOST (`coopera.config.at_most`).
+
     Raises:
         ConfigError: Naming the field, what is wrong and what there is.
     """
@@ -77,13 +80,15 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         refuse_used(config.out)
     for person in people:
         _livable(humans.find(person, config.data_dir), config.person)
-    return config.model_copy(
-        update={
-            "humans": list(people),
-            "scenes": list(scenes),
-            "days": config.days or days,
-            "out": config.out or next_folder(Path("runs")),
-        }
+    return cut(
+        config.model_copy(
+            update={
+                "humans": list(people),
+                "scenes": list(scenes),
+                "days": config.days or days,
+                "out": config.out or next_folder(Path("runs")),
+            }
+        )
     )
 
 
