@@ -206,7 +206,10 @@ def _cut(grid: Grid) -> Grid:
         update={
             "settings": grid.settings[: most.settings],
             "methods": grid.methods[: most.methods],
-            **{name: smaller(getattr(grid, name), getattr(most, name)) for name in ("episodes", "days", "hours")},
+            **{
+                name: smaller(getattr(grid, name), getattr(most, name))
+                for name in ("episodes", "days", "hours", "seeds")
+            },
         }
     )
 

@@ -29,6 +29,7 @@ class AtMost(Frozen):
         episodes: Episodes of each setting of a benchmark.
         settings: Settings of a benchmark.
         methods: Methods of a benchmark.
+        seeds: Seeds of a benchmark.
     """
 
     days: Most | None = None
@@ -36,6 +37,7 @@ class AtMost(Frozen):
     episodes: Most | None = None
     settings: Most | None = None
     methods: Most | None = None
+    seeds: Most | None = None
 
 
 def at_most() -> AtMost:
