@@ -202,9 +202,10 @@ class Race:
 
     def __init__(self, folder: Path, sizes: list[int], in_process: int) -> None:
         """Build what is missing."""
-        plain = bundled(folder / "embeddings.sqlite")
-        sentences = plain.array([f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)])
-        self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
+        texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)]
+        with bundled(folder / "embeddings.sqlite") as plain:
+            sentences = plain.array(texts)
+            self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
         self.sizes = sizes
         self.in_process = in_process
         embeddings = Prepared(sentences, self.questions)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -144,7 +145,8 @@ def do_run(job: RunJob) -> None:
         run_study(job.config, resumable=False)
     run = RunDir.open(job.folder)
     hours = run.hours()
-    rows = rows_of(hours, run.evenings(), _activity(job.config), job.labels)
+    with _activity(job.config) as activity:
+        rows = rows_of(hours, run.evenings(), activity, job.labels)
     data = {"rows": [row.model_dump() for row in rows], "seconds": robot_seconds(hours)}
     write_atomic(job.folder / ROWS, canonical_json(data, indent=None))
 
@@ -267,8 +269,10 @@ def _is_done(job: RunJob) -> bool:
     return (job.folder / ROWS).is_file()
 
 
-def _activity(config: Config) -> Callable[[str], str]:
+@contextmanager
+def _activity(config: Config) -> Iterator[Callable[[str], str]]:
     from coopera.evaluation.activities import nearest_group  # noqa: PLC0415
     from coopera.studies.assemble import open_embeddings  # noqa: PLC0415 - heavy
 
-    return nearest_group(open_embeddings(config))
+    with open_embeddings(config) as embeddings:
+        yield nearest_group(embeddings)

@@ -74,13 +74,14 @@ def import_humans(
         replies.mkdir(parents=True, exist_ok=True)
     except OSError as err:
         raise ConfigError(f"{replies}: people cannot be stored here ({err.strerror}).") from err
-    maker = Maker(open_ask(config, prompts=library, root=replies), config.models.human, library.hashes())
 
     def tell(person: str, what: str) -> None:
         typer.echo(f"{person}: {what}", err=True)
 
     try:
-        done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
+        with open_ask(config, prompts=library, root=replies) as ask:
+            maker = Maker(ask, config.models.human, library.hashes())
+            done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
     except KeyboardInterrupt:
         typer.echo("Stopped. The same command goes on where it was.", err=True)
         raise typer.Exit(130) from None

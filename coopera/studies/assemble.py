@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,7 @@ from coopera.graphs.learning import KINDS, Learner
 from coopera.graphs.own_robot import MakeRobot, OwnRobot
 from coopera.graphs.person import PERSON_MODELS
 from coopera.graphs.services import nothing_was_logged
-from coopera.memory import MemoryStream, Search, bundled
+from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
 from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
@@ -48,16 +48,20 @@ def model_specs(config: Config) -> dict[Role, str]:
     return {"human": config.models.human, "robot": robot, "judge": config.models.judge}
 
 
-def open_embeddings(config: Config) -> Embeddings:
-    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too."""
+def open_embeddings(config: Config) -> CachedEmbeddings:
+    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too.
+
+    To be used in a `with` statement: whoever has opened it closes the file.
+    """
     return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
 
 
 @made_once(2)
-def _embeddings(cache: Path) -> Embeddings:
+def _embeddings(cache: Path) -> CachedEmbeddings:
     return bundled(cache)
 
 
+@contextmanager
 def open_ask(
     config: Config,
     *,
@@ -66,8 +70,8 @@ def open_ask(
     root: Path | None = None,
     check: Callable[[], None] = lambda: None,
     meter: Meter | None = None,
-) -> Ask:
-    """Open the one door to the configured language models.
+) -> Iterator[Ask]:
+    """Open the one door to the configured language models, and close its files at the end.
 
     Args:
         config: Says which models.
@@ -81,20 +85,22 @@ def open_ask(
         PromptError: If a prompt file is broken, naming file and line.
         ConfigError: If a model is unknown or cannot be used here.
     """
-    return open_door(
-        prompts=prompts or PromptLibrary(config.prompts),
-        # a model that is finetuned is held by the robot itself, and twice would be once too often
-        specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
-        seed=config.seed,
-        embeddings=embeddings or open_embeddings(config),
-        base_url=config.base_url,
-        cache=root / "llm_cache.sqlite" if root else None,
-        shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
-        meter=meter,
-        settings=config.calls,
-        sleep=partial(_wait, check),
-        root=root,
-    )
+    with ExitStack() as stack:
+        door = open_door(
+            prompts=prompts or PromptLibrary(config.prompts),
+            # a model that is finetuned is held by the robot itself, and twice would be once too often
+            specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
+            seed=config.seed,
+            embeddings=embeddings or stack.enter_context(open_embeddings(config)),
+            base_url=config.base_url,
+            cache=root / "llm_cache.sqlite" if root else None,
+            shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
+            meter=meter,
+            settings=config.calls,
+            sleep=partial(_wait, check),
+            root=root,
+        )
+        yield stack.enter_context(closing(door))
 
 
 def _wait(check: Callable[[], None], seconds: float) -> None:
@@ -123,12 +129,12 @@ def open_services(
         logs: What a real person wrote down of the hours.
     """
     with ExitStack() as stack:
-        embeddings = open_embeddings(config)
+        embeddings = stack.enter_context(open_embeddings(config))
         meter = Meter(config.budget, run.spent())
         stack.callback(lambda: run.note_spent(meter.spent))
         prompts = prompts or PromptLibrary(config.prompts)
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
-        ask = _Interruptible(door, run.check)
+        ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
         yield Services(
             ask=ask,

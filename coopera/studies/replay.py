@@ -7,6 +7,7 @@ so that a run without pictures can be looked at later.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import NamedTuple
 
@@ -47,21 +48,17 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
     records = run.hours()
     if not records:
         raise RunError(f"{run.root}: there are no hours to replay yet.")
-    embeddings = open_embeddings(run.config)
     homes: dict[SceneId, World] = {}
     episode = None
-    try:
+    with open_embeddings(run.config) as embeddings, ExitStack() as stack:
         for record in records:
             if record.episode != episode:
                 episode = record.episode
                 for home in homes.values():
                     home.restore({})
             if record.scene not in homes:
-                homes[record.scene] = open_home(run.config, record.scene, embeddings)
+                homes[record.scene] = stack.enter_context(open_home(run.config, record.scene, embeddings))
             yield _hour(homes[record.scene], record, look)
-    finally:
-        for home in homes.values():
-            home.close()
 
 
 def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], None] | None) -> Replayed:
