@@ -143,7 +143,7 @@ def open_services(
                 config.seed,
                 config.learning,
             ),
-            told_who=config.who == "known",
+            told_who=config.identity == "known",
             hourly_traits=config.traits == "hourly",
             own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
             recorder=run,
@@ -151,11 +151,11 @@ def open_services(
             seed=config.seed,
             frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
-            person=PERSON_MODELS[config.person],
+            person=PERSON_MODELS[config.person_model],
             sizes=config.search,
             lived=open_lived(config),
             told=told or nothing_was_told,
-            in_the_loop=config.human == "me",
+            in_the_loop=config.played_by == "me",
             graded=config.feedback == "graded",
         )
 
