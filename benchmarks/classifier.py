@@ -3,7 +3,7 @@
     python -m benchmarks.classifier --people 8 --classifiers kernel lora
 
 Each person lives five days. Each hour the robot imagines five intentions, the classifier under test accepts some, five
-tasks are imagined for each, and it accepts some of those; in the evening it learns from all that was imagined. Day 1 is
+tasks are imagined for each, and it accepts some of those; in the evening it learns from all that was imagined. Day 0 is
 untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions. All classifiers meet the
 same human days. `lora-instruct` has a small random model of Mistral's architecture for a base, which knows nothing of
 language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a benchmark takes
@@ -183,7 +183,7 @@ def main() -> None:
         numbers = range(chosen.first, chosen.first + chosen.people)
         for number in numbers:  # so that no classifier is charged for the first encoding of a text
             live(number, lambda kind: AlwaysYes(), embeddings, chosen.days)
-        print(f"{chosen.people} people, {chosen.days} days; F1 on day 1 | 2 | …, mean ± standard error over people")
+        print(f"{chosen.people} people, {chosen.days} days; F1 on day 0 | 1 | …, mean ± standard error over people")
         for name in chosen.classifiers:
             lives = [
                 live(

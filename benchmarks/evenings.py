@@ -3,8 +3,8 @@
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
 Evenings are those of one person of the toy household: what the robot imagined in the day, and what is kept of earlier
-days (`coopera.graphs.rehearsal`), so that day 50 is known without living 50 days. Seconds are of the processor, of one
-thread; growth is the last day's by those of day 5, or of the first day asked for after it.
+days (`coopera.graphs.rehearsal`), so that the evening after 50 days is known without living them. Seconds are of the
+processor, of one thread; growth is the last evening's by that after 5 days, or the first asked for later.
 `lora-instruct` runs on a random model of Mistral's architecture (--hidden, --layers): its seconds are those of that
 size; its ratio to sampling is between two ways of asking the same model, with random weights that seldom end a text
 early, which is the sampling's worst case.
@@ -32,7 +32,7 @@ from coopera.models.classifiers.instruction import read_recipe
 from coopera.prompts import PromptLibrary
 
 PERSON = 1000
-FULL = 5  # from this day on there are as many examples as an evening takes, so that it should grow no longer
+FULL = 5  # after so many days there are as many examples as an evening takes, so that it should grow no longer
 INSTRUCT = PromptLibrary().instruct
 SAMPLES, TOKENS = 3, 100  # the authors' code: so many texts of so many tokens for each verdict
 
@@ -62,7 +62,7 @@ def imagined(days: int, embeddings: Embeddings) -> dict[CandidateKind, list[list
 def evening(
     name: str, day: int, lived: dict[CandidateKind, list[list[Example]]], embeddings: Embeddings, recipe: Path
 ) -> float:
-    """Processor seconds of learning in the evening of a day (from 1), going on from the evening before."""
+    """Processor seconds of learning in the evening after so many days, going on from the evening before."""
     seconds = 0.0
     for kind, days in lived.items():
         judge = make_classifier(name, kind=kind, embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)
@@ -121,7 +121,7 @@ def main() -> None:
         embeddings = bundled(Path(folder) / "embeddings.sqlite")
         lived = imagined(max(chosen.days), embeddings)
         recipe = tiny_recipe(Path(folder), hidden=chosen.hidden, layers=chosen.layers)
-        print("| classifier | " + " | ".join(f"day {day}" for day in chosen.days) + " | growth | peak MB |")
+        print("| classifier | " + " | ".join(f"after {day} days" for day in chosen.days) + " | growth | peak MB |")
         print("|---|" + "---|" * (len(chosen.days) + 2))
         for name in chosen.classifiers:
             one = make_classifier(name, kind="task", embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)

@@ -102,7 +102,7 @@ def main() -> None:
         summaries = list(each(_summary, [(args, job) for job in jobs]))
     for collab in types:
         print(f"\nCollaboration type {collab}\n")
-        print("| method | measure | " + " | ".join(f"day {day + 1}" for day in range(args.days)) + " | last - first |")
+        print("| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | last - first |")
         print("|---|---|" + "---|" * (args.days + 1))
         for method in methods:
             mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
@@ -130,7 +130,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         classifier=job.classifier,
         classifier_config=args.classifier_config if job.classifier == "lora-instruct" else None,
         pictures="none",
-        lived=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
+        earlier_life=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
         out=folder,
     )
     return run_study(config)

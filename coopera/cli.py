@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
 
 import typer
 
@@ -20,6 +23,7 @@ from coopera.commands import (
     scenes,
     sharing,
 )
+from coopera.core.deprecation import OldWordWarning
 from coopera.core.errors import ConfigError, CooperaError
 
 app = typer.Typer(
@@ -51,8 +55,14 @@ def main(args: Sequence[str] | None = None) -> int:
 
     What is wrong is said in one sentence on standard error.
     """
+    with warnings.catch_warnings():
+        warnings.showwarning = partial(_say_warning, warnings.showwarning)
+        return _run(list(sys.argv[1:] if args is None else args))
+
+
+def _run(args: list[str]) -> int:
     try:
-        code = app(list(sys.argv[1:] if args is None else args), prog_name="coopera", standalone_mode=False)
+        code = app(args, prog_name="coopera", standalone_mode=False)
     except ConfigError as err:
         return _fail(str(err), 2)
     except CooperaError as err:
@@ -63,6 +73,14 @@ def main(args: Sequence[str] | None = None) -> int:
         sys.stderr.close()
         return 1
     return code if isinstance(code, int) else 0
+
+
+def _say_warning(usual: Callable[..., None], message: Warning | str, category: type[Warning], *where: Any) -> None:
+    """Say that a word is old in one sentence, as errors are said; other warnings are shown as usual."""
+    if issubclass(category, OldWordWarning):
+        typer.echo(f"coopera: {message}", err=True)
+    else:
+        usual(message, category, *where)
 
 
 def _fail(sentence: str, code: int) -> int:

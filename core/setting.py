@@ -17,6 +17,7 @@ class Setting:
         metavar: What stands for the value in help, such as DIR; empty takes the values, or the type.
         unset: What holds where nothing is given, in words; empty where the default says it.
         values: Names that may be given, where no type says them and they cost nothing to know.
+        formerly: What the setting was called before; the old name, and `--` with it, work for a version.
         listed: The word after `coopera list` that lists the values; empty where there is no list.
     """
 
@@ -26,4 +27,5 @@ class Setting:
     metavar: str = ""
     unset: str = ""
     values: tuple[str, ...] = ()
+    formerly: str = ""
     listed: str = ""

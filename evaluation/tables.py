@@ -159,7 +159,7 @@ def generalisation_table(rows: Sequence[Row]) -> Table:
         "Generalisation: a fresh robot, and one that has learned elsewhere, on the same unseen day",
         ["unseen", "fresh", "learned", "paper: fresh", "paper: learned"],
         lines,
-        "Scene: day 5 of setting 2, after four other homes. Human: a stranger after nine days with three others.",
+        "Scene: day 4 of setting 2, after four other homes. Human: a stranger after nine days with three others.",
     )
 
 

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import yaml
 
 from coopera.config.at_most import at_most, smaller
+from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import Config, load_config
 from coopera.core.errors import ConfigError, RunError
@@ -85,7 +86,7 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
         for method in methods:
             jobs.append(_job(life, method, out / "runs" / life.name / method, home, base))
     for job in {(job.config.method, job.labels["setting"], job.labels["episode"]): job for job in jobs}.values():
-        resolve(job.config.model_copy(update={"out": None, "lived": None}), known)
+        resolve(job.config.model_copy(update={"out": None, "earlier_life": None}), known)
     return Benchmark(out, grid, jobs)
 
 
@@ -96,10 +97,12 @@ def claim_folder(bench: Benchmark) -> None:
         ConfigError: If it cannot be written or holds something else.
     """
     path = bench.root / "grid.yaml"
-    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person"})
+    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person_model"})
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
     if path.is_file():
         before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
+        for key in ("run", "shared"):
+            before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
         # methods, seeds and settings may be added to what was run
         fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
@@ -198,6 +201,7 @@ def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
     given = {name: value for name, value in flags.items() if value is not None}
     if path:
         read_grid(data, str(path))
+        data = {**data, "run": in_words_of_today(Config, data.get("run") or {}, f"{path}: run")}
     return _cut(read_grid({**data, **given}, str(path) if path and not given else "the grid"))
 
 
@@ -230,7 +234,7 @@ def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Confi
             "method",
             "seed",
             "out",
-            "lived",
+            "earlier_life",
         ):
             raise ConfigError(f"{file or 'run'}: run.{name}: the grid itself decides this.")
     return load_config(None, {**{"pictures": "none"}, **grid.run, **flags})
@@ -244,7 +248,7 @@ def _life_config(life: Life, grid: Grid, config: Config) -> Config:
 
 
 def _job(life: Life, method: str, folder: Path, lived: Path | None, base: Config) -> RunJob:
-    config = base.model_copy(update={"method": method, "out": folder, "lived": lived})
+    config = base.model_copy(update={"method": method, "out": folder, "earlier_life": lived})
     labels = {
         "method": method,
         "setting": life.setting,

@@ -83,7 +83,7 @@ def _tried(config: Config, hours: int) -> list[ModelCall]:
                 "models": Models(),
                 "backbone": "offline:words",
                 "schedule": None,
-                "lived": None,
+                "earlier_life": None,
                 "pictures": "none",
                 "budget": Budget(),
                 "out": Path(folder) / "run",

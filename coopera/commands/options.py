@@ -10,8 +10,10 @@ from typing import Annotated, Any, get_origin
 import typer
 from typer.models import OptionInfo
 
-from coopera.config.declared import Declared
+from coopera.config.declared import OLD_WORDS_GO, Declared
 from coopera.config.schema import SETTINGS
+from coopera.core.deprecation import deprecated
+from coopera.core.errors import ConfigError
 
 RunPath = Annotated[Path, typer.Argument(metavar="RUN", help="A run directory, such as runs/run-001.")]
 AsJson = Annotated[bool, typer.Option("--json", help="End with one line of JSON on standard output.")]
@@ -40,12 +42,16 @@ def takes_settings(command: Callable[..., None]) -> Callable[..., None]:
     """
     signature = inspect.signature(command, eval_str=True)
     made = {one.name.replace(".", "_"): one for one in SETTINGS.values() if one.words.flag}
+    old = {f"formerly_{name}": one for name, one in made.items() if one.words.formerly}
     parameters: list[inspect.Parameter] = []
     for parameter in signature.parameters.values():
-        parameters += _parameters(made) if parameter.name == "flags" else [parameter]
+        parameters += [*_parameters(made), *_parameters(old, old=True)] if parameter.name == "flags" else [parameter]
 
     def with_settings(**given: Any) -> None:
         flags = {one.name: given.pop(name) for name, one in made.items()}
+        for name, one in old.items():
+            if (value := given.pop(name)) is not None:
+                flags[one.name] = _given_by_old_flag(one, value, flags[one.name])
         command(flags=nested(flags), **given)
 
     with_settings.__name__, with_settings.__doc__ = command.__name__, command.__doc__
@@ -75,8 +81,21 @@ def as_list(text: str | None) -> list[str] | None:
     return None if text is None else [name.strip() for name in text.split(",") if name.strip()]
 
 
-def _parameters(made: Mapping[str, Declared]) -> Iterator[inspect.Parameter]:
+def _given_by_old_flag(one: Declared, value: Any, today: Any) -> Any:
+    before, now = _old_flag(one), one.words.flag
+    if today is not None:
+        raise ConfigError(f"{before} and {now} are one setting, and only {now} may be given.")
+    deprecated(before, f"{now}", OLD_WORDS_GO)
+    return value
+
+
+def _old_flag(one: Declared) -> str:
+    return f"--{one.words.formerly}"
+
+
+def _parameters(made: Mapping[str, Declared], *, old: bool = False) -> Iterator[inspect.Parameter]:
     for name, one in made.items():
         kind = type(one.values[0]) if one.values else one.type if one.type in (int, float, Path) else str
-        annotation = Annotated[kind | None, option(one.name)]  # type: ignore[valid-type]
+        found = typer.Option(_old_flag(one), hidden=True) if old else option(one.name)
+        annotation = Annotated[kind | None, found]  # type: ignore[valid-type]
         yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)

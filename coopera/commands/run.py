@@ -113,7 +113,7 @@ def _carry_out(
 
     try:
         # a live line and a person's typing would get in each other's way
-        console = Console(stderr=True, highlight=False, force_terminal=False) if config.human == "me" else None
+        console = Console(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
         with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
     except WaitingError as err:

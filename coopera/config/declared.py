@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -12,6 +13,8 @@ from annotated_types import Ge, Le
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from coopera.core.deprecation import deprecated
+from coopera.core.errors import ConfigError
 from coopera.core.setting import Setting
 
 
@@ -93,7 +96,12 @@ class Declared:
         return f"{self.words.help} [{said}]" if said else self.words.help
 
 
-def declared(model: type[BaseModel], prefix: str = "") -> dict[str, Declared]:
+OLD_WORDS_GO = "0.3"
+"""The version that no longer knows what settings were called before."""
+
+
+@lru_cache
+def declared(model: type[BaseModel], prefix: str = "") -> Mapping[str, Declared]:
     """All settings of a configuration by name, each section before its fields.
 
     Raises:
@@ -106,6 +114,25 @@ def declared(model: type[BaseModel], prefix: str = "") -> dict[str, Declared]:
         if one.section:
             found |= declared(one.section, f"{one.name}.")
     return found
+
+
+def in_words_of_today(model: type[BaseModel], data: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Return a configuration's fields by the names that they have now, with a warning for each old name.
+
+    Args:
+        model: The configuration.
+        data: Its fields as given.
+        where: Who gave them, such as a file, for the error.
+
+    Raises:
+        ConfigError: If a setting is given by both its names.
+    """
+    now = {one.words.formerly: name for name, one in declared(model).items() if one.words.formerly}
+    for old in (name for name in data if name in now):
+        if now[old] in data:
+            raise ConfigError(f"{where}: {old} and {now[old]} are one setting, and only {now[old]} may be given.")
+        deprecated(f"the setting {old}", now[old], OLD_WORDS_GO)
+    return {now.get(name, name): value for name, value in data.items()}
 
 
 def listed(names: Sequence[Any], last: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import Annotated, Any, Literal
 import yaml
 from pydantic import Field, ValidationError, field_validator, model_validator
 
-from coopera.config.declared import declared
+from coopera.config.complaints import complaint
+from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
@@ -159,12 +159,13 @@ class Config(Frozen):
             flag="--learning",
         ),
     ] = "warm"
-    who: Annotated[
+    identity: Annotated[
         Literal["known", "unknown"],
         Setting(
             "Whether the robot is told whom it is with, or only on the first day with somebody, to guess from "
             "behaviour on later days (unknown).",
-            flag="--who",
+            flag="--identity",
+            formerly="who",
         ),
     ] = "known"
     traits: Annotated[
@@ -175,13 +176,14 @@ class Config(Frozen):
             flag="--traits",
         ),
     ] = "evening"
-    human: Annotated[
+    played_by: Annotated[
         str,
         Field(pattern=r"^(simulated|me|log:.+)$"),
         Setting(
             "Who plays the person: the simulation, you (asked hour by hour), or a real person's log.",
             "simulated, me or log:FILE",
-            flag="--human",
+            flag="--played-by",
+            formerly="human",
             metavar="simulated|me|log:FILE",
         ),
     ] = "simulated"
@@ -192,11 +194,12 @@ class Config(Frozen):
             flag="--feedback",
         ),
     ] = "yes_no"
-    person: Annotated[
+    person_model: Annotated[
         Text,
         Setting(
             "How a simulated person is made: the paper's way, or one of its ablations.",
-            flag="--person",
+            flag="--person-model",
+            formerly="person",
             values=tuple(PERSON_MODELS),
         ),
     ] = "full"
@@ -256,12 +259,13 @@ class Config(Frozen):
             "a model such as offline:words",
         ),
     ] = "offline:words"
-    lived: Annotated[
+    earlier_life: Annotated[
         Path | None,
         Setting(
             "A finished run of --method none, whose days the people live again.",
             "the path of a finished run without a robot",
-            flag="--lived",
+            flag="--earlier-life",
+            formerly="lived",
             metavar="RUN",
         ),
     ] = None
@@ -284,6 +288,11 @@ class Config(Frozen):
             unset="COOPERA_DATA_DIR, or the user's own data folder",
         ),
     ] = Field(default_factory=default_data_dir)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_words_of_today(cls, data: Any) -> Any:
+        return in_words_of_today(cls, data, "Config") if isinstance(data, dict) else data
 
     @model_validator(mode="before")
     @classmethod
@@ -328,7 +337,7 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
     Raises:
         ConfigError: Naming the file or flag, the field and what was expected.
     """
-    data = read_yaml(path, "study file") if path else {}
+    data = in_words_of_today(Config, read_yaml(path, "study file"), str(path)) if path else {}
     given = {name: value for name, value in (flags or {}).items() if value is not None}
     merged = {**data, **given}
     for section in (name for name, one in SETTINGS.items() if one.section):
@@ -337,33 +346,4 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
     try:
         return Config.model_validate(merged)
     except ValidationError as err:
-        raise ConfigError(_sentence(err, str(path), given)) from None
-
-
-def _sentence(err: ValidationError, file: str, flags: Mapping[str, Any]) -> str:
-    """Turn the first of pydantic's complaints into one sentence."""
-    first = err.errors(include_url=False)[0]
-    names = [part for part in first["loc"] if isinstance(part, str)]
-    if first["type"] == "extra_forbidden":
-        *section, name = names
-        fields = ((SETTINGS[section[0]].section if section else None) or Config).model_fields
-        near = difflib.get_close_matches(name, fields, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(fields)}"
-        return f"{file}: there is no field {name!r} ({hint})."
-    field = next(name for size in range(len(names), 0, -1) if (name := ".".join(names[:size])) in SETTINGS)
-    where = _flag(field, flags) or f"{file}: {field}"
-    return f"{where} must be {SETTINGS[field].expected}, not {first['input']!r}."
-
-
-def _flag(field: str, flags: Mapping[str, Any]) -> str | None:
-    """The flag that a wrong value came from, or None where it came from the file."""
-    name, _, inner = field.partition(".")
-    if name not in flags:
-        return None
-    given, whole, part = flags[name], SETTINGS[name], SETTINGS[field].words.flag
-    if whole.section is None or not inner:
-        return part
-    if inner not in given:
-        return None
-    for_all = len(given) == len(whole.section.model_fields) and len(set(given.values())) == 1
-    return whole.words.flag if for_all and whole.words.flag else part
+        raise ConfigError(complaint(err, Config, str(path), given)) from None

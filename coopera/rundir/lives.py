@@ -58,7 +58,7 @@ def read_lives(paths: Sequence[Path]) -> FoundLives:
         run = RunDir.open(path)
         kinds[path] = (str(run.info.get("models", {}).get("human", run.config.models.human)), run.config.collab)
         _same_kind(kinds, path)
-        variant = str(getattr(run.config, "person", FULL))
+        variant = run.config.person_model
         lives = variants.setdefault(variant, Lives([], {}, []))
         hours = run.hours()
         days = _days(run, hours)

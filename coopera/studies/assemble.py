@@ -149,7 +149,7 @@ def open_services(
                 config.seed,
                 config.learning,
             ),
-            identity_known=config.who == "known",
+            identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",
             own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
             recorder=run,
@@ -157,11 +157,11 @@ def open_services(
             seed=config.seed,
             frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
-            person=PERSON_MODELS[config.person],
+            person=PERSON_MODELS[config.person_model],
             sizes=config.search,
             lived=open_lived(config),
             logged=logs or nothing_was_logged,
-            in_the_loop=config.human == "me",
+            in_the_loop=config.played_by == "me",
             graded=config.feedback == "graded",
         )
 

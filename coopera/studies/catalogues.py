@@ -64,7 +64,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
-    _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
+    _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
     _check("robot", "robot", [config.robot], list(ROBOTS))
     _refuse_online(config)
     _check("humans", "person", config.humans or [], known.people)
@@ -79,7 +79,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
-        _livable(humans.find(person, config.data_dir), config.person)
+        _livable(humans.find(person, config.data_dir), config.person_model)
     return cut(
         config.model_copy(
             update={
@@ -145,7 +145,9 @@ def _check(field: str, what: str, wanted: Sequence[str], known: Sequence[str]) -
 def _livable(persona: Persona, model: str) -> None:
     """Refuse a person who lacks the text that a person model lives by."""
     if not PERSON_MODELS[model].profile(persona):
-        raise ConfigError(f"humans: {persona.id} has no notes in the persona file, and --person {model} lives by them.")
+        raise ConfigError(
+            f"humans: {persona.id} has no notes in the persona file, and --person-model {model} lives by them."
+        )
 
 
 def _knowledge(models: Models) -> None:

@@ -43,8 +43,10 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
     Raises:
         RunError: If the run has no hours yet, or its people lived their hours in another run.
     """
-    if run.config.lived is not None:
-        raise RunError(f"{run.root}: this run met days lived before; replay that life instead: {run.config.lived}.")
+    if run.config.earlier_life is not None:
+        raise RunError(
+            f"{run.root}: this run met days lived before; replay that life instead: {run.config.earlier_life}."
+        )
     records = run.hours()
     if not records:
         raise RunError(f"{run.root}: there are no hours to replay yet.")

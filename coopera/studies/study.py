@@ -52,7 +52,7 @@ def nobody(question: Question) -> Answer:
     Raises:
         WaitingError: Always.
     """
-    raise WaitingError(f"The run waits for {question.name}: day {question.day + 1}, {question.time}.")
+    raise WaitingError(f"The run waits for {question.name}: day {question.day}, {question.time}.")
 
 
 def run_study(
@@ -68,7 +68,7 @@ def run_study(
     Args:
         config: What to run; what it leaves open is filled in.
         on_event: Told of each node that ends.
-        ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
+        ask_person: Puts a question to a real person, with `played_by: me`; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
         resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it

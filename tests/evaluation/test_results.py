@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -134,5 +135,8 @@ def test_tables_and_figures_are_drawn_of_whatever_there_is() -> None:
     assert "| ours | 0.667 | 0.505 |" in tables["paper"].markdown()
     assert r"\label{tab:comparisons}" in tables["comparisons"].latex()
     assert r"95 \%" in tables["last_day_predicate"].latex()
-    assert all_figures(rows, ["ours", "random"]) == all_figures(rows, ["ours", "random"])
+    drawn = all_figures(rows, ["ours", "random"])
+    assert drawn == all_figures(rows, ["ours", "random"])
     assert "generalisation" not in tables
+    days = re.findall(r">(\d)</text>", drawn["breakdown_predicate"])
+    assert set(days) == {"0", "1"}, "days are counted from 0"

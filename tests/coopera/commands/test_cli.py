@@ -92,7 +92,7 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     ("wrong", "sentence"),
     [
         (["--model", "gpt"], 'the model "gpt" is unknown'),
-        (["--lived", "missing"], "missing: this folder holds no run"),
+        (["--earlier-life", "missing"], "missing: this folder holds no run"),
     ],
 )
 def test_what_is_found_wrong_only_when_the_run_opens_leaves_no_run_behind(

@@ -81,7 +81,7 @@ def test_what_every_setting_says_of_itself_is_one_sentence() -> None:
     ("flags", "field", "value"),
     [
         (["--setting", 2], "setting", 2),
-        (["--person", "single_shot"], "person", "single_shot"),
+        (["--person-model", "single_shot"], "person_model", "single_shot"),
         (["--humans", "joan, amara"], "humans", ["joan", "amara"]),
         (["--prompts", "mine"], "prompts", Path("mine")),
         (["--budget-calls", 3], "budget", {"calls": 3, "tokens": None}),
