@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
@@ -213,11 +213,22 @@ class Help(Frozen):
 
 
 class Success(Frozen):
-    """The hour's success by each measure; `help` is None in traces of before it was measured."""
+    """The hour's success by each measure; `help` is None in traces of before it was measured.
+
+    The figures of further measures stand beside these, each under its own name (`coopera.evaluation.measuring`).
+    """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, dict[str, int | float | None]] = Field(init=False)
 
     predicate: Counts
     judge: Counts
     help: Help | None = None
+
+    def of(self, measure: str) -> Counts | Help | dict[str, int | float | None] | None:
+        """The figures by a measure; None where it was not taken."""
+        shipped = {"predicate": self.predicate, "judge": self.judge, "help": self.help}
+        return shipped[measure] if measure in shipped else self.__pydantic_extra__.get(measure)
 
 
 class ModelCall(Frozen):

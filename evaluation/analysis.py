@@ -7,9 +7,10 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import NamedTuple
 
 from coopera.core.hour import Help
+from coopera.evaluation.agreement import l1
 from coopera.evaluation.comparing import Comparison, Unit, clustered_mean, compare
 from coopera.evaluation.counts import pool
-from coopera.evaluation.measures import help_score, l1, pool_help
+from coopera.evaluation.measures.help import help_score, pool_help
 from coopera.evaluation.results import Row
 from coopera.evaluation.statistics import Interval
 
@@ -30,7 +31,7 @@ def score(rows: Iterable[Row], measure: str) -> float | None:
         return pool(counts for row in hours if (counts := row.counts(measure))).f1
     measured = [row for row in hours if row.remaining is not None]
     fields = [{name: getattr(row, name) or 0 for name in Help.model_fields} for row in measured]
-    return help_score(pool_help(Help(**each) for each in fields))
+    return help_score(pool_help([Help(**each) for each in fields]))
 
 
 def units(rows: Iterable[Row], measure: str) -> dict[str, dict[tuple[Hashable, ...], Unit]]:

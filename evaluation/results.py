@@ -17,7 +17,7 @@ from pydantic import Field, ValidationError
 from coopera.core.errors import ConfigError
 from coopera.core.hour import Counts, Evening, HourRecord
 from coopera.core.people import Frozen
-from coopera.evaluation.measures import by_person
+from coopera.evaluation.agreement import by_person
 
 FORMAT = 1
 """Raised whenever a column changes its meaning; readers refuse other numbers."""

@@ -18,7 +18,7 @@ from coopera.config.schema import Config, load_config
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
-from coopera.evaluation.measures import robot_seconds
+from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
