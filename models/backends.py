@@ -2,7 +2,7 @@
 
 A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone, `offline:FILE.yaml` knows a
 household of one's own), `openai:MODEL` (any OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER`
-(in this process), `replay:RUN` (what was said in an earlier run), or `PROVIDER:MODEL` for the other providers of
+(in this process), `recorded:RUN` (what was said in an earlier run), or `PROVIDER:MODEL` for the other providers of
 LangChain. A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
 """
 
@@ -24,7 +24,7 @@ from langchain_core.messages import AIMessage, BaseMessage
 from coopera.core.errors import ConfigError, ModelCallError
 from coopera.core.protocols import Role
 from coopera.models.cache import CachedReply
-from coopera.models.replay import Past
+from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import CallSettings, Structure
 from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
@@ -32,7 +32,7 @@ ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
     "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
-    "huggingface:REPO-OR-FOLDER, replay:RUN, "
+    "huggingface:REPO-OR-FOLDER, recorded:RUN, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
 _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
@@ -169,8 +169,8 @@ def open_backend(
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
-    if provider == "replay":
-        past = Past(Path(name))
+    if run := recorded_run(spec.removesuffix(_PICTURES)):
+        past = Past(run)
         return Backend(spec, None, sees=past.sees(role), past=past)
     if provider == "huggingface":
         return _huggingface(spec, name, chosen)

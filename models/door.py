@@ -25,7 +25,7 @@ from coopera.models.backends import Backend, Request, open_backends
 from coopera.models.budget import Meter
 from coopera.models.cache import CachedReply, ReplyCache, key_of
 from coopera.models.parsing import BadReplyError, read_reply
-from coopera.models.replay import SCHEMA_FOLLOWS, Past
+from coopera.models.recorded import SCHEMA_FOLLOWS, Past
 from coopera.models.schemas import enforced_schema, schema_of, strays
 from coopera.models.settings import CallSettings
 from coopera.models.transport import Sleep, wait

@@ -116,7 +116,7 @@ def run(
         "pictures": pictures,
         "budget": _given(calls=budget_calls, tokens=budget_tokens),
     }
-    config = resolve(load_config(study or _replayed(model), flags))
+    config = resolve(load_config(study or _recorded(model), flags))
     assert config.out is not None  # resolve sets it
     if estimate:
         _show_estimate(config, as_json=as_json)
@@ -155,12 +155,13 @@ def _given(**numbers: int | None) -> dict[str, int] | None:
     return {name: number for name, number in numbers.items() if number is not None} or None
 
 
-def _replayed(model: str | None) -> Path | None:
-    """The study file of the run that is to be replayed, so that it need not be described again."""
+def _recorded(model: str | None) -> Path | None:
+    """The study file of the run whose record is to answer, so that it need not be described again."""
+    from coopera.models.recorded import recorded_run
     from coopera.rundir.directory import RunDir
 
-    kind, _, folder = (model or "").partition(":")
-    return RunDir.open(Path(folder)).root / "config.yaml" if kind == "replay" else None
+    folder = recorded_run(model or "")
+    return RunDir.open(folder).root / "config.yaml" if folder else None
 
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:
