@@ -6,7 +6,7 @@ in place of our graph:
 
     METHOD = Method(name="stubborn", own=Stubborn)
 
-`evaluation.conformance.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
+`coopera.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
 choice of `coopera run --method`:
 
     [project.entry-points."coopera.methods"]
