@@ -2,12 +2,12 @@
 
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
-Evenings are those of one person of the toy household: what the robot imagined in the day, and what is kept of earlier
-days (`coopera.graphs.rehearsal`), so that day 50 is known without living 50 days. Seconds are of the processor, of one
-thread; growth is the last day's by those of day 5, or of the first day asked for after it.
-`lora-instruct` runs on a random model of Mistral's architecture (--hidden, --layers): its seconds are those of that
-size; its ratio to sampling is between two ways of asking the same model, with random weights that seldom end a text
-early, which is the sampling's worst case.
+An evening learns from a day of one person of the toy household and from the rehearsed examples of earlier days
+(`coopera.graphs.rehearsal`). So day 50 can be measured without simulating 50 days. Seconds are processor time of one
+thread. Growth is the last day's time divided by the time of day 5, or of the first day asked for after day 5.
+`lora-instruct` runs on a random model of Mistral's architecture, and its seconds hold for this size only (--hidden,
+--layers). The ratio to sampling compares two ways of asking the same model. Random weights seldom end a text early:
+this is the worst case for sampling.
 """
 
 from __future__ import annotations

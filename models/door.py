@@ -181,8 +181,8 @@ class Door:
     def take_calls(self) -> list[ModelCall]:
         """Return the calls made since the last time, and forget them.
 
-        The order is that of the nodes' first calls; within a node, that of the draws, since those of nodes that ran
-        in parallel end in any order.
+        Nodes come in the order of their first calls. Within a node calls come in the order of their draws, since
+        parallel calls end in any order.
         """
         with self._lock:
             calls, self._calls = self._calls, []
