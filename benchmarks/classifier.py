@@ -2,12 +2,12 @@
 
     python -m benchmarks.classifier --people 8 --classifiers kernel lora
 
-Each person lives five days. Each hour the robot imagines five intentions, the classifier under test accepts some, five
-tasks are imagined for each, and it accepts some of those; in the evening it learns from all that was imagined. Day 0 is
-untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions. All classifiers meet the
-same human days. `lora-instruct` has a small random model of Mistral's architecture for a base, which knows nothing of
-language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a benchmark takes
-people from 1000 on.
+Each person lives five days. Each hour the robot imagines five intentions, and the classifier under test accepts some.
+The robot imagines five tasks for each of these, and the classifier accepts some. In the evening it learns from all
+these candidates. Day 0 is untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions.
+All classifiers meet the same human days. `lora-instruct` has a small random model of Mistral's architecture for a base,
+without any language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a
+benchmark takes people from 1000 on.
 """
 
 from __future__ import annotations

@@ -150,7 +150,7 @@ def brute_force(vectors: Vector, hours: np.ndarray, query: Vector, now: int) -> 
 def langchain_retriever(
     folder: Path, size: int, embeddings: Prepared
 ) -> tuple[Callable[[str], list[int]], Callable[[], None]] | None:
-    """Return a function that asks LangChain's retriever and one that undoes what reading changed; None without it."""
+    """Return two functions: one asks LangChain's retriever, one undoes what reading changed; None without it."""
     try:
         retrievers: Any = import_module("langchain_classic.retrievers")
         store: Any = import_module("langchain_chroma")

@@ -1,4 +1,7 @@
-"""Settings, methods, measures of success and statistics. Names load when first used: methods need the graphs."""
+"""Settings, methods, baselines, measures, grids and statistics.
+
+Its names load when first used, since the methods need the graphs.
+"""
 
 from __future__ import annotations
 

@@ -55,11 +55,11 @@ class Habit:
 class Finetuned:
     """The robot's brain itself, finetuned each evening to output one intention and its tasks from what it sees.
 
-    PAPER §4.3 finetunes a language model. The offline model has no weights to finetune; what stands for it here is the
-    same map from input to output, trained on the same evenings: multinomial logistic regression from the words of the
-    percept and the hour to one of the intentions that were told, which is then carried out as on its most similar
-    occasion. It can only repeat what it was told, and it prefers what it was told often. With a robot model of Hugging
-    Face that model itself is finetuned (`coopera.evaluation.finetuned`).
+    PAPER §4.3 finetunes a language model. The offline model has no weights to finetune, so a multinomial logistic
+    regression takes its place. It learns the same map from the same evenings: from the words of the percept and the
+    hour to one intention of the accounts. The tasks are those of the most similar hour with this intention. It can only
+    repeat an intention of the accounts, and it prefers frequent ones. A robot model of Hugging Face is finetuned
+    itself (`coopera.evaluation.finetuned`).
     """
 
     def __init__(self) -> None:

@@ -1,7 +1,7 @@
 """The results of a benchmark as a table: one row per method and hour, in an open format that anybody can check.
 
-A results folder holds `results.json` (what was run, by what, and the SHA-256 of the table) and `hours.csv` (the rows,
-sorted; also as `hours.parquet` where pyarrow is installed). Every table, figure and statistic is computed from these.
+A results folder holds two files. `results.json` names the runs, the version and the SHA-256 of the table. `hours.csv`
+has the sorted rows, also as `hours.parquet` if pyarrow is installed. All tables, figures and statistics use these two.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ Share = Field(None, ge=0)
 class Row(Frozen):
     """One hour under one method.
 
-    `day` is the day of the episode and `round` how many days of this person came before in it. `human` is the SHA-256
-    of all that the person decided in the hour, and the same under every method. `activity` is the group of household
-    activities that the true intention is nearest to. The measures are those of docs/measures.md.
+    `day` is the day of the episode. `round` counts this person's earlier days in the episode. `human` is the SHA-256
+    of the person's decisions in the hour; it is the same under every method. `activity` is the group of household
+    activities nearest to the true intention. docs/measures.md defines the measures.
     """
 
     method: str

@@ -1,4 +1,7 @@
-"""The LangGraph state machines: the person's hour, the robot's hour, the day, the study."""
+"""The LangGraph state machines: the person's hour, the robot's hour, the whole hour, the day, the study.
+
+The services of their nodes, the learning of an evening and robots of one's own are here, too.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A day as a supervisor graph: start_day -> hour (looped) -> feedback -> infer_traits -> learn -> end_day.
 
-With a checkpointer, each pass through `hour` leaves a durable checkpoint; the state holds all that the next hour needs
-(the homes as they were left, what the robot believes), so a stopped day goes on in another process.
+With a checkpointer, each pass through `hour` leaves a durable checkpoint. The state holds everything for the next hour:
+the homes as they were left, and the robot's beliefs. So a stopped day goes on in another process.
 """
 
 from __future__ import annotations
@@ -105,10 +105,10 @@ def next_hour(state: DayState) -> Literal["hour", "feedback"]:
 
 
 def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Ask the person what was right of all that the robot imagined today. Writes `feedback`.
+    """Ask the person for feedback on all candidates of today. Writes `feedback`.
 
-    PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the imagined intentions too, and for
-    the whole superset rather than for what was done, so that both classifiers get labels that are not biased by them.
+    PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the intention candidates too, and for
+    the whole superset, not only for the tasks done. So the classifiers do not bias their own labels.
     """
     services, plan = _with_person(runtime.context), state["plan"]
     items: list[FeedbackItem] = []
@@ -119,7 +119,7 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Revise the robot's belief about the person from what it was told today. Writes `beliefs`, `traits_reasons`.
+    """Revise the robot's belief about the person from today's accounts. Writes `beliefs`, `traits_reasons`.
 
     A reply that cannot be read leaves the belief as it was.
     """

@@ -1,8 +1,8 @@
-"""Days that people have lived already, alone, so that several robots can meet the very same days.
+"""An earlier life: days that people lived alone before, so that several robots can meet the very same days.
 
-What a robot does in a home may change what the person does next; then no two methods would be measured on the same
-days. A run over lived days takes each hour of the person from a run without a robot: what they decided, what the robot
-was shown, what came of the person's own acts, and how they left the home at the end of the hour.
+A robot's acts may change the person's next acts, and then two methods would be measured on different days. So a run may
+take each hour of the person from an earlier run without a robot. It takes the person's decisions, the robot's
+observation, the outcomes of the person's acts, and the home at the end of the hour.
 """
 
 from __future__ import annotations

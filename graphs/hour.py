@@ -123,8 +123,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
 def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Have the person do the first task while the robot watches. Writes `observation`.
 
-    The robot gets sampled frames, in type 1 the task's text too (PAPER §3.1), and, where its model cannot look at
-    beliefs, what a perception module reports.
+    The robot gets sampled frames, in type 1 the task's text too (PAPER §3.1). If its model cannot look at pictures, it
+    gets the report of a perception module.
     """
     services, plan, clock = runtime.context, state["plan"], _clock(state)
     home, first = services.home(plan.scene), state["human"].tasks[0]
@@ -151,7 +151,7 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
 def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Have the person do what is left, except what the robot has done. Adds to `outcomes`.
 
-    In a day that was lived before, what came of the person's acts is known.
+    In an earlier life the outcomes of the person's acts are known.
     """
     home = runtime.context.home(state["plan"].scene)
     helped = state["robot"].outcomes if "robot" in state else []

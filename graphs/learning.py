@@ -56,7 +56,7 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
 def account_of(
     plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[FeedbackItem], belief: Belief
 ) -> DayAccount:
-    """What the person tells of a day: the true intentions and tasks, and the answers; failed hours are left out."""
+    """The person's account of a day: the true intentions and tasks, and the feedback; failed hours are left out."""
     answers: dict[int, list[FeedbackItem]] = {}
     for item in feedback:
         answers.setdefault(item.hour, []).append(item)
@@ -79,8 +79,8 @@ def account_of(
 def labelled(account: DayAccount) -> dict[CandidateKind, list[Example]]:
     """Turn a day's candidates and the person's yes and no into examples.
 
-    The true intention, told in the evening, is one more positive (as in the authors' code). An answer that
-    could not be read makes no example.
+    The true intention of the account is one more positive (as in the authors' code). An unreadable answer makes no
+    example.
     """
     examples: dict[CandidateKind, list[Example]] = {"intention": [], "task": []}
     for hour in account.hours:
@@ -128,8 +128,8 @@ class Learner:
     def be_at(self, learned: Sequence[int]) -> None:
         """Have the classifiers as they were after the evenings of these days of the run, reading them if need be.
 
-        Where one cannot be read (damaged, cut short, of another base) its training is done again from the records,
-        from the last day whose classifier is whole, with the same result.
+        An unreadable one (damaged, cut short, of another base) is trained again from the records, with the same result.
+        The training starts from the last day with a whole classifier.
 
         Raises:
             RunError: If the records of the examples cannot be read either.

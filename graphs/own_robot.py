@@ -1,21 +1,21 @@
 """Bring your own robot: two functions, under which any way of helping runs beside ours on the same human days.
 
-A robot is a class with `help` (an hour is watched; what may the person be up to, and which tasks would help?) and
-`learn` (in the evening the person tells what was right). A `Method` that names the class in its field `own` runs it
-in place of our graph:
+A robot is a class with two functions. `help` answers an observation with candidates: intentions, and tasks to help
+with. `learn` takes the person's account in the evening. A `Method` with the class in its field `own` runs it in place
+of our graph:
 
     METHOD = Method(name="stubborn", own=Stubborn)
 
-`evaluation.conformance.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
+`coopera.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
 choice of `coopera run --method`:
 
     [project.entry-points."coopera.methods"]
     stubborn = "my_package:METHOD"
 
-The rules: within an hour a robot knows its `RobotInput` and its `RobotContext` and nothing else. Between hours it
-changes nothing in itself, since an interrupted hour is done again, perhaps in another process: what it guessed earlier
-today is in `ctx.guesses`, what it was told on earlier days in `ctx.history`. What `learn` makes of the same evenings
-in the same order with the same seeds is the same. Every draw comes from `coopera.core.randomness`.
+The rules: within an hour a robot knows its `RobotInput` and its `RobotContext`, and nothing else. Between hours it does
+not change, since an interrupted hour is done again, perhaps in another process. Its guesses of earlier today are in
+`ctx.guesses`, the accounts of earlier days in `ctx.history`. `learn` gives the same result for the same evenings in the
+same order with the same seeds. Every draw comes from `coopera.core.randomness`.
 """
 
 from __future__ import annotations

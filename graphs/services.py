@@ -1,7 +1,7 @@
 """What the graphs' nodes work with: connections, processes and weights, passed as LangGraph's runtime context.
 
-Nothing here is ever stored in state. Each graph has a context of its own, so that a node cannot reach what
-its agent must not know: `RobotContext` holds neither the persona nor the person's memories.
+Nothing here is ever stored in state. Each graph has a context of its own, so a node cannot reach another agent's
+secrets: `RobotContext` holds neither the persona nor the person's memories.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class HumanContext:
 class RobotContext:
     """The robot's services for a day: no persona, no memory of the person's own.
 
-    `history` holds what the person told in the evenings; `guesses` what the robot itself inferred, of
-    which only today's count, since the evening replaces them by the truth.
+    `history` remembers the person's accounts of earlier days. `guesses` remembers the robot's own conclusions; only
+    today's count, since each evening brings the account of the day.
     """
 
     ask: Ask
@@ -142,7 +142,7 @@ class Services:
     sizes: SearchSizes = SearchSizes()
     """How much Search finds for an intention."""
     lived: Lived | None = None
-    """Days that were lived before, which the people live again; by default they live new ones."""
+    """An earlier life, whose days the people live again; by default they live new days."""
     logged: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_logged
     """What a real person wrote down of an hour."""
     in_the_loop: bool = False

@@ -35,7 +35,7 @@ class CachedEmbeddings(Embeddings):
 
     Used in a `with` statement, or closed, it lets go of the file; the next text that is not in RAM opens it again.
     Two processes may share the file. The key is the SHA-256 of the model's identity and the text. Texts are encoded
-    one by one, so that an embedding's bits depend neither on its neighbours nor on what was cached before.
+    one by one, so the bits of an embedding depend on its text alone.
 
     Attributes:
         model_id: Identity of the model; part of each key, and noted in every store that uses the model.

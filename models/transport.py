@@ -1,7 +1,8 @@
 """The way to a server: a gate that keeps the pace, and patience with requests that fail on their way.
 
-A request that the server could not take, or that came back as no chat completion, is sent again after a pause that
-doubles each time, or as long as the server's Retry-After asks for. Every failure is noted in the call's faults.
+A failed request is sent again after a pause. A request has failed if the server did not take it or sent back no chat
+completion. The pause doubles each time, or is as long as the server's Retry-After asks. The call's faults list every
+failure.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ _sharing = 1
 
 
 def share_pace(processes: int) -> None:
-    """Say that this process is one of several that keep the pace together: each keeps its part, at least 1 of it."""
+    """Share the pace between several processes: each keeps its part of every limit, at least 1."""
     global _sharing
     _sharing = processes
 

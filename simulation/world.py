@@ -194,7 +194,7 @@ class World:
         return self.layout.room_at(*self.state.place(agent)).name
 
     def things_on(self, room: str) -> dict[str, str]:
-        """What lies about in a room: {thing: what it is on}, sorted; "floor" for what is on nothing."""
+        """The movable things of a room, sorted: {thing: the furniture under it, or "floor"}."""
         there = {name for name, (_, where) in self.objects("movable").items() if where == room}
         things = (thing for thing in self.layout.movable if thing.name in there)
         return {thing.name: self.state.thing(thing).on or "floor" for thing in things}

@@ -157,8 +157,8 @@ def do_run(job: RunJob) -> None:
 def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
     """The rows of what is done, their card, and the robot's seconds per hour by method.
 
-    Lives that only some methods have met so far are left out, so that all methods are seen on the same days; where no
-    life is whole yet, all rows there are.
+    Only complete lives count, so all methods are compared on the same days. A life is complete when all methods have
+    met it. Before any life is complete, all rows count.
     """
     rows: list[Row] = []
     seconds: dict[str, list[float]] = {}

@@ -32,7 +32,7 @@ def run(
     from coopera.config.schema import load_config
     from coopera.studies.catalogues import resolve
 
-    config = resolve(load_config(study or _replayed(flags.get("models", {})), flags))
+    config = resolve(load_config(study or _recorded(flags.get("models", {})), flags))
     assert config.out is not None  # resolve sets it
     if estimate:
         _show_estimate(config, as_json=as_json)
@@ -67,15 +67,15 @@ def resume(
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
-def _replayed(models: Mapping[str, str]) -> Path | None:
-    """The study file of the run that `--model` replays, so that it need not be described again."""
+def _recorded(models: Mapping[str, str]) -> Path | None:
+    """The study file of the run whose record is to answer, so that it need not be described again."""
     from coopera.config.schema import Models
+    from coopera.models.recorded import recorded_run
     from coopera.rundir.directory import RunDir
 
     every = models.values() if len(models) == len(Models.model_fields) else ()
-    spec = next((spec for spec in every if spec.startswith("replay:")), "")
-    kind, _, folder = spec.partition(":")
-    return RunDir.open(Path(folder)).root / "config.yaml" if kind == "replay" else None
+    folder = next((found for spec in every if (found := recorded_run(spec))), None)
+    return RunDir.open(folder).root / "config.yaml" if folder else None
 
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:

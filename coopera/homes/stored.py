@@ -19,7 +19,7 @@ _INSTANCE = ".scene_instance.json"
 
 
 class Arrival(NamedTuple):
-    """An imported home: where it lies now, what was left out, and what `prove` says of it."""
+    """An imported home: its file, the parts left out, and the problems found by `prove`."""
 
     scene: Scene
     file: Path

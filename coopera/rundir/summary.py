@@ -50,9 +50,8 @@ def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
 def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = ()) -> dict[str, Any]:
     """The content of summary.json, from the hours in order and the evenings.
 
-    `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
-    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else. `repairs` counts what code mended
-    in the person's tasks.
+    `unscored` counts candidates without a score by the predicate, `judge_unscored` those without a readable verdict of
+    the judge. A failed hour counts in `failed_hours` alone. `repairs` counts the person's tasks mended by code.
     """
     days = sorted({record.day for record in hours})
     told = {evening.day: evening for evening in evenings}

@@ -33,8 +33,8 @@ class Replayed(NamedTuple):
 def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None) -> Iterator[Replayed]:
     """Do all acts of a run again, hour by hour; every episode begins with its homes as they were built.
 
-    The homes are never set from the trace, so that each hour builds on all those before it. Only after an hour that
-    came out differently is the home set to what the trace says, so that later hours are judged by themselves.
+    The homes are not set from the trace, so each hour builds on all hours before it. There is one exception: after an
+    hour with a difference the home is set to the state in the trace, so later hours are judged by themselves.
 
     Args:
         run: The run, open for reading.

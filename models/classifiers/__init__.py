@@ -1,4 +1,6 @@
-"""Yes/no classifiers of what the robot imagines, trained each evening from the person's feedback (PAPER §3.3).
+"""The yes/no classifiers of the robot's candidates (PAPER §3.3).
+
+The person's feedback trains them each evening.
 
 >>> from coopera.memory.embeddings import bundled
 >>> judge = make_classifier("kernel", kind="intention", embeddings=bundled())

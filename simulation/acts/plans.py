@@ -1,4 +1,4 @@
-"""The words in which the home's acts are planned: steps, plans, who takes up which floor, and what cannot be done."""
+"""The types for planning an act in the home: steps, plans, the floor that a body takes up, and refusals."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def other(agent: Agent) -> Agent:
 
 
 def discs(state: HomeState, agent: Agent) -> list[Disc]:
-    """The floor that an agent takes up: where it stands, and where the person sits or would get up to."""
+    """The floor taken up by an agent: its place, and for a sitting person also the place to get up to."""
     if agent == "robot":
         return [Disc(*state.robot.spot)]
     person = state.person

@@ -1,9 +1,8 @@
 """A Panda arm on a Husky base: the second body, from the robots that ship with pybullet.
 
 The arm's joints, axes and limits are those of the Panda's description. DEVIATES: the Husky is drawn at 0.55 of its
-size, since the homes' doors and the navigation radius of 0.30 m are made for indoor robots; the lifting column under
-the arm, which no arm of its reach can do without between a floor and the top of a fridge, and the mast with the camera
-are ours.
+size, since the homes' doors and the navigation radius of 0.30 m are made for indoor robots. We add a lifting column
+under the arm, since the arm alone cannot reach both the floor and the top of a fridge. We add a mast with the camera.
 """
 
 from __future__ import annotations

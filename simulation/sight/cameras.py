@@ -38,7 +38,7 @@ _APART = 0.8
 
 
 class Focus(NamedTuple):
-    """What is to be seen: the person at its deed, the furniture that hides nothing that matters, and the room."""
+    """The subject of a picture: the person in the act, the furniture under or around the body, and the room."""
 
     person: Placed
     ignore: tuple[str, ...]

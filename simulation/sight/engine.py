@@ -1,4 +1,4 @@
-"""pybullet, imported without the line that it prints to standard error: that belongs to the command that runs us."""
+"""pybullet, imported without its line on standard error: standard error belongs to the running command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a recorded act looks like: for every tick, where both bodies are, how they are bent, and what they hold.
+"""The look of a recorded act: for every tick the place and the pose of both bodies, and the things in their hands.
 
 A recording is a list of shots. A shot is what the robot watches from one place: the end of a walk and then a reach,
 a motion or a hand-over. Longer walks are cut, as a film would. Poses are computed only for the ticks asked for.
