@@ -3,8 +3,9 @@
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
 An evening learns from a day of one person of the toy household and from the rehearsed examples of earlier days
-(`coopera.graphs.rehearsal`). So the evening after 50 days can be measured without simulating them. Seconds are processor time of one
-thread. Growth is the last day's time divided by the time after 5 days, or after the first number of days asked for later.
+(`coopera.graphs.rehearsal`). So the evening after 50 days can be measured without simulating them. Seconds are
+processor time of one thread. Growth is the last evening's time divided by that after 5 days, or after the first number
+of days asked for later.
 `lora-instruct` runs on a random model of Mistral's architecture, and its seconds hold for this size only (--hidden,
 --layers). The ratio to sampling compares two ways of asking the same model. Random weights seldom end a text early:
 this is the worst case for sampling.
