@@ -28,13 +28,16 @@ from coopera.graphs.human import HumanInput, HumanState, build_human_graph, huma
 from coopera.graphs.identity import identify, sight
 from coopera.graphs.robot import (
     OracleInput,
+    OwnRobotContext,
+    RobotContext,
     RobotInput,
     RobotState,
     build_own_robot_graph,
     build_robot_graph,
     robot_hour,
 )
-from coopera.graphs.services import HumanContext, RobotContext, Services
+from coopera.graphs.robot_view import HomeView, RobotView, robots_door
+from coopera.graphs.services import HumanContext, Services
 from coopera.graphs.traits import guesses, revise
 from coopera.simulation.acts.state import digest
 
@@ -88,18 +91,24 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
 
     def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        plan, guessed = state["plan"], _with_whom(state, runtime.context)
-        ctx = robot_context(runtime.context, plan, guessed)
-        ctx.guesses.forget_from(_clock(state).now)
-        belief = state["belief"] if ctx.person == plan.person else state.get("beliefs", {}).get(ctx.person, Belief())
-        if runtime.context.hourly_traits and ctx.method.traits:
-            belief = _revised(runtime.context, plan, _clock(state), ctx.person, belief)
-        given = RobotInput(clock=_clock(state), observation=state["observation"], belief=belief)
-        helper = robot if ctx.own is None else own
-        if ctx.method.intentions == "given":
-            helper, given = oracle, OracleInput(**given, true_intention=state["human"].intention.text)
-        helped = robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))
-        believed = belief if runtime.context.hourly_traits else None
+        services, plan, clock = runtime.context, state["plan"], _clock(state)
+        guessed = _with_whom(state, services)
+        person = guessed or plan.person
+        services.memories("guesses", plan.episode, person).forget_from(clock.now)
+        belief = state["belief"] if person == plan.person else state.get("beliefs", {}).get(person, Belief())
+        if services.hourly_traits and services.method.traits:
+            belief = _revised(services, plan, clock, person, belief)
+        view = robot_view(services, plan, clock, state["observation"], belief, person)
+        home, method = services.home(plan.scene), services.method
+        if services.own:
+            done = own.invoke(RobotInput(), context=OwnRobotContext(view, home, method, services.own.robot))
+        elif method.intentions == "given":
+            told = OracleInput(true_intention=state["human"].intention.text)
+            done = oracle.invoke(told, context=RobotContext(view, home, method, services.learner))
+        else:
+            done = robot.invoke(RobotInput(), context=RobotContext(view, home, method, services.learner))
+        helped = robot_hour(cast(RobotState, done), view.observation)
+        believed = belief if services.hourly_traits else None
         return {"robot": helped.model_copy(update={"with_whom": guessed, "belief": believed})}
 
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
@@ -230,20 +239,22 @@ def human_context(services: Services, plan: DayPlan) -> HumanContext:
     )
 
 
-def robot_context(services: Services, plan: DayPlan, guessed: PersonId | None = None) -> RobotContext:
-    """The robot's services for a day: what it may know of the person, or of the one that it takes them for."""
-    person = guessed or plan.person
-    return RobotContext(
-        ask=services.ask,
+def robot_view(
+    services: Services, plan: DayPlan, clock: Clock, seen: Observation, belief: Belief, person: PersonId
+) -> RobotView:
+    """What the robot may know of an hour with a person, or with the one that it takes them for."""
+    return RobotView(
+        clock=clock,
+        observation=seen,
+        pictures=tuple(services.recorder.root / frame for frame in seen.frames),
         person=person,
+        belief=belief,
         collab=plan.collab,
-        method=services.method,
-        home=services.home(plan.scene),
-        history=services.memories("history", plan.episode, person),
-        guesses=services.memories("guesses", plan.episode, person),
-        learner=services.learner,
-        own=services.own.robot if services.own else None,
-        images=services.recorder.root,
+        home=HomeView.of(services.home(plan.scene)),
+        history=services.memories("history", plan.episode, person).to_read(),
+        guesses=services.memories("guesses", plan.episode, person).to_read(),
+        ask=robots_door(services.ask),
+        looks=services.ask.sees("robot"),
     )
 
 

@@ -1,15 +1,15 @@
 """What the graphs' nodes work with: connections, processes and weights, passed as LangGraph's runtime context.
 
 Nothing here is ever stored in state. Each graph has a context of its own, so that a node cannot reach what
-its agent must not know: `RobotContext` holds neither the persona nor the person's memories.
+its agent must not know: a robot's holds neither the persona nor the person's memories (`coopera.graphs.robot_view`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from langchain_core.embeddings import Embeddings
@@ -23,32 +23,11 @@ from coopera.core.randomness import Address, rng_at
 from coopera.graphs.earlier_life import Lived
 from coopera.graphs.learning import Learner
 from coopera.graphs.method import Method
-from coopera.graphs.own_robot import OwnRobot, Robot
+from coopera.graphs.own_robot import OwnRobot
 from coopera.graphs.person import FULL, PersonModel
 from coopera.graphs.real_person import Interview
-from coopera.memory import MemoryStream, Record, Search
-
-
-class Memories(NamedTuple):
-    """The two streams an agent keeps of a person: one of intentions, one of tasks."""
-
-    intentions: MemoryStream
-    tasks: MemoryStream
-
-    def forget_from(self, now: int) -> None:
-        """Drop what is of this hour or later, before an hour is done (again)."""
-        self.intentions.forget_from(now)
-        self.tasks.forget_from(now)
-
-    def add(self, intention: str, tasks: Sequence[str], now: int) -> None:
-        """Append one hour."""
-        self.extend([(now, intention, tasks)])
-
-    def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
-        """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""
-        added = list(hours)
-        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in added])
-        self.tasks.extend([Record(task, now, {}) for now, _, tasks in added for task in tasks])
+from coopera.graphs.robot_view import Memories
+from coopera.memory import MemoryStream, Search
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,28 +50,6 @@ class HumanContext:
     def search(self, texts: Sequence[str]) -> Search:
         """Search over a fixed list of texts (object names, motion captions)."""
         return Search(self.embeddings, list(texts))
-
-
-@dataclass(frozen=True, slots=True)
-class RobotContext:
-    """The robot's services for a day: no persona, no memory of the person's own.
-
-    `history` holds what the person told in the evenings; `guesses` what the robot itself inferred, of
-    which only today's count, since the evening replaces them by the truth.
-    """
-
-    ask: Ask
-    person: PersonId
-    collab: Collab
-    method: Method
-    home: Home
-    history: Memories
-    guesses: Memories
-    learner: Learner
-    own: Robot | None
-    """A robot of one's own, as it is after its last evening; None where our graph helps."""
-    images: Path
-    """The folder to which the observation's frames are relative."""
 
 
 def nothing_was_logged(_plan: DayPlan, _clock: Clock) -> None:

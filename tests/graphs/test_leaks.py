@@ -24,8 +24,7 @@ from coopera.evaluation import METHODS
 from coopera.graphs import Services, build_study_graph
 from coopera.graphs.learning import KINDS, Learner
 from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 from tests.fakes import MARA, ScriptedAsk, TableClassifier, moving, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -96,14 +95,14 @@ class Watched:
     def __init__(self, inner: Any, heard: list[Any]) -> None:
         self._inner, self._heard = inner, heard
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         memories = [
-            stream.recall("anything at all", given["clock"].now, 9)
-            for kept in (ctx.history, ctx.guesses)
+            stream.recall("anything at all", view.clock.now, 9)
+            for kept in (view.history, view.guesses)
             for stream in (kept.intentions, kept.tasks)
         ]
-        self._heard.append((dict(given), ctx.person, ctx.home.objects("movable"), memories))
-        proposal: Proposal = self._inner.help(given, ctx)
+        self._heard.append((view.clock, view.observation, view.belief, view.person, view.home, memories))
+        proposal: Proposal = self._inner.help(view)
         return proposal
 
     def learn(self, told: Any, *, seed: int) -> dict[str, Any]:
