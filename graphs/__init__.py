@@ -11,9 +11,10 @@ if TYPE_CHECKING:
     from coopera.graphs.human import build_human_graph
     from coopera.graphs.method import Method
     from coopera.graphs.own_robot import Robot
+    from coopera.graphs.player import HumanContext
     from coopera.graphs.robot import RobotContext, build_robot_graph
     from coopera.graphs.robot_view import RobotView
-    from coopera.graphs.services import HumanContext, Services
+    from coopera.graphs.services import Services
     from coopera.graphs.study import STATE_TYPES, build_study_graph
 
 __all__ = [
@@ -33,7 +34,7 @@ __all__ = [
 
 _HOMES = {
     "STATE_TYPES": "coopera.graphs.study",
-    "HumanContext": "coopera.graphs.services",
+    "HumanContext": "coopera.graphs.player",
     "Method": "coopera.graphs.method",
     "Robot": "coopera.graphs.own_robot",
     "RobotContext": "coopera.graphs.robot",

@@ -6,16 +6,16 @@ in place of our graph:
 
     METHOD = Method(name="stubborn", own=Stubborn)
 
-`coopera.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
-choice of `coopera run --method`:
+`coopera.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a choice of
+`coopera run --method`:
 
     [project.entry-points."coopera.methods"]
     stubborn = "my_package:METHOD"
 
 The rules: within an hour a robot knows its `RobotView` and nothing else. Between hours it changes nothing in itself,
 since an interrupted hour is done again, perhaps in another process: what it guessed earlier today is in `view.guesses`,
-what it was told on earlier days in `view.history`. What `learn` makes of the same evenings
-in the same order with the same seeds is the same. Every draw comes from `coopera.core.randomness`.
+what it was told on earlier days in `view.history`. What `learn` makes of the same evenings in the same order with the
+same seeds is the same. Every draw comes from `coopera.core.randomness`.
 """
 
 from __future__ import annotations

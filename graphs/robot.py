@@ -33,12 +33,12 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
-from coopera.graphs.human import when
 from coopera.graphs.learning import Known, Learner, example
 from coopera.graphs.method import Method, Numbers
 from coopera.graphs.own_robot import Robot, checked
 from coopera.graphs.recall import as_variables, best, recall_both
 from coopera.graphs.robot_view import RobotView
+from coopera.graphs.variables import when
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
 
