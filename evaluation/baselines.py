@@ -13,8 +13,7 @@ from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import DayAccount, IntentionCandidate, Observation, Proposal, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver
 from coopera.core.people import PersonId
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 
 
 class Occasion(NamedTuple):
@@ -37,9 +36,9 @@ class Habit:
         """Know nothing."""
         self._past: list[Occasion] = []
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         """Propose the habit of this hour."""
-        past = [one for one in self._past if (one.person, one.clock.hour) == (ctx.person, given["clock"].hour)]
+        past = [one for one in self._past if (one.person, one.clock.hour) == (view.person, view.clock.hour)]
         if not past:
             return Proposal(fallbacks=["nothing is known of this person at this hour"])
         times = Counter(one.intention for one in past)
@@ -67,11 +66,11 @@ class Finetuned:
         self._past: list[Occasion] = []
         self._model: Any = None
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         """Propose what was learned for such a sight at such an hour; before the first evening, nothing."""
         if not self._past:
             return Proposal(fallbacks=["nothing has been told yet"])
-        text = _shown(ctx.person, given["clock"], sight_of(given["observation"]))
+        text = _shown(view.person, view.clock, sight_of(view.observation))
         if self._model is None:  # one intention is all that was ever told
             return _propose(self._past[-1], 1.0)
         chances = dict(zip(self._model.classes_, self._model.predict_proba([text])[0], strict=True))

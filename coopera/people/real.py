@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias
 
 from coopera.config.schema import Config
-from coopera.core.clock import Clock, hour_label
+from coopera.core.clock import hour_label
 from coopera.core.errors import ConfigError
 from coopera.core.hour import DayPlan, LoggedHour
 from coopera.core.people import PersonId
+from coopera.graphs.stated import Logs
 from coopera.people.log_file import read_log
 
-Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
 _LOG = "log:"
 _ENDINGS = (".csv", ".jsonl", ".ndjson")
 

@@ -19,10 +19,14 @@ from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
+from coopera.graphs.earlier_life import EarlierLife
 from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.life import LivedNow
 from coopera.graphs.own_robot import MakeRobot, OwnRobot
 from coopera.graphs.person import PERSON_MODELS
-from coopera.graphs.services import nothing_was_logged
+from coopera.graphs.player import Player
+from coopera.graphs.simulated import Simulated
+from coopera.graphs.stated import Interviewed, Logged, Logs
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
 from coopera.models.budget import Meter
@@ -30,7 +34,6 @@ from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
 from coopera.models.transport import wait
-from coopera.people.real import Logs
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_lived
@@ -159,11 +162,17 @@ def open_services(
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person_model],
             sizes=config.search,
-            lived=open_lived(config),
-            logged=logs or nothing_was_logged,
-            in_the_loop=config.played_by == "me",
-            graded=config.feedback == "graded",
+            player=_player(config, logs),
+            life=EarlierLife(days) if (days := open_lived(config)) else LivedNow(),
         )
+
+
+def _player(config: Config, logs: Logs | None) -> Player:
+    """Who plays the people: those who wrote logs, somebody who is asked, or a language model."""
+    graded = config.feedback == "graded"
+    if logs:
+        return Logged(logs, Simulated(graded))
+    return Interviewed(graded) if config.played_by == "me" else Simulated(graded)
 
 
 def _own_robot(config: Config, method: Method) -> MakeRobot | None:

@@ -13,19 +13,18 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
-from langgraph.runtime import Runtime
 
-import coopera.graphs.hour
 import coopera.graphs.robot
-from coopera.core.hour import DayPlan, Example, Observation, Proposal
-from coopera.core.household import Collab, SceneId
+from coopera.core.clock import Clock
+from coopera.core.hour import DayPlan, Example, HumanHour, Observation, Proposal, Task
+from coopera.core.household import Collab, Outcome, SceneId
 from coopera.core.people import BigFive, Persona
 from coopera.evaluation import METHODS
 from coopera.graphs import Services, build_study_graph
 from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.life import LivedNow
 from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 from tests.fakes import MARA, ScriptedAsk, TableClassifier, moving, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -96,14 +95,14 @@ class Watched:
     def __init__(self, inner: Any, heard: list[Any]) -> None:
         self._inner, self._heard = inner, heard
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         memories = [
-            stream.recall("anything at all", given["clock"].now, 9)
-            for kept in (ctx.history, ctx.guesses)
+            stream.recall("anything at all", view.clock.now, 9)
+            for kept in (view.history, view.guesses)
             for stream in (kept.intentions, kept.tasks)
         ]
-        self._heard.append((dict(given), ctx.person, ctx.home.objects("movable"), memories))
-        proposal: Proposal = self._inner.help(given, ctx)
+        self._heard.append((view.clock, view.observation, view.belief, view.person, view.home, memories))
+        proposal: Proposal = self._inner.help(view)
         return proposal
 
     def learn(self, told: Any, *, seed: int) -> dict[str, Any]:
@@ -119,6 +118,7 @@ def live(
     method: str = "ours",
     collab: Collab = 2,
     days: int = 1,
+    lived: LivedNow | None = None,
     **changed: bool,
 ) -> DayAccount:
     """Live some days; return what reached the robot by the last of them, before that day's evening."""
@@ -140,6 +140,7 @@ def live(
     services = replace(
         services,
         people={MARA.id: life.persona},
+        life=lived or LivedNow(),
         learner=Learner(dict.fromkeys(KINDS, lambda: Listening(judged)), services.recorder),
     )
     if own := METHODS[method].own:
@@ -208,38 +209,47 @@ def test_the_audit_sees_what_an_oracle_is_told_and_what_every_robot_is_told_in_t
         assert one != other
 
 
-Leak = Callable[[Services, coopera.graphs.hour.HourState, Observation], Observation]
+Leak = Callable[[Services, DayPlan, Clock, HumanHour, Observation], Observation]
 
 
-def in_words(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
-    return seen.model_copy(update={"first_task": state["human"].intention.text})
+def in_words(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
+    return seen.model_copy(update={"first_task": human.intention.text})
 
 
-def in_the_percept(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
+def in_the_percept(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
     assert seen.percept is not None
-    thing = state["human"].tasks[1].act.describe().split("with the ")[-1]
+    thing = human.tasks[1].act.describe().split("with the ")[-1]
     return seen.model_copy(update={"percept": seen.percept.model_copy(update={"in_hand": thing})})
 
 
-def in_memory(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
-    plan = state["plan"]
+def in_memory(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
     memories = services.memories("guesses", plan.episode, plan.person)
-    memories.add("A guess", [state["human"].tasks[2].act.describe()], plan.clock(state["position"]).now - 1)
+    memories.add("A guess", [human.tasks[2].act.describe()], clock.now - 1)
     return seen
+
+
+class Leaky(LivedNow):
+    """A life that lets the truth through to the robot."""
+
+    def __init__(self, leak: Leak) -> None:
+        self._leak = leak
+
+    def decide(self, services: Services, plan: DayPlan, clock: Clock) -> HumanHour:
+        self._human = super().decide(services, plan, clock)
+        return self._human
+
+    def show(self, services: Services, plan: DayPlan, clock: Clock, first: Task) -> tuple[Observation, Outcome]:
+        seen, outcome = super().show(services, plan, clock, first)
+        return self._leak(services, plan, clock, self._human, seen), outcome
 
 
 @pytest.mark.parametrize("leak", [in_words, in_the_percept, in_memory])
 def test_the_audit_finds_the_truth_where_it_is_let_through(
-    make_services: MakeServices, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, leak: Leak
+    make_services: MakeServices, tmp_path: Path, leak: Leak
 ) -> None:
-    sound = coopera.graphs.hour.demonstrate
-
-    def leaky(state: coopera.graphs.hour.HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        update = sound(state, runtime)
-        return update | {"observation": leak(runtime.context, state, update["observation"])}
-
-    monkeypatch.setattr(coopera.graphs.hour, "demonstrate", leaky)
-    one, other = (live(make_services, tmp_path / str(n), life) for n, life in enumerate((BAKER, POET)))
+    one, other = (
+        live(make_services, tmp_path / str(n), life, lived=Leaky(leak)) for n, life in enumerate((BAKER, POET))
+    )
     assert one.prompts != other.prompts
 
 

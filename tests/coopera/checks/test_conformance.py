@@ -6,8 +6,7 @@ from coopera.checks.method import ConformanceError, check_method
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import HandOver
 from coopera.evaluation import METHODS
-from coopera.graphs import Method, RobotContext
-from coopera.graphs.robot import RobotInput
+from coopera.graphs import Method, RobotView
 
 pytestmark = pytest.mark.slow  # each lives a few hours in the shipped home
 
@@ -18,7 +17,7 @@ class Forgetful:
     def __init__(self) -> None:
         self.helped = 0
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         self.helped += 1
         act = HandOver(object=f"cup {self.helped}")
         usual = IntentionCandidate(text="Something", accepted=True)
@@ -33,7 +32,7 @@ class Forgetful:
 class Fragile(Forgetful):
     """Cannot stand an evening of a day without hours."""
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         return Proposal()
 
     def learn(self, account: DayAccount, *, seed: int) -> dict[str, int]:
