@@ -73,7 +73,9 @@ def run(
         Path | None, typer.Option(metavar="DIR", help="Motion-X (.npy) or AMASS (.npz) clips the person can do, too.")
     ] = None,
     renderer: Annotated[str | None, typer.Option(help="tiny or egl, which draws large pictures faster.")] = None,
-    robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
+    robot: Annotated[
+        str | None, typer.Option(metavar="NAME", help="The robot's body, or its YAML file. [default: fetch]")
+    ] = None,
     pictures: Annotated[str | None, typer.Option(help="sampled, none or video. [default: sampled]")] = None,
     budget_calls: CallBudget = None,
     budget_tokens: TokenBudget = None,

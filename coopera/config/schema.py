@@ -54,7 +54,7 @@ _EXPECTED = {
     "search.objects": "a whole number from 1 to 1000",
     "search.motions": "a whole number from 1 to 1000",
     "motions": "the path of a folder of .npy or .npz clips",
-    "robot": "the name of a robot's body such as fetch",
+    "robot": "a robot's body: a name such as fetch, or the path of its YAML file",
     "pictures": "sampled, none or video",
     "frames": "a whole number from 1 to 64",
     "schedule": "a list of days, each [person, scene]",
@@ -135,7 +135,7 @@ class Config(Frozen):
         person: How a simulated person is made: the paper's way or one of its ablations (`coopera.graphs.person`).
         search: How many objects and motions the person is offered for an intention, at most.
         motions: A folder of Motion-X or AMASS clips that the person can do beside the shipped motions.
-        robot: The robot's body, one of `coopera.simulation.bodies.robot.ROBOTS`.
+        robot: The robot's body: its name, or the path of its file (`coopera.simulation.bodies.robot`).
         pictures: Whether the first task of each hour is recorded as pictures.
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels; 1024x768 where the robot's model is not the offline one.
