@@ -67,8 +67,9 @@ def load_urdf(path: Path, client: int, *, drawn: bool = True) -> int:
     data = str(import_module("pybullet_data").getDataPath())
     with tempfile.TemporaryDirectory() as folder:
         whole = Path(folder) / path.name
-        text = text.replace('filename="', f'filename="{path.parent}/')
-        whole.write_text(text.replace(f"{path.parent}/{OF_PYBULLET}", f"{data}/"), encoding="utf-8")
+        here = path.parent.absolute()
+        text = text.replace('filename="', f'filename="{here}/').replace(f"{here}/{OF_PYBULLET}", f"{data}/")
+        whole.write_text(text, encoding="utf-8")
         return _loaded(path, whole, given)
 
 
