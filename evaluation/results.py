@@ -16,7 +16,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field, ValidationError
 
 from coopera.core.errors import ConfigError
-from coopera.core.hour import Counts, Evening, Help, HourRecord
+from coopera.core.hour import Counts, Evening, HourRecord
 from coopera.core.people import Frozen
 from coopera.evaluation.agreement import by_person
 from coopera.evaluation.measuring import F, MeasureSpec, all_measures
@@ -102,13 +102,14 @@ class Row(Frozen):
 _COUNTS = ("tp", "fp", "fn", "tn", "unscored")
 COLUMNS = tuple(Row.model_fields)
 """The columns that every table has."""
+_BARE = "help"  # in format 1 the columns of this measure do not bear its name
 _FURTHER = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)+")
 
 
 def columns_of(measure: str, figures: type[Frozen]) -> dict[str, str]:
     """Each column of a measure, and the figure in it. Rates of counts have none: they follow from the counts."""
     fields = _COUNTS if issubclass(figures, Counts) else tuple(figures.model_fields)
-    return {field if figures is Help else f"{measure}_{field}": field for field in fields}
+    return {field if measure == _BARE else f"{measure}_{field}": field for field in fields}
 
 
 class Card(Frozen):
