@@ -56,7 +56,7 @@ class World:
 
         Args:
             scene: The home.
-            robot: Name of the robot's body, one of `coopera.simulation.bodies.robot.ROBOTS`.
+            robot: The robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
@@ -65,7 +65,7 @@ class World:
 
         Raises:
             SimulationError: If nobody can stand anywhere in the home.
-            ConfigError: If there is no such robot.
+            ConfigError: If there is no such robot, or its files cannot be used.
         """
         self.scene = scene.id
         self.frame_size = frame_size

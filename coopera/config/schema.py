@@ -217,9 +217,9 @@ class Config(Frozen):
         Text,
         Setting(
             "The robot's body.",
-            "the name of a robot's body such as fetch",
+            "a robot's body: a name such as fetch, or the path of its YAML file",
             flag="--robot",
-            metavar="NAME",
+            metavar="NAME|FILE",
             listed="robots",
         ),
     ] = "fetch"

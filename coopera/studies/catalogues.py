@@ -18,7 +18,7 @@ from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
 from coopera.rundir.claim import refuse_used
-from coopera.simulation.bodies.robot import ROBOTS
+from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
 
@@ -65,7 +65,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
     _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
-    _check("robot", "robot", [config.robot], list(ROBOTS))
+    load_robot(config.robot)
     _refuse_online(config)
     _check("humans", "person", config.humans or [], known.people)
     _check("scenes", "home", config.scenes or [], known.scenes)
