@@ -144,7 +144,7 @@ def propose(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Recall what the robot knows that resembles what it sees. Reads `observation`; writes `recalled`.
 
-    Earlier days come from what the person told in the evenings, today from the robot's own guesses.
+    Earlier days come from the person's accounts, today from the robot's own guesses.
     """
     ctx, clock, seen = runtime.context, state["clock"], state["observation"]
     if not ctx.method.context:

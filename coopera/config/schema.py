@@ -126,8 +126,8 @@ class Config(Frozen):
             ones ("warm"), or starts anew on all of them, as the authors' code does ("fresh").
         who: Whether the robot is told whom it is with; "unknown" tells it on the first day with somebody, and has it
             guess from behaviour on later days.
-        traits: When the robot works out the person's traits: in the evening, from what it was told, or each hour too,
-            from its own guesses of the day so far.
+        traits: When the robot infers the person's traits: in the evening from the account, or each hour too, from its
+            own guesses of the day so far.
         human: Who plays the person: the simulation, a real person's log (`coopera.people.real`), or a real person who
             is asked, on the terminal or wherever `run_study` is told to ask.
         feedback: What the person answers in the evening: yes or no (the paper's way), or a grade from 1 to 5.
@@ -139,14 +139,14 @@ class Config(Frozen):
         frames: Pictures per view and hour.
         frame_size: Width and height of a picture in pixels; 1024x768 where the robot's model is not the offline one.
         renderer: What draws the pictures.
-        perception: How the perception errs by which a robot is told of the person whose model sees no pictures.
+        perception: The errors of the percept, for a robot whose model does not look at pictures.
         calls: How models are called (`coopera.models.settings.CallSettings`).
         schedule: The days of one episode, each a person and a home, in place of the setting's own order.
         backbone: The robot's language model in methods that are there to try another one.
         lived: A finished run without a robot, whose days the people live again.
         budget: What the run may spend on models before it stops, to be resumed with more.
-        cache: File of replies that runs share, so that a rerun costs nothing and other methods meet the person's days
-            for nothing; None takes the one in the data folder. Each run keeps its own replies besides.
+        cache: File of replies, shared by runs; None takes the one in the data folder. A rerun then costs nothing, and
+            other methods meet the person's days for nothing. Each run keeps its own replies besides.
         data_dir: Folder of imported people and homes.
     """
 
