@@ -1,4 +1,4 @@
-"""Identification: the robot infers from behaviour which of the people it knows it is with."""
+"""Identification: the robot infers from behaviour who the person is, among the people it knows."""
 
 from __future__ import annotations
 
