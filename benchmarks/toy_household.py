@@ -147,7 +147,7 @@ class Robot:
         return self._example(lived, lived.text, [], None).model_copy(update={"label": True})
 
     def imagine_tasks(self, lived: Lived, activity: int, guess: Example) -> list[Example]:
-        """Return 5 unlabelled offers for an imagined intention: things that go with it, by common sense."""
+        """Return 5 unlabelled task candidates for an intention candidate: things that go with it, by common sense."""
         rng = rng_at(self.seed, self.person.id, lived.day, lived.hour, "tasks", activity)
         things = activities()[activity].things
         picks = rng.choice(len(things), size=5, replace=False)

@@ -1,4 +1,4 @@
-"""Robots that are no variation of our graph: a habit table, and a brain that is finetuned on what it was told.
+"""Robots outside our graph: a habit table, and a model finetuned on the person's accounts.
 
 Both propose one intention and its tasks, accept all of them, and learn from the evenings alone.
 """
@@ -17,7 +17,7 @@ from coopera.graphs.robot_view import RobotView
 
 
 class Occasion(NamedTuple):
-    """An hour that the person told of: what the robot saw, and what they did after the first task."""
+    """An hour of an account: the robot's observation, and the person's tasks after the first."""
 
     person: PersonId
     clock: Clock
@@ -101,7 +101,7 @@ class Finetuned:
 
 
 def occasions_of(account: DayAccount) -> list[Occasion]:
-    """The hours that the person told of in an evening."""
+    """The hours of an account."""
     return [
         Occasion(
             person=account.person,

@@ -59,7 +59,7 @@ class FinetunedModel:
         self._past: list[Occasion] = []
 
     def help(self, view: RobotView) -> Proposal:
-        """Propose what the finetuned model says; a reply that cannot be read proposes nothing, and that is said."""
+        """Propose the finetuned model's candidates; after an unreadable reply there are none, as a fallback says."""
         if not self._chat.trained:
             return Proposal(fallbacks=["nothing has been told yet"])
         reply = REPLY[view.collab]
@@ -80,7 +80,7 @@ class FinetunedModel:
         )
 
     def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
-        """Train on all that was told so far, or on the newest of it."""
+        """Train on all accounts so far, or on the newest of them."""
         self._past += occasions_of(account)
         lessons = [lesson(one) for one in self._past]
         return dict(self._chat.train(lessons, seed=seed)) if lessons else {"lessons": 0}

@@ -161,7 +161,7 @@ def propose(state: RobotInput, runtime: Runtime[OwnRobotContext]) -> dict[str, A
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Recall what the robot knows that resembles what it sees. Writes `recalled`.
 
-    Earlier days come from what the person told in the evenings, today from the robot's own guesses.
+    Earlier days come from the person's accounts, today from the robot's own guesses.
     """
     view, clock = runtime.context.view, runtime.context.view.clock
     if not runtime.context.method.context:

@@ -100,7 +100,7 @@ class Services:
     sizes: SearchSizes = SearchSizes()
     """How much Search finds for an intention."""
     identity_known: bool = True
-    """Whether the robot is told whom it is with, or guesses it (`coopera.graphs.identity`)."""
+    """Whether the robot is told whom it is with, or infers it (`coopera.graphs.identity`)."""
     hourly_traits: bool = False
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None

@@ -1,6 +1,6 @@
 """The way to a server: a gate that keeps the pace, and patience with requests that fail on their way.
 
-A failed request is sent again after a pause. A request has failed if the server did not take it or sent back no chat
+A failed request is sent again after a pause. A request has failed if the server could not take it or sent back no chat
 completion. The pause doubles each time, or is as long as the server's Retry-After asks. The call's faults list every
 failure.
 """

@@ -1,4 +1,4 @@
-"""A finished run without a robot, whose days the people of another run live again."""
+"""An earlier life on file: the days of a finished run without a robot, for other runs to meet again."""
 
 from __future__ import annotations
 

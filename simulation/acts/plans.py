@@ -82,10 +82,10 @@ Step = Walk | Turn | Handle | Give | Play
 
 
 class Watch(Protocol):
-    """Called before each deed of the person: lets the robot go where it will see it."""
+    """Called before each act of the person: lets the robot go where it will see it."""
 
     def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add the robot's drive to the plan; the deed is the person in the middle of it."""
+        """Add the robot's drive to the plan; `deed` is the person in the middle of the act."""
         ...
 
 

@@ -53,7 +53,7 @@ def walk(ground: Ground, plan: Plan, agent: Agent, goal: Point, carries: str | N
 def walk_to_deed(
     ground: Ground, plan: Plan, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
 ) -> None:
-    """Add the person's walk to a deed; a robot that is to see it goes ahead, and comes back if it had to step aside.
+    """Add the person's walk to an act; a robot that is to see it goes ahead, and comes back if it had to step aside.
 
     Raises:
         UnableError: If there is no way.

@@ -30,7 +30,7 @@ TICKS = 30
 """Ticks per second."""
 _SPEED = {"human": 1.1, "robot": 0.8}  # metres per second
 _SHOWN = 1.3
-"""Seconds of a walk that a shot shows before the deed."""
+"""Seconds of a walk that a shot shows before the act."""
 _MOTION = 8.0
 _TURN, _REACH, _HOLD, _BACK, _SETTLE = 8, 22, 8, 16, 26
 _ARMS = ("right_shoulder", "right_elbow")
@@ -55,7 +55,7 @@ class Moment(NamedTuple):
 
 @dataclass(slots=True)
 class Shot:
-    """Ticks seen from one place of the robot; `at` gives the moment of a tick, `deed` is when the deed is best seen."""
+    """Ticks seen from one place of the robot; `at` gives the moment of a tick, `deed` is when the act is best seen."""
 
     ticks: int
     at: Callable[[int], Moment]
@@ -186,7 +186,7 @@ class Filming:
                 self.gripper = Held(step.carries)
 
     def _approach(self, agent: Agent) -> tuple[int, Callable[[int], Placed]]:
-        """The last moments of the walk before a deed."""
+        """The last moments of the walk before an act."""
         walk, self._walk = self._walk, None
         still = self.person if agent == "human" else self.robot
         if walk is None or len(walk.points) < 2:

@@ -40,7 +40,7 @@ class Watcher:
         return self._drawn
 
     def watch(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add to a plan: the robot drives to where it will see a deed of the person, out of their way.
+        """Add to a plan: the robot drives to where it will see an act of the person, out of their way.
 
         Args:
             plan: The plan so far; the robot's drive is added.
