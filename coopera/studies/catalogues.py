@@ -15,10 +15,12 @@ from coopera.models.backends import household_file
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
+from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
 from coopera.simulation.bodies.robot import ROBOTS
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
+from coopera.studies.own_files import by_id
 
 
 class Catalogues(NamedTuple):
@@ -56,15 +58,15 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         ConfigError: Naming the field, what is wrong and what there is.
     """
     known = catalogues or load_catalogues(config)
-    config = _by_schedule(config)
+    config = _by_schedule(by_id(config))
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
     _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
     _check("robot", "robot", [config.robot], list(ROBOTS))
     _refuse_online(config)
-    _check("humans", "person", config.humans or [], known.people)
-    _check("scenes", "home", config.scenes or [], known.scenes)
+    _check("humans", "person", config.humans or [], [*known.people, *config.files.humans])
+    _check("scenes", "home", config.scenes or [], [*known.scenes, *config.files.scenes])
     people = config.humans or _first("humans", known.people, n_people, config.setting)
     scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
     if not config.schedule:
@@ -75,7 +77,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
-        _livable(humans.find(person, config.data_dir), config.person_model)
+        _livable(find_person(config, person), config.person_model)
     return config.model_copy(
         update={
             "humans": list(people),
@@ -84,6 +86,16 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
             "out": config.out or next_folder(Path("runs")),
         }
     )
+
+
+def find_person(config: Config, person: str) -> Persona:
+    """Return somebody who takes part, from a file that was given or from the catalogue.
+
+    Raises:
+        ConfigError: If there is nobody of that id, or the file cannot be used.
+    """
+    given = config.files.humans.get(person)
+    return read_persona(given) if given else humans.find(person, config.data_dir)
 
 
 def tuned_model(config: Config) -> str | None:

@@ -59,7 +59,7 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
                 for home in homes.values():
                     home.restore({})
             if record.scene not in homes:
-                homes[record.scene] = open_home(run.config, record.scene, embeddings)
+                homes[record.scene] = open_home(run.config, record.scene, embeddings, run.root)
             yield _hour(homes[record.scene], record, look)
     finally:
         for home in homes.values():

@@ -175,6 +175,11 @@ class MobileManipulator:
         return looking
 
 
+def about_robot(name: str) -> str:
+    """What a body is, in the words that its module begins with."""
+    return (import_module(_SHIPPED[name]).__doc__ or "").partition("\n")[0].rstrip(".")
+
+
 def load_robot(name: str) -> RobotBody:
     """A body by its name.
 

@@ -11,7 +11,7 @@ import pytest
 
 from coopera.core.errors import ModelCallError
 from coopera.models.settings import CallSettings
-from coopera.models.transport import Gate, Line, RefusedError
+from coopera.models.transport import Gate, Line, NobodyThereError, RefusedError
 
 NOON = datetime(2026, 1, 1, 12, tzinfo=UTC)
 
@@ -125,3 +125,26 @@ def test_no_more_requests_begin_in_a_minute_than_allowed() -> None:
             time[0] += 5.0
     assert all(later - first >= 60.0 for first, later in zip(begun, begun[3:], strict=False))
     assert begun[:4] == [0.0, 5.0, 10.0, 60.0]
+
+
+def refused() -> Exception:
+    """As a client says it: an error of its own, made of the system's."""
+    said = OSError("Connection error.")
+    said.__cause__ = ConnectionRefusedError(111, "Connection refused")
+    return said
+
+
+def test_nobody_waits_where_no_server_has_ever_answered() -> None:
+    told = Told(refused(), "never asked")
+    with pytest.raises(NobodyThereError, match=r"no server listens there \(Connection error\); `coopera models check`"):
+        told()
+    assert told.waits == []
+
+
+@pytest.mark.parametrize("before", ["good", StatusError(503)])
+def test_a_server_that_has_answered_is_waited_for_while_it_comes_back(before: Exception | str) -> None:
+    told = Told(before, refused(), "good")
+    if isinstance(before, str):
+        assert told() == before
+    assert told() == "good"
+    assert told.waits
