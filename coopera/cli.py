@@ -6,7 +6,7 @@ import sys
 import warnings
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
@@ -14,6 +14,7 @@ from coopera.commands import (
     analyse,
     benchmark,
     humans,
+    listing,
     memory,
     models,
     prompts,
@@ -25,6 +26,7 @@ from coopera.commands import (
 )
 from coopera.core.deprecation import OldWordWarning
 from coopera.core.errors import ConfigError, CooperaError
+from coopera.core.version import __version__
 
 app = typer.Typer(
     name="coopera",
@@ -34,8 +36,26 @@ app = typer.Typer(
     rich_markup_mode=None,  # help names values and defaults in brackets, which Rich would take for its own
     pretty_exceptions_enable=False,
 )
+
+
+def _say_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"coopera {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _coopera(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_say_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Take what stands before a command."""
+
+
 app.command()(run.run)
 app.command()(run.resume)
+app.command("list")(listing.list_what)
 app.command()(reports.trace)
 app.command()(reports.report)
 app.command()(benchmark.benchmark)

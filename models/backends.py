@@ -41,6 +41,16 @@ _HELP = (
     "huggingface:REPO-OR-FOLDER, recorded:RUN, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
+SPECS: dict[str, str] = {
+    "offline": "the routine model that ships: no language model, and no server or download is needed",
+    "offline:words": "the same, comparing texts by their letters alone",
+    "offline:HOUSEHOLD.yaml": "the same, knowing a household of your own",
+    "openai:MODEL": "a model of OpenAI, or of any server that speaks its protocol, at --base-url",
+    "huggingface:REPO-OR-FOLDER": "weights in this process",
+    "replay:RUN": "what was said in an earlier run, without any model",
+    "PROVIDER:MODEL": "any other provider of LangChain whose package is installed",
+}
+"""What a spec may be, and what it names."""
 _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
 

@@ -287,7 +287,7 @@ class Door:
             try:
                 answer = backend.ask(request, talk.fault)
             except ModelCallError as err:
-                raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
+                raise type(err)(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
             if self.meter is not None:
                 self.meter.end(answer.tokens_in + answer.tokens_out)
             if key is not None:

@@ -23,6 +23,7 @@ from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_cs
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
 from coopera.studies.catalogues import load_catalogues, resolve
+from coopera.studies.own_files import names_file
 from coopera.studies.workers import Done, work_through
 
 NOBODY = "none"
@@ -266,7 +267,7 @@ def _chosen(field: str, wanted: Sequence[str] | int | None, known: Sequence[str]
         if wanted > len(known):
             raise ConfigError(f"{field}: {wanted} are asked for, and there are {len(known)}.")
         return list(known[:wanted])
-    return list(wanted)
+    return [str(Path(name).expanduser().resolve()) if names_file(name) else name for name in wanted]
 
 
 def _is_done(job: RunJob) -> bool:

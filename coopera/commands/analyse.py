@@ -36,7 +36,9 @@ def analyse_humans(
         list[Path] | None,
         typer.Option(metavar="LOG", help="A real person's log, named after them; may be repeated."),
     ] = None,
-    generic: Annotated[str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile.")] = None,
+    generic: Annotated[
+        str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile. [default: nobody]")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of shuffles, resamples and the user studies.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where the results go.")] = Path("analysis"),
     as_json: AsJson = False,

@@ -19,11 +19,28 @@ RunPath = Annotated[Path, typer.Argument(metavar="RUN", help="A run directory, s
 AsJson = Annotated[bool, typer.Option("--json", help="End with one line of JSON on standard output.")]
 
 
+def _completer(one: Declared) -> Callable[[str], list[str]]:
+    """Return what completes a setting's value on a shell; of a list, its last name."""
+
+    def complete(incomplete: str) -> list[str]:
+        before, comma, last = incomplete.rpartition(",") if get_origin(one.type) is list else ("", "", incomplete)
+        names = [str(value) for value in one.values]
+        if one.words.listed:
+            from coopera.commands.listing import rows_of
+
+            names = [row["id"] for row in rows_of(one.words.listed)]
+        return [f"{before}{comma}{name}" for name in names if name.startswith(last)]
+
+    return complete
+
+
 def option(name: str, *flags: str) -> OptionInfo:
     """The option of a setting: its flag (or others), what it decides, what it may be, and what holds without it."""
     one = SETTINGS[name]
     names = flags or (one.words.flag or "",)
-    found: OptionInfo = typer.Option(*names, metavar=one.metavar, help=one.help, show_default=False)
+    found: OptionInfo = typer.Option(
+        *names, metavar=one.metavar, help=one.help, show_default=False, autocompletion=_completer(one)
+    )
     return found
 
 

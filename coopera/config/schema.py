@@ -46,6 +46,13 @@ class Models(Frozen):
     )
 
 
+class Files(Frozen):
+    """Where people and homes are that no catalogue has, by id."""
+
+    humans: Annotated[dict[str, Path], Setting("Persona files by id.", "a mapping of ids to files")] = {}
+    scenes: Annotated[dict[str, Path], Setting("Files of homes by id.", "a mapping of ids to files")] = {}
+
+
 def default_data_dir() -> Path:
     """Where imported people and homes live: COOPERA_DATA_DIR, else the user's own data folder."""
     given = os.environ.get("COOPERA_DATA_DIR")
@@ -69,10 +76,10 @@ class Config(Frozen):
     humans: Annotated[
         Ids | None,
         Setting(
-            "People, in the order in which they take part.",
+            "People, by id or as files, in the order in which they take part.",
             "a list of one or more persona ids",
             flag="--humans",
-            metavar="ID,…",
+            metavar="ID-or-FILE,…",
             unset="as many as the setting takes",
             listed="people",
         ),
@@ -80,10 +87,10 @@ class Config(Frozen):
     scenes: Annotated[
         Ids | None,
         Setting(
-            "Homes, in the order in which they are lived in.",
+            "Homes, by id or as files, in the order in which they are lived in.",
             "a list of one or more scene ids",
             flag="--scenes",
-            metavar="ID,…",
+            metavar="ID-or-FILE,…",
             unset="as many as the setting takes",
             listed="homes",
         ),
@@ -120,6 +127,7 @@ class Config(Frozen):
             "an address such as http://localhost:8000/v1",
             flag="--base-url",
             metavar="URL",
+            unset="the provider's own",
         ),
     ] = None
     prompts: Annotated[
@@ -211,6 +219,7 @@ class Config(Frozen):
             "the path of a folder of .npy or .npz clips",
             flag="--motions",
             metavar="DIR",
+            unset="the shipped motions alone",
         ),
     ] = None
     robot: Annotated[
@@ -250,6 +259,7 @@ class Config(Frozen):
         Setting(
             "The days of one episode, each a person and a home, in place of the setting's own order.",
             "a list of days, each [person, scene]",
+            unset="the setting's own",
         ),
     ] = None
     backbone: Annotated[
@@ -267,6 +277,7 @@ class Config(Frozen):
             flag="--earlier-life",
             formerly="lived",
             metavar="RUN",
+            unset="the days are lived now",
         ),
     ] = None
     budget: Annotated[Budget, Setting("What the run may spend on models before it stops, to be resumed with more.")] = (
@@ -280,6 +291,9 @@ class Config(Frozen):
             unset="llm_cache.sqlite in the data folder",
         ),
     ] = None
+    files: Annotated[
+        Files, Setting("People and homes given as files; filled in from paths in humans, scenes and schedule.")
+    ] = Files()
     data_dir: Annotated[
         Path,
         Setting(

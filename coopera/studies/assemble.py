@@ -143,7 +143,7 @@ def open_services(
             ask=ask,
             method=method,
             people={persona.id: persona for persona in people.values()},
-            home=_Homes(stack, config, embeddings),
+            home=_Homes(stack, config, embeddings, run.root),
             stream=_Streams(stack, run.root / "memory" if run.resumable else RamClient(), embeddings),
             embeddings=embeddings,
             learner=Learner(
@@ -182,9 +182,9 @@ def _own_robot(config: Config, method: Method) -> MakeRobot | None:
     return method.own
 
 
-def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
-    """Open one of a run's homes as it was built; it is to be closed after use."""
-    layout = load_scene(scene, [config.data_dir / "scenes"])
+def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path) -> World:
+    """Open one of a run's homes as it was built, the run's own copy if it has one; it is to be closed after use."""
+    layout = load_scene(scene, [config.data_dir / "scenes", run / "scenes"])
     motions = load_motions(config.motions)
     match = _nearest_motion(embeddings, motions)
     return World(
@@ -218,13 +218,13 @@ class _Interruptible:
 class _Homes:
     """Opens a home at its first use and keeps it open."""
 
-    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings) -> None:
-        self._stack, self._config, self._embeddings = stack, config, embeddings
+    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings, run: Path) -> None:
+        self._stack, self._config, self._embeddings, self._run = stack, config, embeddings, run
         self._open: dict[SceneId, Home] = {}
 
     def __call__(self, scene: SceneId) -> Home:
         if scene not in self._open:
-            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings))
+            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings, self._run))
         return self._open[scene]
 
 

@@ -17,10 +17,12 @@ from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
+from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
+from coopera.studies.own_files import by_id
 
 
 class Catalogues(NamedTuple):
@@ -60,15 +62,15 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         ConfigError: Naming the field, what is wrong and what there is.
     """
     known = catalogues or load_catalogues(config)
-    config = _by_schedule(config)
+    config = _by_schedule(by_id(config))
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
     _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
     load_robot(config.robot)
     _refuse_online(config)
-    _check("humans", "person", config.humans or [], known.people)
-    _check("scenes", "home", config.scenes or [], known.scenes)
+    _check("humans", "person", config.humans or [], [*known.people, *config.files.humans])
+    _check("scenes", "home", config.scenes or [], [*known.scenes, *config.files.scenes])
     people = config.humans or _first("humans", known.people, n_people, config.setting)
     scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
     if not config.schedule:
@@ -79,7 +81,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
-        _livable(humans.find(person, config.data_dir), config.person_model)
+        _livable(find_person(config, person), config.person_model)
     return cut(
         config.model_copy(
             update={
@@ -90,6 +92,16 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
             }
         )
     )
+
+
+def find_person(config: Config, person: str) -> Persona:
+    """Return somebody who takes part, from a file that was given or from the catalogue.
+
+    Raises:
+        ConfigError: If there is nobody of that id, or the file cannot be used.
+    """
+    given = config.files.humans.get(person)
+    return read_persona(given) if given else humans.find(person, config.data_dir)
 
 
 def tuned_model(config: Config) -> str | None:

@@ -59,7 +59,8 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
                 for home in homes.values():
                     home.restore({})
             if record.scene not in homes:
-                homes[record.scene] = stack.enter_context(open_home(run.config, record.scene, embeddings))
+                home = open_home(run.config, record.scene, embeddings, run.root)
+                homes[record.scene] = stack.enter_context(home)
             yield _hour(homes[record.scene], record, look)
 
 

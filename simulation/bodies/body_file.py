@@ -76,6 +76,7 @@ class _Postures(_Part):
 
 
 class _Body(_Part):
+    about: Annotated[str, Field(max_length=200)] = ""
     joints: Annotated[list[_Joint], Field(min_length=3, max_length=20)]
     tip: Point
     pan: _Pan
@@ -123,6 +124,7 @@ def read_body(path: Path) -> MobileManipulator:
     body, urdf = read_yaml(path, _Body), path.with_suffix(".urdf")
     made = MobileManipulator(
         name=path.stem,
+        about=body.about,
         urdf=urdf,
         chain=Chain(
             joints=tuple(Joint(**joint.model_dump()) for joint in body.joints),

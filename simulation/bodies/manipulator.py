@@ -32,6 +32,7 @@ class MobileManipulator:
 
     Attributes:
         name: What a configuration calls it.
+        about: What it is, in a line.
         urdf: Its shapes.
         chain: From the base to the gripper.
         shoulder: Index of the joint at which the arm proper begins.
@@ -44,6 +45,7 @@ class MobileManipulator:
     """
 
     name: str
+    about: str
     urdf: Path
     chain: Chain
     shoulder: int

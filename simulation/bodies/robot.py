@@ -33,6 +33,11 @@ class RobotBody(Protocol):
         ...
 
     @property
+    def about(self) -> str:
+        """What it is, in a line."""
+        ...
+
+    @property
     def urdf(self) -> Path:
         """Its shapes, with joints of the same names and measures."""
         ...

@@ -67,7 +67,7 @@ def tasks(life: Life, collab: Collab) -> list[dict[str, Any]]:
     return [first, *({**task, "thought": f"To {life.intention}."} for task in rest)]
 
 
-class DayAccount(NamedTuple):
+class Heard(NamedTuple):
     """Everything that reached the robot, and everything that it said."""
 
     prompts: list[Any]
@@ -120,7 +120,7 @@ def live(
     days: int = 1,
     lived: LivedNow | None = None,
     **changed: bool,
-) -> DayAccount:
+) -> Heard:
     """Live some days; return what reached the robot by the last of them, before that day's evening."""
     answers = type2_answers() | {
         "human/intention": lambda v: {"intention": life.intention, "reason_human": life.persona.profile},
@@ -168,7 +168,7 @@ def live(
         for robot in lived
         if robot
     ]
-    return DayAccount(prompts, judged, given, said)
+    return Heard(prompts, judged, given, said)
 
 
 @pytest.mark.parametrize("collab", [1, 2])

@@ -106,6 +106,14 @@ def test_what_is_found_wrong_only_when_the_run_opens_leaves_no_run_behind(
     assert not (tmp_path / "new").exists()
 
 
+def test_a_model_without_a_server_ends_the_run_at_once_and_leaves_nothing(coopera: Cli, tmp_path: Path) -> None:
+    said = coopera("run", "--model", "openai:x", "--base-url", "http://127.0.0.1:9/v1", "--out", "new/run")
+    assert said.code == 1
+    assert "no server listens there" in said.err
+    assert "coopera models check" in said.err
+    assert not (tmp_path / "new").exists()
+
+
 def test_help_imports_nothing_heavy() -> None:
     heavy = ("torch", "pybullet", "langgraph", "langchain_core", "chromadb", "transformers", "numpy")
     code = (
