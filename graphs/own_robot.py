@@ -12,10 +12,11 @@ in place of our graph:
     [project.entry-points."coopera.methods"]
     stubborn = "my_package:METHOD"
 
-The rules: within an hour a robot knows its `RobotView` and nothing else. Between hours it changes nothing in itself,
-since an interrupted hour is done again, perhaps in another process: what it guessed earlier today is in `view.guesses`,
-what it was told on earlier days in `view.history`. What `learn` makes of the same evenings in the same order with the
-same seeds is the same. Every draw comes from `coopera.core.randomness`.
+The rules: within an hour a robot knows its `RobotView` and nothing else, so that it does the same in two lives that
+look alike. Between hours it changes nothing in itself, since an interrupted hour is done again, perhaps in another
+process: what it guessed earlier today is in `view.guesses`, what it was told on earlier days in `view.history`. What
+`learn` makes of the same evenings in the same order with the same seeds is the same. Every draw comes from
+`coopera.core.randomness`.
 """
 
 from __future__ import annotations
