@@ -76,6 +76,10 @@ class WaitingError(CooperaError):
     """A run waits for a real person's answer; it is stopped, not failed, and resuming it asks again."""
 
 
+class ConformanceError(CooperaError):
+    """A method breaks a rule; the text says which, and where it showed."""
+
+
 class RunError(CooperaError):
     """A run directory cannot be written, continued or read."""
 

@@ -12,7 +12,8 @@ of our graph:
     [project.entry-points."coopera.methods"]
     stubborn = "my_package:METHOD"
 
-The rules: within an hour a robot knows its `RobotView`, and nothing else. Between hours it does not change, since an
+The rules: within an hour a robot knows its `RobotView`, and nothing else, so two lives that look alike are the same to
+it. Between hours it does not change, since an
 interrupted hour is done again, perhaps in another process. Its guesses of earlier today are in `view.guesses`, the
 accounts of earlier days in `view.history`. `learn` gives the same result for the same evenings in the same order with
 the same seeds. Every draw comes from `coopera.core.randomness`.
