@@ -235,7 +235,7 @@ def test_the_offline_kind_gets_the_variables_and_no_schema() -> None:
 
 
 def test_a_model_that_cannot_be_reached_is_tried_again_and_every_try_is_recorded() -> None:
-    for error in (ConnectionRefusedError("refused"), ModelTimeoutError("too slow")):
+    for error in (ConnectionResetError("reset"), ModelTimeoutError("too slow")):
         door, model = door_to(error, error, error)
         with pytest.raises(ModelCallError, match=f"judge/tasks: scripted:one cannot be asked: {error}"):
             ask(door)
