@@ -132,7 +132,7 @@ def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     if keeps and (shown := keeps.shown(plan, clock.hour)):
         home.restore(shown.world)
         return {"observation": shown.observation, "outcomes": [shown.outcome]}
-    outcome = home.perform("human", first.act, record=True)
+    outcome = home.perform(services.human_agent, first.act, record=True, watcher=services.robot_agent)
     frames = []
     if services.frames:
         folder = services.recorder.frames_folder(plan.day, clock.hour)
@@ -153,16 +153,16 @@ def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
 
     In a day that was lived before, what came of the person's acts is known.
     """
-    home = runtime.context.home(state["plan"].scene)
+    home, who = runtime.context.home(state["plan"].scene), runtime.context.human_agent
     helped = state["robot"].outcomes if "robot" in state else []
     done = {_effect(home, outcome) for outcome in helped if outcome.ok}
     shown = 1 if "observation" in state else 0
-    remaining = [Outcome(agent="human", act=task.act, ok=True) for task in state["human"].tasks]
+    remaining = [Outcome(agent=who, act=task.act, ok=True) for task in state["human"].tasks]
     if runtime.context.lived:
         again = runtime.context.lived.hour(state["plan"], _clock(state).hour)
         remaining = [Outcome.model_validate(one) for one in again.world["outcomes"]]
     mine = [one for one in remaining[shown:] if _effect(home, one) not in done]
-    return {"outcomes": mine if runtime.context.lived else [home.perform("human", one.act) for one in mine]}
+    return {"outcomes": mine if runtime.context.lived else [home.perform(who, one.act) for one in mine]}
 
 
 def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -244,6 +244,7 @@ def robot_context(services: Services, plan: DayPlan, guessed: PersonId | None = 
         learner=services.learner,
         own=services.own.robot if services.own else None,
         images=services.recorder.root,
+        agent=services.robot_agent,
     )
 
 

@@ -311,7 +311,7 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
 def act(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Do the accepted tasks in the home, most probable first. Reads `tasks`; writes `outcomes`."""
     accepted = sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0))
-    return {"outcomes": [runtime.context.home.perform("robot", task.act) for task in accepted]}
+    return {"outcomes": [runtime.context.home.perform(runtime.context.agent, task.act) for task in accepted]}
 
 
 def belief_variables(belief: Belief, ctx: RobotContext) -> dict[str, Any]:

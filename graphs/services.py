@@ -16,7 +16,7 @@ from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
 from coopera.core.hour import DayPlan, Intention, LoggedHour, SearchSizes, Success, Task, TaskCandidate
-from coopera.core.household import Collab, Outcome, SceneId
+from coopera.core.household import HUMAN, ROBOT, AgentId, Collab, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
@@ -93,6 +93,8 @@ class RobotContext:
     """A robot of one's own, as it is after its last evening; None where our graph helps."""
     images: Path
     """The folder to which the observation's frames are relative."""
+    agent: AgentId = ROBOT
+    """Whose body in the home the robot has."""
 
 
 def nothing_was_logged(_plan: DayPlan, _clock: Clock) -> None:
@@ -157,6 +159,10 @@ class Services:
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
+    human_agent: AgentId = HUMAN
+    """Whose body in the homes the person has."""
+    robot_agent: AgentId = ROBOT
+    """Whose body in the homes the robot has."""
 
     @property
     def pupil(self) -> Learner | OwnRobot:

@@ -188,7 +188,7 @@ def test_nothing_true_about_the_hour_is_an_input_of_the_robot() -> None:
     assert set(Observation.model_fields) == {"frames", "percept", "first_task"}
     services = inspect.get_annotations(RobotContext)
     assert set(services) == {
-        *("ask", "person", "collab", "method", "home", "history", "guesses", "learner", "own", "images"),
+        *("ask", "person", "collab", "method", "home", "history", "guesses", "learner", "own", "images", "agent"),
     }
     assert "Persona" not in " ".join(map(str, services.values()))
 
