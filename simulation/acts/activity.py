@@ -46,6 +46,8 @@ _OFF = 0.1
 """A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
 _SITTING, _LYING = 0.5, 0.9
 """Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
+_STANDS, _ANY = 12, 1000
+"""From how many places at a piece of furniture one chooses, and from how many where those are taken."""
 _ASIDE = 0.6
 """How far beside the middle of a wide seat another one sits (metres)."""
 
@@ -211,15 +213,22 @@ def _worktop(target: SceneObject) -> float | None:
 
 
 def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near: Point | None) -> Stand:
-    """The best place to stand at a piece of furniture, the others permitting."""
+    """The best place to stand at a piece of furniture, the others permitting; where it is crowded, any place there."""
     taken = taken_by_others(plan.state, agent)
     start = plan.state.agents[agent].spot
-    stands = ground.navigator.approach(target, start)
-    if near is not None:
-        stands.sort(key=lambda stand: round(math.dist((stand.x, stand.y), near), 3))
-    if not stands:
+    crowded = len(plan.state.ids("person")) > 1
+    best: Stand | None = None
+    for most in (_STANDS, _ANY) if crowded else (_STANDS,):
+        stands = ground.navigator.approach(target, start, most=most)
+        if near is not None:
+            stands.sort(key=lambda stand: round(math.dist((stand.x, stand.y), near), 3))
+        best = best or next(iter(stands), None)
+        clear = next((stand for stand in stands if clear_of((stand.x, stand.y), taken)), None)
+        if clear is not None:
+            return clear
+    if best is None:
         raise UnableError(f"{named(agent)} finds no place to stand at the {plain(target.name)}")
-    return next((stand for stand in stands if clear_of((stand.x, stand.y), taken)), stands[0])
+    return best
 
 
 def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
