@@ -30,15 +30,16 @@ HEAD = """\
 def main() -> None:
     """Print traits.yaml."""
     path = Path(sys.argv[1])
-    sense = CommonSense(shipped(), bundled(default_data_dir() / "embeddings.sqlite"))
     rows = {row.profile_1: row for row in reversed(read_rows(path))}
     near = []
-    for row in rows.values():
-        given = {"profile_1": row.profile_1, "profile_2": row.profile_2, "conversation": row.conversation}
-        text = profile(sense, given, rng_at(0, "norms", row.number)).profile
-        found = nearest(sense, text, rng_at(0, "norms", row.number, "read"))
-        if found is not None:
-            near.append(found)
+    with bundled(default_data_dir() / "embeddings.sqlite") as embeddings:
+        sense = CommonSense(shipped(), embeddings)
+        for row in rows.values():
+            given = {"profile_1": row.profile_1, "profile_2": row.profile_2, "conversation": row.conversation}
+            text = profile(sense, given, rng_at(0, "norms", row.number)).profile
+            found = nearest(sense, text, rng_at(0, "norms", row.number, "read"))
+            if found is not None:
+                near.append(found)
     raw = [raw_scores(one) for one in near]
     print(HEAD.format(count=len(near), name=path.name) + "traits:")
     for trait in TRAITS:

@@ -2,12 +2,12 @@
 
     python -m benchmarks.classifier --people 8 --classifiers kernel lora
 
-Each person lives five days. Each hour the robot imagines five intentions, the classifier under test accepts some, five
-tasks are imagined for each, and it accepts some of those; in the evening it learns from all that was imagined. Day 1 is
-untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions. All classifiers meet the
-same human days. `lora-instruct` has a small random model of Mistral's architecture for a base, which knows nothing of
-language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a benchmark takes
-people from 1000 on.
+Each person lives five days. Each hour the robot imagines five intentions, and the classifier under test accepts some.
+The robot imagines five tasks for each of these, and the classifier accepts some. In the evening it learns from all
+these candidates. Day 0 is untrained. "task F1" is the study's measure: over the tasks imagined for accepted intentions.
+All classifiers meet the same human days. `lora-instruct` has a small random model of Mistral's architecture for a base,
+without any language, unless --classifier-config gives another. People 0 to 99 served to develop the classifiers; a
+benchmark takes people from 1000 on.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from coopera.core.hour import CandidateKind, Example
 from coopera.core.protocols import Classifier
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, Inputs, make_classifier
+from coopera.models.classifiers import Inputs, known_classifiers, make_classifier
 from coopera.models.classifiers.calibration import score_at
 from coopera.prompts import PromptLibrary
 
@@ -163,7 +163,7 @@ def _f1(asked: Sequence[Judged]) -> float:
 
 def main() -> None:
     """Run the comparison and print it as a table."""
-    names = ["always-yes", "frequency", *CLASSIFIERS]
+    names = ["always-yes", "frequency", *known_classifiers()]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--people", type=int, default=8, help="how many people (default 8)")
     parser.add_argument("--first", type=int, default=FIRST_TEST_PERSON, help="number of the first person")
@@ -183,7 +183,7 @@ def main() -> None:
         numbers = range(chosen.first, chosen.first + chosen.people)
         for number in numbers:  # so that no classifier is charged for the first encoding of a text
             live(number, lambda kind: AlwaysYes(), embeddings, chosen.days)
-        print(f"{chosen.people} people, {chosen.days} days; F1 on day 1 | 2 | …, mean ± standard error over people")
+        print(f"{chosen.people} people, {chosen.days} days; F1 on day 0 | 1 | …, mean ± standard error over people")
         for name in chosen.classifiers:
             lives = [
                 live(

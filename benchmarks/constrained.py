@@ -2,9 +2,9 @@
 
     python -m benchmarks.constrained [--rounds 5] [--vocabulary 128000]
 
-The model is a random Llama of some thousand weights, whose network costs next to nothing, so the share is far above
-what a real model pays: look at the difference in milliseconds. A mask's time grows with the vocabulary; one as large as
-Llama 3's is made up by adding random words to the small one.
+The model is a random Llama of some thousand weights, and its network costs next to nothing. So the share is far above a
+real model's: look at the difference in milliseconds. A mask's time grows with the vocabulary. Random words are added to
+the small vocabulary to make it as large as Llama 3's.
 """
 
 from __future__ import annotations

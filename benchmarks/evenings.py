@@ -2,12 +2,13 @@
 
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
-Evenings are those of one person of the toy household: what the robot imagined in the day, and what is kept of earlier
-days (`coopera.graphs.rehearsal`), so that day 50 is known without living 50 days. Seconds are of the processor, of one
-thread; growth is the last day's by those of day 5, or of the first day asked for after it.
-`lora-instruct` runs on a random model of Mistral's architecture (--hidden, --layers): its seconds are those of that
-size; its ratio to sampling is between two ways of asking the same model, with random weights that seldom end a text
-early, which is the sampling's worst case.
+An evening learns from a day of one person of the toy household and from the rehearsed examples of earlier days
+(`coopera.graphs.rehearsal`). So the evening after 50 days can be measured without simulating them. Seconds are
+processor time of one thread. Growth is the last evening's time divided by that after 5 days, or after the first number
+of days asked for later.
+`lora-instruct` runs on a random model of Mistral's architecture, and its seconds hold for this size only (--hidden,
+--layers). The ratio to sampling compares two ways of asking the same model. Random weights seldom end a text early:
+this is the worst case for sampling.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ from benchmarks.toy_household import Robot, draw_person, live_day
 from coopera.core.hour import CandidateKind, Example
 from coopera.graphs.rehearsal import keep
 from coopera.memory.embeddings import bundled
-from coopera.models.classifiers import CLASSIFIERS, make_classifier
+from coopera.models.classifiers import known_classifiers, make_classifier
 from coopera.models.classifiers.causal import open_base
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.prompts import PromptLibrary
 
 PERSON = 1000
-FULL = 5  # from this day on there are as many examples as an evening takes, so that it should grow no longer
+FULL = 5  # after so many days there are as many examples as an evening takes, so that it should grow no longer
 INSTRUCT = PromptLibrary().instruct
 SAMPLES, TOKENS = 3, 100  # the authors' code: so many texts of so many tokens for each verdict
 
@@ -62,7 +63,7 @@ def imagined(days: int, embeddings: Embeddings) -> dict[CandidateKind, list[list
 def evening(
     name: str, day: int, lived: dict[CandidateKind, list[list[Example]]], embeddings: Embeddings, recipe: Path
 ) -> float:
-    """Processor seconds of learning in the evening of a day (from 1), going on from the evening before."""
+    """Processor seconds of learning in the evening after so many days, going on from the evening before."""
     seconds = 0.0
     for kind, days in lived.items():
         judge = make_classifier(name, kind=kind, embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)
@@ -110,7 +111,7 @@ def verdicts(lived: dict[CandidateKind, list[list[Example]]], recipe: Path, time
 def main() -> None:
     """Print the evenings as a table, then the cost of verdicts."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--classifiers", nargs="+", choices=list(CLASSIFIERS), default=list(CLASSIFIERS))
+    parser.add_argument("--classifiers", nargs="+", choices=known_classifiers(), default=known_classifiers())
     parser.add_argument("--days", nargs="+", type=int, default=[1, 5, 20, 50])
     parser.add_argument("--hidden", type=int, default=64, help="width of the random causal model")
     parser.add_argument("--layers", type=int, default=2, help="layers of the random causal model")
@@ -121,7 +122,7 @@ def main() -> None:
         embeddings = bundled(Path(folder) / "embeddings.sqlite")
         lived = imagined(max(chosen.days), embeddings)
         recipe = tiny_recipe(Path(folder), hidden=chosen.hidden, layers=chosen.layers)
-        print("| classifier | " + " | ".join(f"day {day}" for day in chosen.days) + " | growth | peak MB |")
+        print("| classifier | " + " | ".join(f"after {day} days" for day in chosen.days) + " | growth | peak MB |")
         print("|---|" + "---|" * (len(chosen.days) + 2))
         for name in chosen.classifiers:
             one = make_classifier(name, kind="task", embeddings=embeddings, recipe=recipe, instruct=INSTRUCT)

@@ -2,10 +2,10 @@
 
     python -m benchmarks.gpu_models [--size tiny | full] [--frames 8] [--folder DIR]
 
-`full` writes Llama-3.1-8B's and Llama-3.2-11B-Vision's architectures with random weights (16 and 22 GB) into the
-folder and loads them from there as any `huggingface:` model; it needs a GPU with 48 GB. `tiny` does the same with two
-layers, on whatever there is. Random weights write until they must stop: replies are as long as `--tokens` lets them be,
-so the time is an upper bound for a model that knows when it is done.
+`full` writes the architectures of Llama-3.1-8B and Llama-3.2-11B-Vision with random weights (16 and 22 GB) into the
+folder. It then loads them as any `huggingface:` model, on a GPU with 48 GB. `tiny` does the same with two layers, on
+any device. A model with random weights does not stop by itself: its replies are `--tokens` long. So the time is an
+upper bound for a trained model.
 """
 
 from __future__ import annotations

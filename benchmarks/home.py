@@ -27,7 +27,7 @@ from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.home_check import check
 from coopera.simulation.acts.navigation import RADIUS, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import Walk
-from coopera.simulation.bodies.robot import ROBOTS
+from coopera.simulation.bodies.robot import known_robots
 from coopera.simulation.homes.catalogue import blocks
 
 AGENTS = (HUMAN, ROBOT)
@@ -150,8 +150,8 @@ def main() -> None:
     args = parser.parse_args()
     for scene in args.scenes.split(","):
         if args.commands:
-            commands(scene, HUMAN, args.commands, ROBOTS[0])
-            for robot in ROBOTS:
+            commands(scene, HUMAN, args.commands, known_robots()[0])
+            for robot in known_robots():
                 commands(scene, ROBOT, args.commands, robot)
     if args.days:
         days(args.scenes.split(",")[0], args.days)

@@ -3,15 +3,15 @@
     python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,shuffled --out runs/learning
     python -m benchmarks.learning --humans spc-valid-0001,spc-valid-0002 --seeds 1 --methods ours:lora,frequency_prior
 
-Each seed lives with some of the people (by default two; seed 0 with the first two, and so on in turn), five days each,
-in one home, without pictures: first alone, and then these days again with each method's robot. Runs that are finished
-already are read, not done again, and stopped ones go on. Prints a Markdown table: the mean predicate and judge F1 of
-each day over person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
+Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home,
+without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
+Finished runs are read, stopped runs go on. Prints a Markdown table: the mean predicate and judge F1 of each day over
+person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
-base here, unless --classifier-config gives another. The method "shuffled" is ours, but the yes and no of each day reach
-the classifiers dealt out anew at random, so that they have nothing to do with what was judged; all else (the retrieved
-days, the inferred picture, how many yes there were) is as it was. What it gains is not learned from feedback.
+base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
+and no reach the classifiers in random order. All else stays: the retrieved days, the belief, the number of yes. Its
+gain cannot come from feedback.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def main() -> None:
         summaries = list(each(_summary, [(args, job) for job in jobs]))
     for collab in types:
         print(f"\nCollaboration type {collab}\n")
-        print("| method | measure | " + " | ".join(f"day {day + 1}" for day in range(args.days)) + " | last - first |")
+        print("| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | last - first |")
         print("|---|---|" + "---|" * (args.days + 1))
         for method in methods:
             mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
@@ -130,7 +130,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         classifier=job.classifier,
         classifier_config=args.classifier_config if job.classifier == "lora-instruct" else None,
         pictures="none",
-        lived=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
+        earlier_life=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
         out=folder,
     )
     return run_study(config)

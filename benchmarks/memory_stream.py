@@ -150,7 +150,7 @@ def brute_force(vectors: Vector, hours: np.ndarray, query: Vector, now: int) -> 
 def langchain_retriever(
     folder: Path, size: int, embeddings: Prepared
 ) -> tuple[Callable[[str], list[int]], Callable[[], None]] | None:
-    """Return a function that asks LangChain's retriever and one that undoes what reading changed; None without it."""
+    """Return two functions: one asks LangChain's retriever, one undoes what reading changed; None without it."""
     try:
         retrievers: Any = import_module("langchain_classic.retrievers")
         store: Any = import_module("langchain_chroma")
@@ -202,9 +202,10 @@ class Race:
 
     def __init__(self, folder: Path, sizes: list[int], in_process: int) -> None:
         """Build what is missing."""
-        plain = bundled(folder / "embeddings.sqlite")
-        sentences = plain.array([f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)])
-        self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
+        texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)]
+        with bundled(folder / "embeddings.sqlite") as plain:
+            sentences = plain.array(texts)
+            self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
         self.sizes = sizes
         self.in_process = in_process
         embeddings = Prepared(sentences, self.questions)

@@ -1,7 +1,7 @@
 """A contact sheet of all motions: `python -m benchmarks.motion_sheet [--motions DIR] [--out docs/motions.webp]`.
 
-Each motion is shown at three moments of its cycle, on a seat or a bed where it sits or lies, and before a worktop where
-its hands work on one; with a plain thing in hand as it is held.
+Each motion is shown at three moments of its cycle, with a plain thing in hand. Sitting motions get a seat, lying
+motions a bed, and motions at a worktop get a worktop.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A toy of the whole loop, in texts: people with hidden habits, a robot that guesses, an evening's feedback.
+"""A toy of the whole loop, in texts: people with hidden habits, a robot with candidates, an evening's feedback.
 
-It exists to compare classifiers and knows nothing of the rest of coopera. A person is a draw of likings (from Big-Five
-loadings and chance), own hours, and own favourite things; the robot knows when people in general do what and with which
-things, and sees a motion class (right in 85 % of hours) and the room. `Example`s come out as the robot would have them.
+It exists to compare classifiers and uses nothing of the rest of coopera. A person is a draw of likings (from Big-Five
+loadings and chance), of usual hours and of favourite things. The robot knows the usual hours and things of people in
+general. It sees the room and a motion class, right in 85 % of hours. It makes the `Example`s as our robot does.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class Robot:
         return self._example(lived, lived.text, [], None).model_copy(update={"label": True})
 
     def imagine_tasks(self, lived: Lived, activity: int, guess: Example) -> list[Example]:
-        """Return 5 unlabelled offers for an imagined intention: things that go with it, by common sense."""
+        """Return 5 unlabelled task candidates for an intention candidate: things that go with it, by common sense."""
         rng = rng_at(self.seed, self.person.id, lived.day, lived.hour, "tasks", activity)
         things = activities()[activity].things
         picks = rng.choice(len(things), size=5, replace=False)

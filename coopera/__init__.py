@@ -1,6 +1,6 @@
-"""The front door: command line, configuration, run directory, trace and report.
+"""The front door: the command line, the configuration, the run directory, the reports, benchmarks and checks.
 
-Names are loaded when they are first used, so that `import coopera` costs nothing.
+Its public names load when first used, so `import coopera` costs nothing.
 """
 
 from __future__ import annotations

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Annotated, Any
 
 import typer
 
@@ -11,6 +14,7 @@ from coopera.commands import (
     analyse,
     benchmark,
     humans,
+    listing,
     memory,
     models,
     prompts,
@@ -20,18 +24,38 @@ from coopera.commands import (
     scenes,
     sharing,
 )
+from coopera.core.deprecation import OldWordWarning
 from coopera.core.errors import ConfigError, CooperaError
+from coopera.core.version import __version__
 
 app = typer.Typer(
     name="coopera",
     help="A person with a personality lives in a simulated home, and a robot learns to help that person.",
     epilog="Exit codes: 0 done, 1 the work failed, 2 the input is wrong, 130 stopped by Ctrl-C.",
     no_args_is_help=True,
-    add_completion=False,
+    rich_markup_mode=None,  # help names values and defaults in brackets, which Rich would take for its own
     pretty_exceptions_enable=False,
 )
+
+
+def _say_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"coopera {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _coopera(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_say_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Take what stands before a command."""
+
+
 app.command()(run.run)
 app.command()(run.resume)
+app.command("list")(listing.list_what)
 app.command()(reports.trace)
 app.command()(reports.report)
 app.command()(benchmark.benchmark)
@@ -51,8 +75,14 @@ def main(args: Sequence[str] | None = None) -> int:
 
     What is wrong is said in one sentence on standard error.
     """
+    with warnings.catch_warnings():
+        warnings.showwarning = partial(_say_warning, warnings.showwarning)
+        return _run(list(sys.argv[1:] if args is None else args))
+
+
+def _run(args: list[str]) -> int:
     try:
-        code = app(list(sys.argv[1:] if args is None else args), prog_name="coopera", standalone_mode=False)
+        code = app(args, prog_name="coopera", standalone_mode=False)
     except ConfigError as err:
         return _fail(str(err), 2)
     except CooperaError as err:
@@ -63,6 +93,14 @@ def main(args: Sequence[str] | None = None) -> int:
         sys.stderr.close()
         return 1
     return code if isinstance(code, int) else 0
+
+
+def _say_warning(usual: Callable[..., None], message: Warning | str, category: type[Warning], *where: Any) -> None:
+    """Say that a word is old in one sentence, as errors are said; other warnings are shown as usual."""
+    if issubclass(category, OldWordWarning):
+        typer.echo(f"coopera: {message}", err=True)
+    else:
+        usual(message, category, *where)
 
 
 def _fail(sentence: str, code: int) -> int:

@@ -6,10 +6,12 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
+- `guesses` and `offers` are the robot's candidates, as persons and judges are asked about them: intentions are texts,
+  tasks have `text` and `thought`;
 - in the classifiers' instruction `big_five` is a text, `intentions` and `tasks` are texts, and `place` is the
-  candidate's among the robot's guesses, from 1, or None;
-- `seen` is what a robot saw that goes on from it without an intention, and then stands in `intention` too; None for
-  one that has a guess;
+  candidate's place in the robot's list, from 1, or None;
+- `seen` is the observation in words, for a robot without an intention (`intention` then holds the same text); None for
+  a robot with an intention;
 - `percept` is a `Percept` as data with its `caption`, or None where the model looks at the pictures.
 """
 

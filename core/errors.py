@@ -35,7 +35,11 @@ class ModelCallError(CooperaError):
     """A language model could not be reached or refused to answer after bounded retries."""
 
 
-class ModelOutputError(CooperaError):
+class HourError(CooperaError):
+    """An hour cannot be lived to its end; it is recorded as failed, with this sentence, and the day goes on."""
+
+
+class ModelOutputError(HourError):
     """A language model answered, but not with what the prompt asks for, after bounded repairs.
 
     The hour that needed the reply is unscored, never counted as a "no".
@@ -70,6 +74,10 @@ class LearningError(CooperaError):
 
 class WaitingError(CooperaError):
     """A run waits for a real person's answer; it is stopped, not failed, and resuming it asks again."""
+
+
+class ConformanceError(CooperaError):
+    """A method breaks a rule; the text says which, and where it showed."""
 
 
 class RunError(CooperaError):

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Belief, BigFive, Frozen, PersonId
+from coopera.core.setting import Setting
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
-"""What the robot imagines and a classifier judges."""
+"""The kinds of candidates: the robot imagines them, and a classifier gives a verdict on each."""
 
 
 class Reasons(Frozen):
@@ -64,8 +65,16 @@ class SearchSizes(Frozen):
     In collaboration type 1 as many of the fixed and as many of the movable objects.
     """
 
-    objects: int = Field(30, strict=True, ge=1, le=1000)
-    motions: int = Field(5, strict=True, ge=1, le=1000)
+    objects: Annotated[
+        int,
+        Field(strict=True, ge=1, le=1000),
+        Setting("Objects the person is offered for an intention.", flag="--search-objects"),
+    ] = 30
+    motions: Annotated[
+        int,
+        Field(strict=True, ge=1, le=1000),
+        Setting("Motions the person is offered for an intention.", flag="--search-motions"),
+    ] = 5
 
 
 class TaskVerdict(Frozen):
@@ -105,10 +114,10 @@ class LoggedHour(Frozen):
 
 
 class Observation(Frozen):
-    """What the robot is given of the hour: never the intention, nor any task after the first.
+    """What the robot is given of the hour: neither the intention nor a task after the first.
 
     `frames`: picture files, relative to the run directory, robot views first, in order of time.
-    `percept`: set where the robot's model cannot look at pictures.
+    `percept`: set if the robot's model cannot look at pictures.
     `first_task`: the text of the first task, in collaboration type 1 only (PAPER §3.1).
     """
 
@@ -149,13 +158,13 @@ class RobotHour(Frozen):
     fallbacks: list[str] = []
     """Which defined fallbacks were used, e.g. "no intention accepted"."""
     with_whom: PersonId | None = None
-    """Whom the robot took the person for, where nobody said so."""
+    """Whom the robot took the person for, where the identity is unknown."""
     belief: Belief | None = None
-    """What it took the person for, where traits are inferred each hour."""
+    """The robot's belief in this hour, where traits are inferred each hour."""
 
 
 class Proposal(Frozen):
-    """What a robot makes of an hour: what it imagines, with its verdicts. Each `accepted` must be set; see `RobotHour`.
+    """A robot's answer to an hour: its candidates with its verdicts. Each `accepted` must be set; see `RobotHour`.
 
     The tasks are the superset that success is measured over; the accepted ones are then done, most probable first.
     """
@@ -184,15 +193,15 @@ class Counts(Frozen):
 
 
 class Help(Frozen):
-    """What really came of the robot's help, by the predicate, whatever it did or did not propose.
+    """The effect of the robot's help by the predicate, whatever the robot proposed.
 
     Attributes:
-        remaining: The person's tasks after the first.
-        helped: Those of them that an act of the robot's helped with.
-        done: Acts of the robot that succeeded in the home.
-        useless: Those of them that helped with nothing.
-        metres: What the robot drove, failed acts included.
-        saved_metres: What it drove for the acts that helped with a task that no earlier act had helped with.
+        remaining: Number of the person's tasks after the first.
+        helped: Number of these tasks with help by an act of the robot.
+        done: Number of the robot's successful acts.
+        useless: Number of successful acts without help for any task.
+        metres: The robot's way, failed acts included.
+        saved_metres: The robot's way for acts with help for a new task; a second act for the same task saves nothing.
     """
 
     remaining: int = Field(0, ge=0)
@@ -204,11 +213,22 @@ class Help(Frozen):
 
 
 class Success(Frozen):
-    """The hour's success by each measure; `help` is None in traces of before it was measured."""
+    """The hour's success by each measure; `help` is None in traces of before it was measured.
+
+    The figures of further measures stand beside these, each under its own name (`coopera.evaluation.measuring`).
+    """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, dict[str, int | float | None]] = Field(init=False)
 
     predicate: Counts
     judge: Counts
     help: Help | None = None
+
+    def of(self, measure: str) -> Counts | Help | dict[str, int | float | None] | None:
+        """The figures by a measure; None where it was not taken."""
+        shipped = {"predicate": self.predicate, "judge": self.judge, "help": self.help}
+        return shipped[measure] if measure in shipped else self.__pydantic_extra__.get(measure)
 
 
 class ModelCall(Frozen):
@@ -247,7 +267,7 @@ class HourRecord(Frozen):
 
 
 class FeedbackItem(Frozen):
-    """The person's yes or no, with a reason, to one thing the robot imagined."""
+    """The person's yes or no, with a reason, to one candidate of the robot."""
 
     hour: int
     kind: CandidateKind
@@ -261,9 +281,9 @@ class FeedbackItem(Frozen):
 
 
 class HourAccount(Frozen):
-    """What the person tells the robot in the evening of one hour: what they did, and yes or no to what was imagined.
+    """The person's account of one hour, given in the evening: the intention, the tasks, and feedback on the candidates.
 
-    In `robot`, the robot's own hour, `correct` is None throughout: what a measure says of it is not told.
+    `robot` is the robot's own hour. In it `correct` is None throughout: an account holds no measure.
     """
 
     hour: int
@@ -301,11 +321,11 @@ class Evening(Frozen):
 
 
 class DayPlan(Frozen):
-    """One day of a schedule: who lives it, where, and at which hours.
+    """One day of a schedule: its person, its home and its hours.
 
-    `day` numbers the days of a run and names its folder. An `episode` is what one robot lives through:
-    its knowledge starts anew with each episode, and `episode_day` (from 0) is the day within it, by
-    which learning curves count and which is the person's own calendar.
+    `day` numbers the days of a run and names the day's folder. An `episode` is one robot's time with its people: the
+    robot's knowledge starts anew with each episode. `episode_day` (from 0) is the day within the episode. Learning
+    curves count by it, and it is the person's own calendar.
     """
 
     day: int = Field(ge=0)
@@ -340,7 +360,7 @@ class Example(Frozen):
     tasks: list[str] = []
     """Previous relevant tasks, best first."""
     rank: int | None = Field(None, ge=0)
-    """Place of the intention (for a task: of its intention) in the robot's own list, 0 being its first guess.
+    """Place of the intention (for a task: of its intention) among the robot's candidates, 0 being the first.
 
     None where the robot did not imagine it, or where its order is not to be known.
     """

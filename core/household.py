@@ -8,6 +8,7 @@ from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
 
 from coopera.core.people import Frozen
+from coopera.core.setting import Setting
 
 SceneId = NewType("SceneId", str)
 AgentId = NewType("AgentId", str)
@@ -97,15 +98,25 @@ class Percept(Frozen):
         return f"In the {self.room}, the person {doing}{at}{thing}."
 
 
+_SHARE, _METRES = "a share from 0 to 1", "a number of metres from 0 to 1"
+
+
 class PerceptErrors(Frozen):
     """How often and how far perception errs: shares in [0, 1], and metres."""
 
-    motion_confused: float = Field(0.15, ge=0, le=1)
-    """Another motion class of the same posture is reported than the one that was recognised."""
-    in_hand_missed: float = Field(0.20, ge=0, le=1)
-    """The thing in the hand is not recognised."""
-    joint_noise: float = Field(0.03, ge=0, le=1)
-    """Standard deviation of each coordinate of a joint (metres): 0.03 puts a joint 5 cm off on average."""
+    motion_confused: Annotated[
+        float,
+        Field(ge=0, le=1),
+        Setting("How often another motion of the same posture is reported than the one that was recognised.", _SHARE),
+    ] = 0.15
+    in_hand_missed: Annotated[
+        float, Field(ge=0, le=1), Setting("How often the thing in the hand is not recognised.", _SHARE)
+    ] = 0.20
+    joint_noise: Annotated[
+        float,
+        Field(ge=0, le=1),
+        Setting("Standard deviation of each coordinate of a joint; 0.03 puts a joint 5 cm off on average.", _METRES),
+    ] = 0.03
 
 
 def plain(name: str) -> str:

@@ -32,7 +32,7 @@ class Question(Frozen):
         motions: Example motions, in collaboration type 2 ("tasks").
         n_tasks: How many tasks there should be ("tasks").
         tasks: The tasks of that hour in words ("feedback").
-        items: What the robot guessed and offered, each to be judged ("feedback").
+        items: The robot's candidates in words, each to be judged ("feedback").
         graded: Whether items are judged from 1 to 5 instead of by yes or no ("feedback").
         problem: What was wrong with the last answer to this question; empty the first time.
     """

@@ -41,8 +41,8 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], 
 class Made(Generic[Given, Thing]):
     """A function that makes each thing once, by what it is made of, and keeps the last so many.
 
-    Threads that ask for the same at once get the same: one makes it and the others wait, where under `lru_cache` each
-    would make its own (studies start together, and neither weights nor a server's gate may be there twice).
+    Threads may ask for the same thing at once: one makes it, the others wait. Under `lru_cache` each thread would make
+    its own. Studies start together, and weights or a server's gate must exist only once.
     """
 
     def __init__(self, make: Callable[Given, Thing], most: int | None) -> None:

@@ -41,7 +41,7 @@ class Trial(Frozen):
 
 
 class Provenance(Frozen):
-    """How an imported persona was made: from which row of which file, by which model and prompts, with which votes."""
+    """The origin of an imported persona: the file and the row, the model and the prompts, and the votes."""
 
     file: str
     row: int = Field(ge=1)
@@ -54,9 +54,9 @@ class Provenance(Frozen):
 class Persona(Frozen):
     """A person as written in a persona file: the truth that the robot must infer.
 
-    `source` says where the text came from ("coopera", or the file and row of an import). `notes` are the short
-    paragraph of traits that the profile extends; the ablation without profile extension lives by them. `provenance`
-    stands in imported personas only.
+    `source` says where the text came from ("coopera", or the file and row of an import). `notes` are a short paragraph
+    of traits, and the profile extends them; the ablation without profile extension uses the notes alone. Only imported
+    personas have a `provenance`.
     """
 
     id: PersonId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")

@@ -52,7 +52,7 @@ class FreeMotionDraft(_TaskDraft):
 
 
 class HandOverDraft(_TaskDraft):
-    """A proposed offer of one thing."""
+    """A proposed task to bring one thing."""
 
     act: HandOver
 

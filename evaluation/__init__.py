@@ -1,4 +1,7 @@
-"""Settings, methods, measures of success and statistics. Names load when first used: methods need the graphs."""
+"""Settings, methods, baselines, measures, grids and statistics.
+
+Its names load when first used, since the methods need the graphs.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.evaluation.counts import count, pool
+    from coopera.evaluation.measuring import MeasureSpec, find_measure, known_measures, register_measure
     from coopera.evaluation.methods import METHODS, find_method, known_methods, register
     from coopera.evaluation.settings import SETTINGS, episode, schedule
     from coopera.evaluation.success import Measure
@@ -16,12 +20,16 @@ __all__ = [
     "METHODS",
     "SETTINGS",
     "Measure",
+    "MeasureSpec",
     "count",
     "episode",
+    "find_measure",
     "find_method",
+    "known_measures",
     "known_methods",
     "pool",
     "register",
+    "register_measure",
     "schedule",
 ]
 
@@ -29,11 +37,15 @@ _HOMES = {
     "METHODS": "coopera.evaluation.methods",
     "SETTINGS": "coopera.evaluation.settings",
     "Measure": "coopera.evaluation.success",
+    "MeasureSpec": "coopera.evaluation.measuring",
     "count": "coopera.evaluation.counts",
+    "find_measure": "coopera.evaluation.measuring",
     "find_method": "coopera.evaluation.methods",
+    "known_measures": "coopera.evaluation.measuring",
     "known_methods": "coopera.evaluation.methods",
     "pool": "coopera.evaluation.counts",
     "register": "coopera.evaluation.methods",
+    "register_measure": "coopera.evaluation.measuring",
     "episode": "coopera.evaluation.settings",
     "schedule": "coopera.evaluation.settings",
 }

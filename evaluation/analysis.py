@@ -6,14 +6,15 @@ from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import NamedTuple
 
-from coopera.core.hour import Help
+from coopera.evaluation.agreement import l1
 from coopera.evaluation.comparing import Comparison, Unit, clustered_mean, compare
 from coopera.evaluation.counts import pool
-from coopera.evaluation.measures import help_score, l1, pool_help
+from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.results import Row
 from coopera.evaluation.statistics import Interval
 
-MEASURES = ("predicate", "judge", "people", "help")
+PEOPLE = "people"
+"""The measure that is no measure of an hour, but what the person said of it."""
 
 
 class Cell(NamedTuple):
@@ -24,13 +25,12 @@ class Cell(NamedTuple):
 
 
 def score(rows: Iterable[Row], measure: str) -> float | None:
-    """One figure of some hours: pooled F1 by "predicate", "judge" or "people", or the score of "help"."""
+    """The one figure of some hours by a measure; by "people", the F1 of what the person said in the evening."""
     hours = [row for row in rows if row.status == "ok"]
-    if measure != "help":
+    if measure == PEOPLE:
         return pool(counts for row in hours if (counts := row.counts(measure))).f1
-    measured = [row for row in hours if row.remaining is not None]
-    fields = [{name: getattr(row, name) or 0 for name in Help.model_fields} for row in measured]
-    return help_score(pool_help(Help(**each) for each in fields))
+    spec = find_measure(measure)
+    return spec.pool([figures for row in hours if (figures := row.of(spec)) is not None])[spec.headline]
 
 
 def units(rows: Iterable[Row], measure: str) -> dict[str, dict[tuple[Hashable, ...], Unit]]:

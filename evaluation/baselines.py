@@ -1,4 +1,4 @@
-"""Robots that are no variation of our graph: a habit table, and a brain that is finetuned on what it was told.
+"""Robots outside our graph: a habit table, and a model finetuned on the person's accounts.
 
 Both propose one intention and its tasks, accept all of them, and learn from the evenings alone.
 """
@@ -13,12 +13,11 @@ from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import DayAccount, IntentionCandidate, Observation, Proposal, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver
 from coopera.core.people import PersonId
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 
 
 class Occasion(NamedTuple):
-    """An hour that the person told of: what the robot saw, and what they did after the first task."""
+    """An hour of an account: the robot's observation, and the person's tasks after the first."""
 
     person: PersonId
     clock: Clock
@@ -37,9 +36,9 @@ class Habit:
         """Know nothing."""
         self._past: list[Occasion] = []
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         """Propose the habit of this hour."""
-        past = [one for one in self._past if (one.person, one.clock.hour) == (ctx.person, given["clock"].hour)]
+        past = [one for one in self._past if (one.person, one.clock.hour) == (view.person, view.clock.hour)]
         if not past:
             return Proposal(fallbacks=["nothing is known of this person at this hour"])
         times = Counter(one.intention for one in past)
@@ -55,11 +54,11 @@ class Habit:
 class Finetuned:
     """The robot's brain itself, finetuned each evening to output one intention and its tasks from what it sees.
 
-    PAPER §4.3 finetunes a language model. The offline model has no weights to finetune; what stands for it here is the
-    same map from input to output, trained on the same evenings: multinomial logistic regression from the words of the
-    percept and the hour to one of the intentions that were told, which is then carried out as on its most similar
-    occasion. It can only repeat what it was told, and it prefers what it was told often. With a robot model of Hugging
-    Face that model itself is finetuned (`coopera.evaluation.finetuned`).
+    PAPER §4.3 finetunes a language model. The offline model has no weights to finetune, so a multinomial logistic
+    regression takes its place. It learns the same map from the same evenings: from the words of the percept and the
+    hour to one intention of the accounts. The tasks are those of the most similar hour with this intention. It can only
+    repeat an intention of the accounts, and it prefers frequent ones. A robot model of Hugging Face is finetuned
+    itself (`coopera.evaluation.finetuned`).
     """
 
     def __init__(self) -> None:
@@ -67,11 +66,11 @@ class Finetuned:
         self._past: list[Occasion] = []
         self._model: Any = None
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         """Propose what was learned for such a sight at such an hour; before the first evening, nothing."""
         if not self._past:
             return Proposal(fallbacks=["nothing has been told yet"])
-        text = _shown(ctx.person, given["clock"], sight_of(given["observation"]))
+        text = _shown(view.person, view.clock, sight_of(view.observation))
         if self._model is None:  # one intention is all that was ever told
             return _propose(self._past[-1], 1.0)
         chances = dict(zip(self._model.classes_, self._model.predict_proba([text])[0], strict=True))
@@ -102,7 +101,7 @@ class Finetuned:
 
 
 def occasions_of(account: DayAccount) -> list[Occasion]:
-    """The hours that the person told of in an evening."""
+    """The hours of an account."""
     return [
         Occasion(
             person=account.person,

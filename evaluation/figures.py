@@ -35,14 +35,14 @@ def within_and_across(rows: Sequence[Row], methods: Sequence[str]) -> str:
     """The paper's figure of change: (a) within a day, by hour; (b) across days; all settings and types together."""
     figure, (left, right) = _axes(1, 2, (9.2, 3.4))
     _lines(left, rows, methods, lambda row: row.hour, "predicate")
-    _lines(right, rows, methods, lambda row: row.round + 1, "predicate")
+    _lines(right, rows, methods, lambda row: row.round, "predicate")
     hours = sorted({row.hour for row in rows})
     left.set_xticks(hours[::3], [hour_label(hour) for hour in hours[::3]])
     left.set_title("(a) within a day, all days", loc="left")
     left.set_ylabel("predicate F1")
     right.set_title("(b) across days with the same person", loc="left")
     right.set_xlabel("day with this person")
-    right.set_xticks(sorted({row.round + 1 for row in rows}))
+    right.set_xticks(sorted({row.round for row in rows}))
     right.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
     return _svg(figure)
 
@@ -55,9 +55,9 @@ def breakdown(rows: Sequence[Row], methods: Sequence[str], measure: str) -> str:
         for across, setting in enumerate(settings):
             axes = grid[down * len(settings) + across]
             chosen = [row for row in rows if (row.setting, row.collab) == (setting, collab)]
-            _lines(axes, chosen, methods, lambda row: row.day + 1, measure)
+            _lines(axes, chosen, methods, lambda row: row.day, measure)
             axes.set_title(f"setting {setting}, type {collab}", loc="left")
-            axes.set_xticks(sorted({row.day + 1 for row in chosen}))
+            axes.set_xticks(sorted({row.day for row in chosen}))
             if down == len(types) - 1:
                 axes.set_xlabel("day")
             if across == 0:

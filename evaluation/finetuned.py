@@ -14,8 +14,7 @@ from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCand
 from coopera.core.household import Collab, HandOver, PickPlace
 from coopera.core.people import Frozen, PersonId
 from coopera.evaluation.baselines import Occasion, occasions_of, offer, sight_of
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 from coopera.models.classifiers.state import replace_bytes
 from coopera.models.parsing import BadReplyError, read_reply
 from coopera.models.schemas import enforced_schema
@@ -59,14 +58,14 @@ class FinetunedModel:
         self._chat: FinetunedChat = FinetunedChat(model, recipe)
         self._past: list[Occasion] = []
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
-        """Propose what the finetuned model says; a reply that cannot be read proposes nothing, and that is said."""
+    def help(self, view: RobotView) -> Proposal:
+        """Propose the finetuned model's candidates; after an unreadable reply there are none, as a fallback says."""
         if not self._chat.trained:
             return Proposal(fallbacks=["nothing has been told yet"])
-        reply = REPLY[ctx.collab]
-        things = {kind: ctx.home.objects(kind) for kind in ("fixed", "movable")} if ctx.collab == 1 else {}
+        reply = REPLY[view.collab]
+        things = {kind: view.home.objects(kind) for kind in ("fixed", "movable")} if view.collab == 1 else {}
         text = self._chat.reply(
-            question(ctx.person, given["clock"], sight_of(given["observation"])), enforced_schema(reply, things)
+            question(view.person, view.clock, sight_of(view.observation)), enforced_schema(reply, things)
         )
         try:
             said = read_reply(text, reply)
@@ -81,7 +80,7 @@ class FinetunedModel:
         )
 
     def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
-        """Train on all that was told so far, or on the newest of it."""
+        """Train on all accounts so far, or on the newest of them."""
         self._past += occasions_of(account)
         lessons = [lesson(one) for one in self._past]
         return dict(self._chat.train(lessons, seed=seed)) if lessons else {"lessons": 0}

@@ -5,16 +5,12 @@ Methods of other packages join by an entry point in the group `coopera.methods`;
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from importlib.metadata import EntryPoint, entry_points
 
-from coopera.core.errors import ConfigError
+from coopera.core.registry import Registry
 from coopera.evaluation.baselines import Finetuned, Habit
 from coopera.evaluation.finetuned import FinetunedModel
 from coopera.graphs.method import Method
-
-GROUP = "coopera.methods"
 
 OURS = Method(name="ours")
 
@@ -47,31 +43,21 @@ METHODS: dict[str, Method] = {
 """The methods of this package, and those that `register` added in this process, by name."""
 
 
+_METHODS = Registry("method", Method, registered=METHODS)
+
+
 def known_methods() -> list[str]:
     """Names of all methods that can be chosen, those of other packages last; nothing of theirs is loaded."""
-    return [*METHODS, *(name for name in sorted(_installed()) if name not in METHODS)]
+    return _METHODS.known()
 
 
 def find_method(name: str) -> Method:
     """Return a method by name.
 
     Raises:
-        ConfigError: If there is none, or another package registers it and it cannot be loaded or is no `Method`.
+        ConfigError: If there is none, or another package offers it and it cannot be loaded or is no `Method`.
     """
-    if name in METHODS:
-        return METHODS[name]
-    installed = _installed()
-    if name not in installed:
-        raise ConfigError(f"method: there is no method {name!r} (known are {', '.join(known_methods())}).")
-    entry = installed[name]
-    where = f"method: {name} of {entry.dist.name if entry.dist else 'another package'} ({entry.value})"
-    try:
-        found = entry.load()
-    except (ImportError, AttributeError) as err:
-        raise ConfigError(f"{where} cannot be loaded: {err}.") from err
-    if not isinstance(found, Method):
-        raise ConfigError(f"{where} must be a graphs.Method, not {type(found).__name__}.")
-    return replace(found, name=name)
+    return _METHODS.find(name)
 
 
 def register(method: Method) -> Method:
@@ -80,10 +66,4 @@ def register(method: Method) -> Method:
     Raises:
         ConfigError: If another method has its name already.
     """
-    if METHODS.setdefault(method.name, method) != method:
-        raise ConfigError(f"method: the name {method.name!r} is taken by another method.")
-    return method
-
-
-def _installed() -> Mapping[str, EntryPoint]:
-    return {entry.name: entry for entry in entry_points(group=GROUP)}
+    return _METHODS.register(method)

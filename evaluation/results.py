@@ -1,7 +1,7 @@
 """The results of a benchmark as a table: one row per method and hour, in an open format that anybody can check.
 
-A results folder holds `results.json` (what was run, by what, and the SHA-256 of the table) and `hours.csv` (the rows,
-sorted; also as `hours.parquet` where pyarrow is installed). Every table, figure and statistic is computed from these.
+A results folder holds two files. `results.json` names the runs, the version and the SHA-256 of the table. `hours.csv`
+has the sorted rows, also as `hours.parquet` if pyarrow is installed. All tables, figures and statistics use these two.
 """
 
 from __future__ import annotations
@@ -9,15 +9,17 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 
 from coopera.core.errors import ConfigError
 from coopera.core.hour import Counts, Evening, HourRecord
 from coopera.core.people import Frozen
-from coopera.evaluation.measures import by_person
+from coopera.evaluation.agreement import by_person
+from coopera.evaluation.measuring import F, MeasureSpec, all_measures
 
 FORMAT = 1
 """Raised whenever a column changes its meaning; readers refuse other numbers."""
@@ -28,10 +30,14 @@ Share = Field(None, ge=0)
 class Row(Frozen):
     """One hour under one method.
 
-    `day` is the day of the episode and `round` how many days of this person came before in it. `human` is the SHA-256
-    of all that the person decided in the hour, and the same under every method. `activity` is the group of household
-    activities that the true intention is nearest to. The measures are those of docs/measures.md.
+    `day` is the day of the episode. `round` counts this person's earlier days in the episode. `human` is the SHA-256
+    of the person's decisions in the hour; it is the same under every method. `activity` is the group of household
+    activities nearest to the true intention. docs/measures.md defines the measures. The figures of
+    further ones (`coopera.evaluation.measuring`) stand in further columns, MEASURE_FIGURE.
     """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, int | float | None] = Field(init=False)
 
     method: str
     setting: str
@@ -77,13 +83,33 @@ class Row(Frozen):
 
     def counts(self, measure: str) -> Counts | None:
         """The confusion counts by "predicate", "judge" or "people"; None in a failed hour."""
-        found = {name: getattr(self, f"{measure}_{name}") for name in _COUNTS}
-        return None if found["tp"] is None else Counts(**found)
+        return self._read(measure, Counts)
+
+    def of(self, spec: MeasureSpec[F]) -> F | None:
+        """The figures by a measure; None in a failed hour, and where the measure was not taken."""
+        return self._read(spec.name, spec.figures)
+
+    def _read(self, measure: str, figures: type[F]) -> F | None:
+        found = {field: getattr(self, column, None) for column, field in columns_of(measure, figures).items()}
+        given = {field: value for field, value in found.items() if value is not None}
+        try:
+            return figures.model_validate(given) if given else None
+        except ValidationError as err:
+            field = err.errors(include_url=False)[0]["loc"][0]
+            raise ConfigError(f"{measure}_{field}: this column is missing, or not what {measure} measures.") from None
 
 
 _COUNTS = ("tp", "fp", "fn", "tn", "unscored")
-_HELP = ("remaining", "helped", "done", "useless", "metres", "saved_metres")
 COLUMNS = tuple(Row.model_fields)
+"""The columns that every table has."""
+_BARE = "help"  # in format 1 the columns of this measure do not bear its name
+_FURTHER = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)+")
+
+
+def columns_of(measure: str, figures: type[Frozen]) -> dict[str, str]:
+    """Each column of a measure, and the figure in it. Rates of counts have none: they follow from the counts."""
+    fields = _COUNTS if issubclass(figures, Counts) else tuple(figures.model_fields)
+    return {field if measure == _BARE else f"{measure}_{field}": field for field in fields}
 
 
 class Card(Frozen):
@@ -127,14 +153,10 @@ def rows_of(
         said = by_person(item for item in told.get(hour.day, []) if item.hour == hour.hour)
         measured: dict[str, Any] = {}
         if hour.success:
-            for name, counts in (
-                ("predicate", hour.success.predicate),
-                ("judge", hour.success.judge),
-                ("people", said),
-            ):
-                measured |= {f"{name}_{field}": getattr(counts, field) for field in _COUNTS}
-            if hour.success.help:
-                measured |= {field: getattr(hour.success.help, field) for field in _HELP}
+            taken = {"people": said, **{spec.name: spec.read(hour.success) for spec in all_measures()}}
+            for name, figures in taken.items():
+                if figures is not None:
+                    measured |= {at: getattr(figures, field) for at, field in columns_of(name, type(figures)).items()}
         rows.append(
             Row(
                 **labels,
@@ -155,10 +177,11 @@ def rows_of(
 
 def to_csv(rows: Iterable[Row]) -> str:
     """The table as text, sorted; an empty cell is a figure that does not exist."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    text, table = io.StringIO(), sorted(rows, key=lambda row: row.key)
+    further = dict.fromkeys(name for row in table for name in row.model_extra or {})
+    writer = csv.DictWriter(text, [*COLUMNS, *further], lineterminator="\n")
     writer.writeheader()
-    writer.writerows(row.model_dump() for row in sorted(rows, key=lambda row: row.key))
+    writer.writerows(row.model_dump() for row in table)
     return text.getvalue()
 
 
@@ -169,8 +192,10 @@ def from_csv(text: str, source: str) -> list[Row]:
         ConfigError: Naming the file, the line, the column and what was expected.
     """
     reader = csv.DictReader(io.StringIO(text))
-    if tuple(reader.fieldnames or ()) != COLUMNS:
-        odd = sorted(set(reader.fieldnames or ()) ^ set(COLUMNS))
+    names = tuple(reader.fieldnames or ())
+    further = names[len(COLUMNS) :]
+    if names[: len(COLUMNS)] != COLUMNS or len(set(names)) < len(names) or not all(map(_FURTHER.fullmatch, further)):
+        odd = sorted(set(names) ^ set(COLUMNS))
         raise ConfigError(
             f"{source}: the columns must be those of format {FORMAT}; check {', '.join(odd) or 'their order'}."
         )

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from coopera.core.hour import Counts
 from coopera.evaluation import paper
-from coopera.evaluation.analysis import Cell, agreement, comparisons, curve, effort, generalisation, last_day
+from coopera.evaluation.analysis import PEOPLE, Cell, agreement, comparisons, curve, effort, generalisation, last_day
+from coopera.evaluation.measuring import all_measures, find_measure
 from coopera.evaluation.results import Row
 
 REFERENCE = "ours"
@@ -44,8 +46,7 @@ class Table(NamedTuple):
 def all_tables(rows: Sequence[Row], methods: Sequence[str]) -> list[Table]:
     """Every table that the rows allow, methods in the given order."""
     tables = [
-        last_day_table(rows, methods, "predicate"),
-        *[last_day_table(rows, methods, measure) for measure in ("judge", "people", "help")],
+        *[last_day_table(rows, methods, measure) for measure in _measures(rows)],
         paper_table(rows, methods),
         comparison_table(rows, methods),
         order_table(rows),
@@ -57,12 +58,20 @@ def all_tables(rows: Sequence[Row], methods: Sequence[str]) -> list[Table]:
     return [table for table in tables if table.rows]
 
 
+def _measures(rows: Sequence[Row]) -> list[str]:
+    """Every measure that some row has, the person's own after the predicate and the judge."""
+    taken = [spec for spec in all_measures() if any(row.of(spec) is not None for row in rows)]
+    counted = [spec.name for spec in taken if issubclass(spec.figures, Counts)]
+    return [*counted, PEOPLE, *(spec.name for spec in taken if spec.name not in counted)]
+
+
 def last_day_table(rows: Sequence[Row], methods: Sequence[str], measure: str) -> Table:
     """A measure on each person's last day, by setting and type."""
     places = sorted({(row.setting, row.collab) for row in rows})
     found = {place: last_day([row for row in rows if (row.setting, row.collab) == place], measure) for place in places}
     lines = [[method, *(_cell(found[place].get(method)) for place in places)] for method in methods]
-    what = {"help": "Help score"}.get(measure, f"F1 by {measure}")
+    spec = None if measure == PEOPLE else find_measure(measure)
+    what = f"F1 by {measure}" if spec is None or issubclass(spec.figures, Counts) else spec.title.capitalize()
     return Table(
         f"last_day_{measure}",
         f"{what} on each person's last day",
@@ -159,7 +168,7 @@ def generalisation_table(rows: Sequence[Row]) -> Table:
         "Generalisation: a fresh robot, and one that has learned elsewhere, on the same unseen day",
         ["unseen", "fresh", "learned", "paper: fresh", "paper: learned"],
         lines,
-        "Scene: day 5 of setting 2, after four other homes. Human: a stranger after nine days with three others.",
+        "Scene: day 4 of setting 2, after four other homes. Human: a stranger after nine days with three others.",
     )
 
 

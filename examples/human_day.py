@@ -14,7 +14,6 @@ from pathlib import Path
 
 from coopera.config.schema import Config, Models
 from coopera.graphs import build_human_graph
-from coopera.graphs.hour import human_context
 from coopera.graphs.human import human_hour
 from coopera.studies.study import new_run, plan_days
 
@@ -33,7 +32,7 @@ def main(person: str = "joan", collab: str = "2", model: str = "offline", base_u
         )
         with new_run(config) as (run, services):
             plan = plan_days(run.config)[0]
-            person_in_home, graph = human_context(services, plan), build_human_graph()
+            person_in_home, graph = services.human(plan), build_human_graph()
             for position in range(len(plan.hours)):
                 clock = plan.clock(position)
                 lived = human_hour(graph.invoke({"clock": clock, "hours": plan.hours}, context=person_in_home))

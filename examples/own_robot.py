@@ -15,8 +15,7 @@ from coopera import Config, check_method, run_study
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver
 from coopera.evaluation import register
-from coopera.graphs import Method, RobotContext
-from coopera.graphs.robot import RobotInput
+from coopera.graphs import Method, RobotView
 
 
 class Habits:
@@ -25,11 +24,11 @@ class Habits:
     def __init__(self) -> None:
         self.seen: Counter[tuple[str, int, str]] = Counter()
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         """Offer the five things most often in hand within an hour of now."""
-        now, near = given["clock"].hour, Counter[str]()
+        now, near = view.clock.hour, Counter[str]()
         for (person, hour, thing), times in self.seen.items():
-            if person == ctx.person and abs(hour - now) <= 1:
+            if person == view.person and abs(hour - now) <= 1:
                 near[thing] += times
         acts = [HandOver(object=thing) for thing, _ in sorted(near.items(), key=lambda item: (-item[1], item[0]))[:5]]
         usual = IntentionCandidate(text="Do the usual", accepted=True)

@@ -1,4 +1,7 @@
-"""The LangGraph state machines: the person's hour, the robot's hour, the day, the study."""
+"""The LangGraph state machines: the person's hour, the robot's hour, the whole hour, the day, the study.
+
+The services of their nodes, the learning of an evening and robots of one's own are here, too.
+"""
 
 from __future__ import annotations
 
@@ -10,15 +13,20 @@ if TYPE_CHECKING:
     from coopera.graphs.day import build_day_graph, first_day
     from coopera.graphs.human import build_human_graph
     from coopera.graphs.method import Method
-    from coopera.graphs.robot import build_robot_graph
-    from coopera.graphs.services import HumanContext, RobotContext, Services
+    from coopera.graphs.own_robot import Robot
+    from coopera.graphs.player import HumanContext
+    from coopera.graphs.robot import RobotContext, build_robot_graph
+    from coopera.graphs.robot_view import RobotView
+    from coopera.graphs.services import Services
     from coopera.graphs.study import STATE_TYPES, build_study_graph
 
 __all__ = [
     "STATE_TYPES",
     "HumanContext",
     "Method",
+    "Robot",
     "RobotContext",
+    "RobotView",
     "Services",
     "build_day_graph",
     "build_human_graph",
@@ -29,9 +37,11 @@ __all__ = [
 
 _HOMES = {
     "STATE_TYPES": "coopera.graphs.study",
-    "HumanContext": "coopera.graphs.services",
+    "HumanContext": "coopera.graphs.player",
     "Method": "coopera.graphs.method",
-    "RobotContext": "coopera.graphs.services",
+    "Robot": "coopera.graphs.own_robot",
+    "RobotContext": "coopera.graphs.robot",
+    "RobotView": "coopera.graphs.robot_view",
     "Services": "coopera.graphs.services",
     "build_day_graph": "coopera.graphs.day",
     "build_human_graph": "coopera.graphs.human",

@@ -1,13 +1,12 @@
 """A day as a supervisor graph: start_day -> hour (looped) -> feedback -> infer_traits -> learn -> end_day.
 
-With a checkpointer, each pass through `hour` leaves a durable checkpoint; the state holds all that the next hour needs
-(the homes as they were left, what the robot believes), so a stopped day goes on in another process.
+With a checkpointer, each pass through `hour` leaves a durable checkpoint. The state holds everything for the next hour:
+the homes as they were left, and the robot's beliefs. So a stopped day goes on in another process.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, Literal
 
 from langgraph.checkpoint.base import BaseCheckpointSaver
@@ -16,20 +15,20 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
-from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
 from coopera.core.household import SceneId
-from coopera.core.interview import Question
+from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
-from coopera.core.replies import GradesReply, VerdictsReply
-from coopera.graphs.hour import build_hour_graph, human_context
-from coopera.graphs.human import as_tasks, when, who
+from coopera.graphs.hour import HourInput, build_hour_graph
 from coopera.graphs.learning import account_of
-from coopera.graphs.real_person import HELPFUL, Verdict, ask_until_read, interviewer, read_verdicts
+from coopera.graphs.player import HumanContext
+from coopera.graphs.real_person import Verdict
 from coopera.graphs.services import Services
 from coopera.graphs.traits import accounts, revise
+
+_hour_graph = made_once()(build_hour_graph)
 
 
 class DayInput(TypedDict):
@@ -62,24 +61,6 @@ def build_day_graph(
     checkpointer: BaseCheckpointSaver[Any] | None = None,
 ) -> CompiledStateGraph[DayState, Services, DayInput, DayState]:
     """Compile the day; invoke it with a `DayInput` and `Services`, or use it as a node of the study."""
-    hours = build_hour_graph()
-
-    def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-        """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`."""
-        services, plan = runtime.context, state["plan"]
-        services.pupil.be_at(state["learned"])
-        home = services.home(plan.scene)
-        home.restore(state["worlds"].get(plan.scene, {}))
-        services.ask.take_calls()
-        runtime.stream_writer({"day": plan.day, "hour": plan.hours[state["position"]], "node": "hour", "success": None})
-        belief = state["beliefs"].get(plan.person, Belief())
-        services = _with_person(services)
-        done = hours.invoke(
-            {"plan": plan, "position": state["position"], "belief": belief, "beliefs": state["beliefs"]},
-            context=services,
-        )
-        return {"position": state["position"] + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
-
     graph = StateGraph(DayState, context_schema=Services, input_schema=DayInput)
     for node in (start_day, hour, feedback, infer_traits, learn, end_day):
         graph.add_node(node)
@@ -99,27 +80,40 @@ def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
     return {"position": 0}
 
 
+def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`."""
+    services, plan, position = runtime.context, state["plan"], state["position"]
+    services.pupil.be_at(state["learned"])
+    services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
+    services.ask.take_calls()
+    runtime.stream_writer({"day": plan.day, "hour": plan.hours[position], "node": "hour", "success": None})
+    belief = state["beliefs"].get(plan.person, Belief())
+    given = HourInput(plan=plan, position=position, belief=belief, beliefs=state["beliefs"])
+    done = _hour_graph().invoke(given, context=services.here())
+    return {"position": position + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
+
+
 def next_hour(state: DayState) -> Literal["hour", "feedback"]:
     """Loop until the plan's hours are lived."""
     return "hour" if state["position"] < len(state["plan"].hours) else "feedback"
 
 
 def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Ask the person what was right of all that the robot imagined today. Writes `feedback`.
+    """Ask the person for feedback on all candidates of today. Writes `feedback`.
 
-    PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the imagined intentions too, and for
-    the whole superset rather than for what was done, so that both classifiers get labels that are not biased by them.
+    PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the intention candidates too, and for
+    the whole superset, not only for the tasks done. So the classifiers do not bias their own labels.
     """
-    services, plan = _with_person(runtime.context), state["plan"]
+    ctx = runtime.context.here().human(state["plan"])
     items: list[FeedbackItem] = []
-    for hour in services.recorder.read_day(plan.day):
+    for hour in runtime.context.recorder.read_day(ctx.plan.day):
         if hour.human is not None and hour.robot is not None:
-            items += _hour_feedback(services, plan, hour.hour, hour.human, hour.robot)
+            items += _hour_feedback(ctx, hour.hour, hour.human, hour.robot)
     return {"feedback": items}
 
 
 def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Revise the robot's belief about the person from what it was told today. Writes `beliefs`, `traits_reasons`.
+    """Revise the robot's belief about the person from today's accounts. Writes `beliefs`, `traits_reasons`.
 
     A reply that cannot be read leaves the belief as it was.
     """
@@ -183,28 +177,13 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     return {}
 
 
-def _hour_feedback(
-    services: Services, plan: DayPlan, hour: int, human: HumanHour, robot: RobotHour
-) -> list[FeedbackItem]:
-    clock = plan.clock(plan.hours.index(hour))
-    at = Address(plan.person, clock.day, clock.hour, "feedback")
-    guesses = [c.text for c in robot.intentions]
-    texts = [t.act.describe() for t in robot.tasks]
-    heard: Sequence[Verdict]
-    said: Sequence[Verdict]
-    if services.interview:
-        question = _question(services, plan, clock, human, [*guesses, *texts])
-        verdicts = ask_until_read(services.interview, question, lambda answer: read_verdicts(answer, question))
-        heard, said = verdicts[: len(guesses)], verdicts[len(guesses) :]
-    else:
-        known = {**when(clock), **who(human_context(services, plan)), "intention": human.intention.text}
-        offers = [{"thought": t.thought, "text": text} for t, text in zip(robot.tasks, texts, strict=True)]
-        asked = {**known, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
-        heard = _ask_verdicts(services, "intentions", at, {**known, "guesses": guesses}, len(guesses))
-        said = _ask_verdicts(services, "tasks", at, asked, len(offers))
+def _hour_feedback(ctx: HumanContext, hour: int, human: HumanHour, robot: RobotHour) -> list[FeedbackItem]:
+    clock = ctx.plan.clock(ctx.plan.hours.index(hour))
+    said = ctx.player.verdicts(clock, ctx, human, robot)
+    guesses, offers = [c.text for c in robot.intentions], [t.act.describe() for t in robot.tasks]
     return [
-        *_items(hour, "intention", guesses, robot.intentions, heard),
-        *_items(hour, "task", texts, robot.tasks, said),
+        *_items(hour, "intention", guesses, robot.intentions, said[: len(guesses)]),
+        *_items(hour, "task", offers, robot.tasks, said[len(guesses) :]),
     ]
 
 
@@ -227,45 +206,3 @@ def _items(
         )
         for text, candidate, answer in zip(texts, candidates, answers, strict=True)
     ]
-
-
-def _with_person(services: Services) -> Services:
-    """The services of a node that may ask a real person."""
-    return replace(services, interview=interviewer()) if services.in_the_loop else services
-
-
-def _question(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, items: list[str]) -> Question:
-    return Question(
-        kind="feedback",
-        person=plan.person,
-        name=services.people[plan.person].name,
-        day=clock.day,
-        hour=clock.hour,
-        time=clock.label,
-        weekday=clock.weekday,
-        collab=plan.collab,
-        intention=human.intention.text,
-        tasks=[task.act.describe() for task in human.tasks],
-        items=items,
-        graded=services.graded,
-    )
-
-
-def _ask_verdicts(
-    services: Services, what: Literal["intentions", "tasks"], at: Address, variables: dict[str, Any], count: int
-) -> Sequence[Verdict]:
-    """Ask the simulated person; an answer that cannot be read, or of another length, is no verdict on anything."""
-    if count == 0:
-        return []
-    try:
-        if services.graded:
-            grades = services.ask(f"human/grade_{what}", GradesReply, at=at, variables=variables).grades
-            said = [Verdict(g.grade >= HELPFUL, g.reason, g.grade) for g in grades]
-        else:
-            verdicts = services.ask(f"human/feedback_{what}", VerdictsReply, at=at, variables=variables).verdicts
-            said = [Verdict(v.yes, v.reason) for v in verdicts]
-    except ModelOutputError as err:
-        return [Verdict(None, str(err))] * count
-    if len(said) != count:
-        return [Verdict(None, f"{len(said)} answers to {count} questions")] * count
-    return said

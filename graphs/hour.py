@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Annotated, Any, NotRequired, Protocol, cast
 
 from langgraph.graph import END, START, StateGraph
@@ -17,24 +16,26 @@ from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
-from coopera.core.errors import ModelOutputError
-from coopera.core.hour import DayPlan, HourRecord, HumanHour, Observation, RobotHour, Success
-from coopera.core.household import Outcome
+from coopera.core.errors import HourError, ModelOutputError
+from coopera.core.hour import DayPlan, HourRecord, HumanHour, Intention, Observation, RobotHour, Success
+from coopera.core.household import Act, AgentId, Outcome
+from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
-from coopera.graphs.earlier_life import Shown
-from coopera.graphs.human import HumanInput, HumanState, build_human_graph, human_hour
 from coopera.graphs.identity import identify, sight
 from coopera.graphs.robot import (
     OracleInput,
+    OwnRobotContext,
+    RobotContext,
     RobotInput,
     RobotState,
     build_own_robot_graph,
     build_robot_graph,
     robot_hour,
 )
-from coopera.graphs.services import HumanContext, RobotContext, Services
+from coopera.graphs.robot_view import HomeView, RobotView, robots_door
+from coopera.graphs.services import Services
 from coopera.graphs.traits import guesses, revise
 from coopera.simulation.acts.state import digest
 
@@ -60,6 +61,10 @@ class HourState(HourInput, total=False):
     world: dict[str, Any]  # by record: the snapshot
 
 
+_robot = made_once()(build_robot_graph)
+_oracle = made_once()(lambda: build_robot_graph(OracleInput))
+_own_robot = made_once()(build_own_robot_graph)
+
 _ALONE = {"human": "finish", "finish": "record"}
 """What comes next where there is no robot."""
 
@@ -74,34 +79,6 @@ class Node(Protocol):
 
 def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, HourState]:
     """Compile the hour; a reply that cannot be read ends it early, as failed, and it is recorded all the same."""
-    human, robot, own = build_human_graph(), build_robot_graph(), build_own_robot_graph()
-    oracle = build_robot_graph(OracleInput)
-
-    def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        if runtime.context.lived:
-            again = runtime.context.lived.hour(state["plan"], _clock(state).hour)
-            return {"human": again.human} if again.human else {"failure": again.reason}
-        ctx = human_context(runtime.context, state["plan"])
-        ctx.memories.forget_from(_clock(state).now)
-        ctx = replace(ctx, logged=runtime.context.logged(state["plan"], _clock(state)))
-        given = HumanInput(clock=_clock(state), hours=state["plan"].hours)
-        return {"human": human_hour(cast(HumanState, human.invoke(given, context=ctx)))}
-
-    def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        plan, guessed = state["plan"], _with_whom(state, runtime.context)
-        ctx = robot_context(runtime.context, plan, guessed)
-        ctx.guesses.forget_from(_clock(state).now)
-        belief = state["belief"] if ctx.person == plan.person else state.get("beliefs", {}).get(ctx.person, Belief())
-        if runtime.context.hourly_traits and ctx.method.traits:
-            belief = _revised(runtime.context, plan, _clock(state), ctx.person, belief)
-        given = RobotInput(clock=_clock(state), observation=state["observation"], belief=belief)
-        helper = robot if ctx.own is None else own
-        if ctx.method.intentions == "given":
-            helper, given = oracle, OracleInput(**given, true_intention=state["human"].intention.text)
-        helped = robot_hour(cast(RobotState, helper.invoke(given, context=ctx)))
-        believed = belief if runtime.context.hourly_traits else None
-        return {"robot": helped.model_copy(update={"with_whom": guessed, "belief": believed})}
-
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
     nodes: dict[str, Node] = {
         "human": live,
@@ -120,49 +97,42 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
     return graph.compile(checkpointer=False, name="hour")
 
 
-def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Have the person do the first task while the robot watches. Writes `observation`.
+def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Have the person decide what to do. Writes `human`."""
+    return {"human": runtime.context.life.decide(runtime.context, state["plan"], _clock(state))}
 
-    The robot gets sampled frames, in type 1 the task's text too (PAPER §3.1), and, where its model cannot look at
-    beliefs, what a perception module reports.
-    """
+
+def demonstrate(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Have the person do the first task while the robot watches. Writes `observation`; adds to `outcomes`."""
+    services, first = runtime.context, state["human"].tasks[0]
+    seen, outcome = services.life.show(services, state["plan"], _clock(state), first)
+    return {"observation": seen, "outcomes": [outcome]}
+
+
+def help_person(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+    """Have the robot help. Reads `observation` and the beliefs; writes `robot`."""
     services, plan, clock = runtime.context, state["plan"], _clock(state)
-    home, first = services.home(plan.scene), state["human"].tasks[0]
-    keeps = services.lived if not services.frames else None
-    if keeps and (shown := keeps.shown(plan, clock.hour)):
-        home.restore(shown.world)
-        return {"observation": shown.observation, "outcomes": [shown.outcome]}
-    outcome = home.perform(services.human_agent, first.act, record=True, watcher=services.robot_agent)
-    frames = []
-    if services.frames:
-        folder = services.recorder.frames_folder(plan.day, clock.hour)
-        frames = [services.relative(path) for path in home.frames(services.frames, folder)]
-    if services.video:
-        home.film(services.recorder.video_file(plan.day, clock.hour))
-    blind = not services.ask.sees("robot")
-    percept = home.percept(services.rng(Address(plan.person, clock.day, clock.hour, "percept"))) if blind else None
-    text = first.act.describe() if plan.collab == 1 else None
-    observation = Observation(frames=frames, percept=percept, first_task=text)
-    if keeps:
-        keeps.keep(plan, clock.hour, Shown(observation=observation, outcome=outcome, world=home.snapshot()))
-    return {"observation": observation, "outcomes": [outcome]}
+    guessed = _with_whom(state, services)
+    person = guessed or plan.person
+    services.memories("guesses", plan.episode, person).forget_from(clock.now)
+    belief = state["belief"] if person == plan.person else state.get("beliefs", {}).get(person, Belief())
+    if services.hourly_traits and services.method.traits:
+        belief = _revised(services, plan, clock, person, belief)
+    view = robot_view(services, plan, clock, state["observation"], belief, person)
+    helped = _helped(services, plan, view, state["human"].intention)
+    believed = belief if services.hourly_traits else None
+    return {"robot": helped.model_copy(update={"with_whom": guessed, "belief": believed})}
 
 
 def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Have the person do what is left, except what the robot has done. Adds to `outcomes`.
-
-    In a day that was lived before, what came of the person's acts is known.
-    """
-    home, who = runtime.context.home(state["plan"].scene), runtime.context.human_agent
+    """Have the person do what is left, except what the robot has done. Adds to `outcomes`."""
+    services, plan = runtime.context, state["plan"]
+    home = services.home(plan.scene)
     helped = state["robot"].outcomes if "robot" in state else []
-    done = {_effect(home, outcome) for outcome in helped if outcome.ok}
+    done = {_effect(home, one.agent, one.act) for one in helped if one.ok}
     shown = 1 if "observation" in state else 0
-    remaining = [Outcome(agent=who, act=task.act, ok=True) for task in state["human"].tasks]
-    if runtime.context.lived:
-        again = runtime.context.lived.hour(state["plan"], _clock(state).hour)
-        remaining = [Outcome.model_validate(one) for one in again.world["outcomes"]]
-    mine = [one for one in remaining[shown:] if _effect(home, one) not in done]
-    return {"outcomes": mine if runtime.context.lived else [home.perform(who, one.act) for one in mine]}
+    left = [task for task in state["human"].tasks[shown:] if _effect(home, services.human_agent, task.act) not in done]
+    return {"outcomes": services.life.finish(services, plan, _clock(state), left)}
 
 
 def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -178,13 +148,9 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Remember the hour and write its trace: the last act of an hour. Writes `world`."""
     services, plan, clock = runtime.context, state["plan"], _clock(state)
     human, robot = state.get("human"), state.get("robot")
-    if human and not services.lived:
-        texts = [task.act.describe() for task in human.tasks]
-        services.memories("human", plan.episode, plan.person).add(human.intention.text, texts, clock.now)
+    services.life.end(services, plan, clock, human)
     if robot:
         _remember_guess(services, plan, clock, robot)
-    if services.lived:
-        services.home(plan.scene).restore(services.lived.hour(plan, clock.hour).world["poses"])
     world = services.home(plan.scene).snapshot()
     success = state.get("success")
     services.recorder.write_hour(
@@ -215,37 +181,37 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     return {"world": world}
 
 
-def human_context(services: Services, plan: DayPlan) -> HumanContext:
-    """The person's services for a day."""
-    return HumanContext(
-        ask=services.ask,
-        persona=services.people[plan.person],
-        collab=plan.collab,
-        home=services.home(plan.scene),
-        memories=services.memories("human", plan.episode, plan.person),
-        embeddings=services.embeddings,
-        model=services.person,
-        sizes=services.sizes,
-        interview=services.interview,
-    )
-
-
-def robot_context(services: Services, plan: DayPlan, guessed: PersonId | None = None) -> RobotContext:
-    """The robot's services for a day: what it may know of the person, or of the one that it takes them for."""
-    person = guessed or plan.person
-    return RobotContext(
-        ask=services.ask,
+def robot_view(
+    services: Services, plan: DayPlan, clock: Clock, seen: Observation, belief: Belief, person: PersonId
+) -> RobotView:
+    """What the robot may know of an hour with a person, or with the one that it takes them for."""
+    return RobotView(
+        clock=clock,
+        observation=seen,
+        pictures=tuple(services.recorder.root / frame for frame in seen.frames),
         person=person,
+        belief=belief,
         collab=plan.collab,
-        method=services.method,
-        home=services.home(plan.scene),
-        history=services.memories("history", plan.episode, person),
-        guesses=services.memories("guesses", plan.episode, person),
-        learner=services.learner,
-        own=services.own.robot if services.own else None,
-        images=services.recorder.root,
-        agent=services.robot_agent,
+        home=HomeView.of(services.home(plan.scene)),
+        history=services.memories("history", plan.episode, person).to_read(),
+        guesses=services.memories("guesses", plan.episode, person).to_read(),
+        ask=robots_door(services.ask),
+        looks=services.ask.sees("robot"),
     )
+
+
+def _helped(services: Services, plan: DayPlan, view: RobotView, truth: Intention) -> RobotHour:
+    """Run the graph of the method's robot; the truth reaches the method that declares it, and no other."""
+    home, method, who = services.home(plan.scene), services.method, services.robot_agent
+    if services.own:
+        ours = OwnRobotContext(view, home, method, services.own.robot, agent=who)
+        done = _own_robot().invoke(RobotInput(), context=ours)
+    elif method.intentions == "given":
+        told = OracleInput(true_intention=truth.text)
+        done = _oracle().invoke(told, context=RobotContext(view, home, method, services.learner, agent=who))
+    else:
+        done = _robot().invoke(RobotInput(), context=RobotContext(view, home, method, services.learner, agent=who))
+    return robot_hour(cast(RobotState, done), view.observation)
 
 
 def _with_whom(state: HourState, services: Services) -> PersonId | None:
@@ -294,11 +260,10 @@ def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: Robo
         )
 
 
-def _effect(home: Home, outcome: Outcome) -> tuple[str, ...]:
-    act = outcome.act
+def _effect(home: Home, agent: AgentId, act: Act) -> tuple[str, ...]:
     if act.kind == "pick_place":
         return ("on", home.class_of(act.object), home.class_of(act.receptacle))
-    return (outcome.agent, act.describe())
+    return (agent, act.describe())
 
 
 def _clock(state: HourInput) -> Clock:
@@ -309,7 +274,7 @@ def _failing(node: Node) -> Node:
     def run(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         try:
             return node(state, runtime=runtime)
-        except ModelOutputError as err:
+        except HourError as err:
             return {"failure": str(err)}
 
     return run

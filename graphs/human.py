@@ -1,62 +1,33 @@
-"""The person's hour as a state machine: recall, propose, search, decompose, reflect twice, mend (PAPER §3.2)."""
+"""The person's hour as a state machine: recall, propose, search, decompose, reflect twice, mend (PAPER §3.2).
+
+Who decides in `propose` and `decompose` is the context's player: a language model, a log, or a real person.
+"""
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
-from typing_extensions import TypedDict
 
-from coopera.core.clock import Clock, hour_label
-from coopera.core.errors import ModelOutputError
-from coopera.core.hour import Found, HumanHour, Intention, Reasons, Recalled, Reflection, Task, TaskVerdict
+from coopera.core.clock import Clock
+from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskVerdict
 from coopera.core.household import ObjectMap, plain
 from coopera.core.randomness import Address
-from coopera.core.replies import (
-    DayReply,
-    FreeMotionReflectionReply,
-    FreeMotionReply,
-    IntentionReply,
-    PickPlaceReflectionReply,
-    PickPlaceReply,
-)
+from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
 from coopera.graphs.checks import findings, repair
 from coopera.graphs.method import Numbers
-from coopera.graphs.recall import as_memory, as_variables, recall_both
-from coopera.graphs.services import HumanContext
-from coopera.graphs.stated import Draft, chosen, fill, stated_intention, stated_steps
+from coopera.graphs.player import Draft, HumanContext, HumanInput, HumanState
+from coopera.graphs.recall import as_memory, recall_both
+from coopera.graphs.variables import as_tasks, known, when
 
-TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflectionReply]] = {
     1: PickPlaceReflectionReply,
     2: FreeMotionReflectionReply,
 }
-
-
-class HumanInput(TypedDict):
-    """What starts a person's hour; `hours` are all hours of the day, in order."""
-
-    clock: Clock
-    hours: list[int]
-
-
-class HumanState(HumanInput, total=False):
-    """Working state of the person's hour; a key is absent until its node has run."""
-
-    recalled: list[Recalled]  # by recall; intentions first, best first
-    today: list[dict[str, Any]]  # by recall; this day's intentions so far, in order
-    intention: Intention  # by propose
-    found: Found  # by search
-    tasks: list[Task]  # by decompose, then revised by the reflections
-    stated: bool  # by decompose: a real person has said what the tasks are
-    reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
-    wrong: list[str]  # by reflect_scene: what code still finds wrong after it
-    repairs: list[str]  # by mend
 
 
 def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInput, HumanState]:
@@ -107,19 +78,7 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Decide what to do this hour. Reads `recalled`, `today`; writes `intention`."""
     ctx = runtime.context
-    if stated := stated_intention(ctx, state["clock"], _today(state)):
-        return {"intention": stated}
-    if ctx.model.hourly:
-        reply = ctx.ask(
-            "human/intention",
-            IntentionReply,
-            at=_at(state, ctx, "propose"),
-            variables={**_known(state, ctx), "rooms": ctx.home.rooms, "today": state["today"]},
-        )
-    else:
-        reply = _of_the_day(state, ctx)
-    reasons = Reasons(human=reply.reason_human, intentions=reply.reason_intentions, tasks=reply.reason_tasks)
-    return {"intention": Intention(text=reply.intention, reasons=reasons)}
+    return {"intention": ctx.player.intention(state, ctx)}
 
 
 def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
@@ -140,32 +99,10 @@ def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 
 def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks` and `stated`.
-
-    Steps that a real person states are taken over: as they are where each is a choice, else as the model reads them.
-    """
-    ctx, found = runtime.context, state["found"]
-    steps = stated_steps(ctx, state["clock"], _today(state), state["intention"], found)
-    drafts = chosen(ctx, steps, found)
-    own_words = [step for step, draft in zip(steps, drafts, strict=True) if draft is None]
-    if steps and not own_words:
-        return {"tasks": number(fill(drafts, [], ""), state["clock"]), "stated": True}
-    things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
-    reply = ctx.ask(
-        f"human/tasks_type{ctx.collab}",
-        TASKS_REPLY[ctx.collab],
-        at=_at(state, ctx, "decompose"),
-        variables={
-            **_known(state, ctx),
-            **things,
-            "intention": state["intention"].text,
-            "fixed": found.fixed,
-            "n_tasks": len(own_words) or Numbers.HUMAN_TASKS[ctx.collab],
-            "steps": own_words,
-        },
-    )
-    tasks = fill(drafts, reply.tasks, f"human/tasks_type{ctx.collab}") if steps else reply.tasks
-    return {"tasks": number(tasks, state["clock"]), "stated": bool(steps)}
+    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks` and `stated`."""
+    ctx = runtime.context
+    drafts, stated = ctx.player.tasks(state, ctx)
+    return {"tasks": number(drafts, state["clock"]), "stated": stated}
 
 
 def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
@@ -177,7 +114,7 @@ def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[s
         REFLECTION_REPLY[ctx.collab],
         at=_at(state, ctx, "reflect_profile"),
         variables={
-            **_known(state, ctx),
+            **known(state, ctx),
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
@@ -237,22 +174,6 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     return {"tasks": tasks, "repairs": repairs}
 
 
-def when(clock: Clock) -> dict[str, Any]:
-    """The time variables of `coopera.core.asks`."""
-    return {"time": clock.label, "hour": clock.hour, "weekday": clock.weekday, "day": clock.day}
-
-
-def who(ctx: HumanContext) -> dict[str, Any]:
-    """The person variables of `coopera.core.asks`; only the person's own prompts get them."""
-    persona = ctx.persona
-    return {
-        "person": persona.id,
-        "name": persona.name,
-        "big_five": persona.big_five.model_dump(),
-        "profile": ctx.model.profile(persona),
-    }
-
-
 def number(drafts: Sequence[Draft], clock: Clock) -> list[Task]:
     """Turn drafts into tasks with ids "<hour>.<n>"."""
     return [
@@ -264,44 +185,6 @@ def number(drafts: Sequence[Draft], clock: Clock) -> list[Task]:
         )
         for n, draft in enumerate(drafts, start=1)
     ]
-
-
-def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:
-    """Tasks as prompts read them."""
-    return [
-        {"id": t.id, "thought": t.thought, "text": t.act.describe(), "act": t.act.model_dump(exclude={"kind"})}
-        for t in tasks
-    ]
-
-
-def _known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
-    return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
-
-
-def _today(state: HumanState) -> list[str]:
-    return [f"{memory['when']}: {memory['text']}" for memory in state["today"]]
-
-
-def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:
-    """This hour's place in the intentions of the whole day: the same question each hour, so the same answer."""
-    clock, hours = state["clock"], state["hours"]
-    dawn = clock.model_copy(update={"hour": hours[0]})
-    reply = ctx.ask(
-        "human/day",
-        DayReply,
-        at=Address(ctx.persona.id, dawn.day, dawn.hour, "propose"),
-        variables={
-            "weekday": dawn.weekday,
-            "day": dawn.day,
-            **who(ctx),
-            "rooms": ctx.home.rooms,
-            "hours": [hour_label(hour) for hour in hours],
-        },
-    )
-    if len(reply.intentions) != len(hours):
-        wrong = f"it has {len(reply.intentions)} intentions for a day of {len(hours)} hours"
-        raise ModelOutputError("human/day", reply.model_dump_json(), wrong)
-    return reply.intentions[hours.index(clock.hour)]
 
 
 def _rounds(state: HumanState) -> int:

@@ -1,4 +1,4 @@
-"""Whom is the robot with, where nobody says? It guesses from behaviour, among the people it has been introduced to."""
+"""Identification: the robot infers from behaviour who the person is, among the people it knows."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 from coopera.core.clock import Clock
 from coopera.core.hour import Observation
 from coopera.core.people import PersonId
-from coopera.graphs.services import Memories
+from coopera.graphs.robot_view import Memories
 
 NEAREST = 10
 """Memories of each person that a sight is compared with."""
@@ -26,15 +26,15 @@ class Sight(NamedTuple):
 
 
 def sight(clock: Clock, seen: Observation) -> Sight:
-    """What of an observation can be compared with what people told: the first task, or the percept's sentence."""
+    """The part of an observation to compare with people's accounts: the first task, or the percept's sentence."""
     return Sight(clock, seen.first_task or (seen.percept.caption() if seen.percept else ""))
 
 
 def identify(sights: Sequence[Sight], known: Mapping[PersonId, Memories]) -> dict[PersonId, float]:
     """Return P(person) for each person known, from all that was seen today; the same person all day, equal priors.
 
-    The likelihood of a sight under a person's records is a kernel density over the tasks that this person told of:
-    how like the sight they are (cosine), and how near to this hour of the day they were done.
+    The likelihood of a sight for a person is a kernel density over the tasks of this person's accounts. A task weighs
+    by its likeness to the sight (cosine) and by its distance to this hour of the day.
     """
     logs = {person: sum(_log_likelihood(one, memories) for one in sights) for person, memories in known.items()}
     highest = max(logs.values(), default=0.0)

@@ -7,19 +7,29 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from pydantic import ValidationError
 
 from coopera.core.clock import Clock
 from coopera.core.errors import CooperaError, LearningError, RunError
-from coopera.core.hour import CandidateKind, DayAccount, DayPlan, Example, FeedbackItem, HourAccount, HourRecord
+from coopera.core.hour import (
+    CandidateKind,
+    DayAccount,
+    DayPlan,
+    Example,
+    FeedbackItem,
+    HourAccount,
+    HourRecord,
+    IntentionCandidate,
+    Recalled,
+)
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Classifier, Recorder
 from coopera.core.randomness import seed_at
 from coopera.graphs.rehearsal import keep
 
-__all__ = ["EXAMPLES", "KEPT", "KINDS", "Learner", "Mode", "example", "labelled", "account_of"]
+__all__ = ["EXAMPLES", "KEPT", "KINDS", "Known", "Learner", "Mode", "example", "labelled", "account_of"]
 
 KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
 EXAMPLES, KEPT = "examples.jsonl", "kept.jsonl"
@@ -27,28 +37,35 @@ Mode: TypeAlias = Literal["warm", "fresh"]
 _LOG = logging.getLogger(__name__)
 
 
-def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task: str | None = None) -> Example:
-    """What a classifier is shown of a candidate in the robot's present state (PAPER App. C.2).
+class Known(NamedTuple):
+    """What the robot knows in an hour of which it judges a candidate; `intentions` are its own, in its order."""
+
+    person: PersonId
+    clock: Clock
+    belief: Belief
+    recalled: Sequence[Recalled]
+    intentions: Sequence[IntentionCandidate]
+
+
+def example(known: Known, *, intention: str, task: str | None = None) -> Example:
+    """What a classifier is shown of a candidate (PAPER App. C.2).
 
     Args:
-        state: With the keys `clock`, `recalled`, `belief` and `intentions` of `RobotState`.
-        person: Whom the robot is with.
+        known: What the robot knows now.
         intention: The candidate, or the intention that a candidate task belongs to.
         task: The candidate task in words.
     """
-    belief: Belief = state["belief"]
-    recalled = state["recalled"]
-    order = [candidate.text for candidate in state["intentions"]]
+    order = [candidate.text for candidate in known.intentions]
     return Example(
-        person=person,
-        day=state["clock"].day,
-        hour=state["clock"].hour,
+        person=known.person,
+        day=known.clock.day,
+        hour=known.clock.hour,
         candidate=task if task is not None else intention,
         intention=intention if task is not None else "",
-        profile=belief.profile or "",
-        big_five=belief.big_five,
-        intentions=[m.text for m in recalled if m.kind == "intention"],
-        tasks=[m.text for m in recalled if m.kind == "task"],
+        profile=known.belief.profile or "",
+        big_five=known.belief.big_five,
+        intentions=[m.text for m in known.recalled if m.kind == "intention"],
+        tasks=[m.text for m in known.recalled if m.kind == "task"],
         rank=order.index(intention) if intention in order else None,
     )
 
@@ -56,7 +73,7 @@ def example(state: Mapping[str, Any], person: PersonId, *, intention: str, task:
 def account_of(
     plan: DayPlan, hours: Iterable[HourRecord], feedback: Iterable[FeedbackItem], belief: Belief
 ) -> DayAccount:
-    """What the person tells of a day: the true intentions and tasks, and the answers; failed hours are left out."""
+    """The person's account of a day: the true intentions and tasks, and the feedback; failed hours are left out."""
     answers: dict[int, list[FeedbackItem]] = {}
     for item in feedback:
         answers.setdefault(item.hour, []).append(item)
@@ -79,26 +96,22 @@ def account_of(
 def labelled(account: DayAccount) -> dict[CandidateKind, list[Example]]:
     """Turn a day's candidates and the person's yes and no into examples.
 
-    The true intention, told in the evening, is one more positive (as in the authors' code). An answer that
-    could not be read makes no example.
+    The true intention of the account is one more positive (as in the authors' code). An unreadable answer makes no
+    example.
     """
     examples: dict[CandidateKind, list[Example]] = {"intention": [], "task": []}
     for hour in account.hours:
-        known = {
-            "clock": Clock(day=account.day, hour=hour.hour),
-            "recalled": hour.robot.recalled,
-            "belief": account.belief,
-            "intentions": hour.robot.intentions,
-        }
+        clock = Clock(day=account.day, hour=hour.hour)
+        known = Known(account.person, clock, account.belief, hour.robot.recalled, hour.robot.intentions)
         said: dict[CandidateKind, dict[str, bool]] = {kind: _answers(hour, kind) for kind in KINDS}
         imagined = [c.text for c in hour.robot.intentions if c.text in said["intention"]]
         verdicts = {hour.intention: True, **{text: said["intention"][text] for text in imagined}}
         for text, yes in verdicts.items():
-            examples["intention"].append(_label(example(known, account.person, intention=text), yes))
+            examples["intention"].append(_label(example(known, intention=text), yes))
         for task in hour.robot.tasks:
             text = task.act.describe()
             if text in said["task"]:
-                shown = example(known, account.person, intention=task.intention, task=text)
+                shown = example(known, intention=task.intention, task=text)
                 examples["task"].append(_label(shown, said["task"][text]))
     return examples
 
@@ -128,8 +141,8 @@ class Learner:
     def be_at(self, learned: Sequence[int]) -> None:
         """Have the classifiers as they were after the evenings of these days of the run, reading them if need be.
 
-        Where one cannot be read (damaged, cut short, of another base) its training is done again from the records,
-        from the last day whose classifier is whole, with the same result.
+        An unreadable one (damaged, cut short, of another base) is trained again from the records, with the same result.
+        The training starts from the last day with a whole classifier.
 
         Raises:
             RunError: If the records of the examples cannot be read either.

@@ -22,12 +22,12 @@ class Method:
         name: As given to `--method`.
         traits: Whether the inferred Big Five and profile enter prompts and classifiers.
         context: Whether retrieved intentions and tasks enter prompts and classifiers.
-        order: Whether the classifiers see the robot's own order of its guesses. DEVIATES: the paper's do not, but they
-            see nothing of what the robot saw either, and its order sums that up.
+        order: Whether the classifiers see the robot's own order of its candidates. DEVIATES: the paper's do not. They
+            do not see the observation either, and the order sums it up.
         time_only: Whether the classifiers see nothing but the candidate and the time.
-        intentions: "inferred" from what is seen; "given" by the person; "skipped", so that what is seen stands where an
-            intention would and tasks are imagined for it directly.
-        guesses: How many intentions are imagined; by default the paper's number.
+        intentions: "inferred" from the observation; "given" by the person; or "skipped": the tasks are imagined
+            directly for the observation, without an intention.
+        guesses: How many intention candidates are imagined; by default the paper's number.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything, "reject"
             nothing.
         learns: Whether the evening trains the classifiers, or one's own robot.
@@ -36,8 +36,8 @@ class Method:
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
         own: The class of a robot of one's own, which then takes the place of our graph (`coopera.graphs.own_robot`).
             Of the other fields it meets `traits` (whether the evening infers a belief about the person) and `learns`.
-        tunes: Makes the robot that takes the place of `own` where the robot's model is one of Hugging Face: it
-            finetunes that model, given by its name, by a recipe (None: the shipped one). Models elsewhere are refused.
+        tunes: Makes the robot in place of `own` if the robot's model is one of Hugging Face. This robot finetunes the
+            model of that name by a recipe (None: the shipped one). Models elsewhere are refused.
     """
 
     name: str

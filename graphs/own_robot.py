@@ -1,43 +1,42 @@
 """Bring your own robot: two functions, under which any way of helping runs beside ours on the same human days.
 
-A robot is a class with `help` (an hour is watched; what may the person be up to, and which tasks would help?) and
-`learn` (in the evening the person tells what was right). A `Method` that names the class in its field `own` runs it
-in place of our graph:
+A robot is a class with two functions. `help` answers an observation with candidates: intentions, and tasks to help
+with. `learn` takes the person's account in the evening. A `Method` with the class in its field `own` runs it in place
+of our graph:
 
     METHOD = Method(name="stubborn", own=Stubborn)
 
-`evaluation.conformance.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a
-choice of `coopera run --method`:
+`coopera.check_method(METHOD)` says whether it keeps to the rules below, and an entry point makes it a choice of
+`coopera run --method`:
 
     [project.entry-points."coopera.methods"]
     stubborn = "my_package:METHOD"
 
-The rules: within an hour a robot knows its `RobotInput` and its `RobotContext` and nothing else. Between hours it
-changes nothing in itself, since an interrupted hour is done again, perhaps in another process: what it guessed earlier
-today is in `ctx.guesses`, what it was told on earlier days in `ctx.history`. What `learn` makes of the same evenings
-in the same order with the same seeds is the same. Every draw comes from `coopera.core.randomness`.
+The rules: within an hour a robot knows its `RobotView`, and nothing else, so two lives that look alike are the same to
+it. Between hours it does not change, since an
+interrupted hour is done again, perhaps in another process. Its guesses of earlier today are in `view.guesses`, the
+accounts of earlier days in `view.history`. `learn` gives the same result for the same evenings in the same order with
+the same seeds. Every draw comes from `coopera.core.randomness`.
 """
 
 from __future__ import annotations
 
+import inspect
 import logging
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 from pydantic import ValidationError
 
-from coopera.core.errors import CooperaError, RunError
+from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import Collab
 from coopera.core.protocols import Recorder
 from coopera.core.randomness import seed_at
-
-if TYPE_CHECKING:
-    from coopera.graphs.robot import RobotInput
-    from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
 
 _LOG = logging.getLogger(__name__)
 ACCOUNT = "account.json"
@@ -47,12 +46,11 @@ _ACT = {1: "pick_place", 2: "hand_over"}
 class Robot(Protocol):
     """A robot of one's own. It is made anew, without arguments, for each episode and after each resumption."""
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView, /) -> Proposal:
         """Say what the person may be up to and which tasks would help, each with a verdict.
 
         Args:
-            given: The clock, what was observed of the first task, and the belief about the person so far.
-            ctx: The services: the one door to language models, the home's objects, the memories of what was told.
+            view: All that a robot may know of the hour.
 
         Raises:
             ModelOutputError: If a model's reply cannot be used; the hour is then unscored, not wrong.
@@ -95,8 +93,18 @@ class OwnRobot:
     _days: tuple[int, ...] = field(init=False, default=())
 
     def __post_init__(self) -> None:
-        """Start with a robot that has learned nothing."""
+        """Start with a robot that has learned nothing.
+
+        Raises:
+            ConfigError: If its `help` takes anything but the view.
+        """
         self.robot = self.make()
+        takes = inspect.signature(self.robot.help)
+        try:
+            takes.bind(None)
+        except TypeError as err:
+            name = type(self.robot).__name__
+            raise ConfigError(f"{name}.help must take the RobotView alone, help(self, view), not {takes}.") from err
 
     def be_at(self, learned: Sequence[int]) -> None:
         """Have the robot as it was after the evenings of these days of the run, in order.

@@ -12,7 +12,7 @@ class PersonModel:
     """One way of simulating a person; `PERSON_MODELS` lists them.
 
     Attributes:
-        name: As given to `--person`.
+        name: As given to `--person-model`.
         extension: Whether the person lives by the extended profile, rather than by the notes that it extends.
         hourly: Whether each intention is proposed in its hour; otherwise all of a day at once.
         history: Whether what was done earlier that day enters the prompts.

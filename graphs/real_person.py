@@ -1,4 +1,4 @@
-"""A real person in the simulated one's place: questions as interrupts, and how answers are read."""
+"""How a real person is asked: questions as interrupts, and how answers are read."""
 
 from __future__ import annotations
 
@@ -29,19 +29,20 @@ class Verdict(NamedTuple):
     grade: int | None = None
 
 
-def interviewer() -> Interview:
-    """How the node that runs now asks its person: each question interrupts the graph until it is answered.
+def ask_here(question: Question) -> Answer:
+    """Interrupt the graph until the question is answered.
 
     The node is done again with each answer, and the answers given before are handed out anew in their order; so
-    whatever comes before a question must come out the same. Works from graphs that the node runs inside itself, too.
+    whatever comes before a question must come out the same.
     """
+    answer: Answer = interrupt(question.model_dump(mode="json"))
+    return answer
+
+
+def interviewer() -> Interview:
+    """How the node that runs now asks its person, from graphs that it runs inside itself, too."""
     here = copy_context()
-
-    def ask(question: Question) -> Answer:
-        answer: Answer = here.run(interrupt, question.model_dump(mode="json"))
-        return answer
-
-    return ask
+    return lambda question: here.run(ask_here, question)
 
 
 def ask_until_read(interview: Interview, question: Question, read: Callable[[Answer], Read]) -> Read:

@@ -8,11 +8,11 @@ from typing import Any
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
 from coopera.graphs.method import Numbers
-from coopera.graphs.services import Memories
+from coopera.graphs.robot_view import Memories, Readable, ReadMemories
 from coopera.memory import MemoryStream
 
 
-def recall_both(memories: Memories, query: str, now: Clock, *, since: int | None) -> list[Recalled]:
+def recall_both(memories: Memories | ReadMemories, query: str, now: Clock, *, since: int | None) -> list[Recalled]:
     """The top intentions, then the top tasks, best first (PAPER §4.1: three and five)."""
     return [
         *_top(memories.intentions, "intention", query, now, Numbers.RECALL_INTENTIONS, since),
@@ -46,7 +46,7 @@ def as_memory(text: str, hour: int, now: Clock) -> dict[str, Any]:
 
 
 def _top(
-    stream: MemoryStream, kind: CandidateKind, query: str, now: Clock, k: int, since: int | None
+    stream: MemoryStream | Readable, kind: CandidateKind, query: str, now: Clock, k: int, since: int | None
 ) -> list[Recalled]:
     return [
         Recalled(kind=kind, text=r.text, hour=r.hour, relevance=r.relevance, recency=r.recency, score=r.score)

@@ -1,4 +1,4 @@
-"""What is kept of earlier days to be learned from again: a fixed number of examples, so that evenings stay short."""
+"""Rehearsal: a fixed number of examples of earlier days is trained on again each evening, so evenings stay short."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from coopera.core.hour import Example
 from coopera.core.randomness import seed_at
 
 REPLAY = 320
-"""Examples kept of each kind: about what the first four evenings of one person bring of intentions."""
+"""Examples kept for rehearsal, of each kind: about the intention examples of one person's first four evenings."""
 
 
 def keep(examples: Iterable[Example], most: int = REPLAY) -> list[Example]:
-    """Choose what to keep: for each person an equal share of `most`, drawn evenly from all that person's days.
+    """Choose the examples to keep: for each person an equal share of `most`, drawn evenly from all days of that person.
 
-    Each example has a fixed place in a random order of its own, so what is kept of what was kept before and of a new
-    day is what would be kept of all days at once: the choice can be made again from the records, and never drifts.
+    Each example has a fixed random place, drawn from its own content, and the first places are kept. So a choice day by
+    day keeps the same examples as one choice from all days. It can be repeated from the records.
 
     Args:
         examples: Those kept so far and the new ones; those without a label are left out.

@@ -1,15 +1,15 @@
 """The robot's hour as a state machine: observe, imagine and classify intentions, imagine and classify tasks, act.
 
-PAPER §3.3. Nothing true about the hour is an input: `RobotInput` holds the clock and the observation only,
-and `RobotContext` reaches neither the persona nor the person's memories.
+PAPER §3.3. Nothing true about the hour is an input: what the robot knows is its `RobotView`, and the graph starts from
+nothing else. A robot of one's own has a graph of two nodes over the same view: propose, act.
 """
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Annotated, Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any, TypeVar
 
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
@@ -17,8 +17,7 @@ from langgraph.runtime import Runtime
 from langgraph.types import Send
 from typing_extensions import TypedDict
 
-from coopera.core.clock import Clock
-from coopera.core.errors import ModelOutputError, RunError
+from coopera.core.errors import ModelOutputError
 from coopera.core.hour import (
     CandidateKind,
     Example,
@@ -29,30 +28,55 @@ from coopera.core.hour import (
     RobotHour,
     TaskCandidate,
 )
-from coopera.core.household import Outcome
+from coopera.core.household import ROBOT, AgentId, Outcome
 from coopera.core.people import Belief
+from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
-from coopera.graphs.human import when
-from coopera.graphs.learning import example
-from coopera.graphs.method import Numbers
-from coopera.graphs.own_robot import checked
+from coopera.graphs.learning import Known, Learner, example
+from coopera.graphs.method import Method, Numbers
+from coopera.graphs.own_robot import Robot, checked
 from coopera.graphs.recall import as_variables, best, recall_both
-from coopera.graphs.services import RobotContext
+from coopera.graphs.robot_view import RobotView
+from coopera.graphs.variables import when
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
 
 
-class RobotInput(TypedDict):
-    """Everything the robot is given. The person's intention is not in it, on purpose."""
+@dataclass(frozen=True, slots=True)
+class Helping:
+    """What any robot works with in an hour: what it knows, and the home that it acts in once it has decided."""
 
-    clock: Clock
-    observation: Observation
-    belief: Belief
+    view: RobotView
+    home: Home
+    method: Method
+    agent: AgentId = field(default=ROBOT, kw_only=True)
+    """Whose body in the home the robot has."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotContext(Helping):
+    """What our robot's graph works with."""
+
+    learner: Learner
+
+
+@dataclass(frozen=True, slots=True)
+class OwnRobotContext(Helping):
+    """What the graph of a robot of one's own works with. The robot itself is given the view and nothing else."""
+
+    robot: Robot
+
+
+Context = TypeVar("Context", RobotContext, OwnRobotContext)
+
+
+class RobotInput(TypedDict):
+    """What starts the robot's hour: nothing, since all that it knows is its view."""
 
 
 class OracleInput(RobotInput):
-    """What an oracle is given besides: the truth. Only the graph of a method that says so has this input."""
+    """What starts an oracle's hour: the truth. Only the graph of a method that says so has this input."""
 
     true_intention: str
 
@@ -77,11 +101,8 @@ class RobotState(RobotInput, total=False):
 
 
 class TaskRequest(TypedDict):
-    """What one imagine_tasks gets: an accepted intention, and what the robot knows."""
+    """What one imagine_tasks gets: an accepted intention, and what was recalled."""
 
-    clock: Clock
-    observation: Observation
-    belief: Belief
     recalled: list[Recalled]
     intention: IntentionCandidate
     rank: int
@@ -90,10 +111,11 @@ class TaskRequest(TypedDict):
 def build_robot_graph(
     given: type[RobotInput] = RobotInput,
 ) -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
-    """Compile the robot's graph; invoke it with a `RobotInput` (an oracle's: `OracleInput`) and a `RobotContext`."""
+    """Compile the robot's graph; invoke it with {} (an oracle's: with an `OracleInput`) and a `RobotContext`."""
     graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=given)
-    for node in (observe, imagine_intentions, classify_intentions, imagine_tasks, classify_tasks, act):
+    for node in (observe, imagine_intentions, classify_intentions, imagine_tasks, classify_tasks):
         graph.add_node(node)
+    graph.add_node(act)
     graph.add_edge(START, "observe")
     graph.add_edge("observe", "imagine_intentions")
     graph.add_edge("imagine_intentions", "classify_intentions")
@@ -104,21 +126,21 @@ def build_robot_graph(
     return graph.compile(checkpointer=False, name="robot")
 
 
-def build_own_robot_graph() -> CompiledStateGraph[RobotState, RobotContext, RobotInput, RobotState]:
+def build_own_robot_graph() -> CompiledStateGraph[RobotState, OwnRobotContext, RobotInput, RobotState]:
     """Compile the graph of a robot of one's own: it says what would help, and what it accepted is done as ours is."""
-    graph = StateGraph(RobotState, context_schema=RobotContext, input_schema=RobotInput)
-    for node in (propose, act):
-        graph.add_node(node)
+    graph = StateGraph(RobotState, context_schema=OwnRobotContext, input_schema=RobotInput)
+    graph.add_node(propose)
+    graph.add_node(act)
     graph.add_edge(START, "propose")
     graph.add_edge("propose", "act")
     graph.add_edge("act", END)
     return graph.compile(checkpointer=False, name="own_robot")
 
 
-def robot_hour(state: RobotState) -> RobotHour:
-    """The finished state as it stands in the trace."""
+def robot_hour(state: RobotState, seen: Observation) -> RobotHour:
+    """The finished state as it stands in the trace, with what the robot saw."""
     return RobotHour(
-        observation=state["observation"],
+        observation=seen,
         recalled=state["recalled"],
         intentions=state["intentions"],
         tasks=state["tasks"],
@@ -127,58 +149,56 @@ def robot_hour(state: RobotState) -> RobotHour:
     )
 
 
-def propose(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Ask a robot of one's own. Reads the input; writes `recalled`, `intentions`, `tasks` and `fallbacks`.
+def propose(state: RobotInput, runtime: Runtime[OwnRobotContext]) -> dict[str, Any]:
+    """Ask a robot of one's own. Writes `recalled`, `intentions`, `tasks` and `fallbacks`.
 
     Raises:
         RunError: If what it proposes breaks the rules of `coopera.graphs.own_robot`.
     """
     ctx = runtime.context
-    if ctx.own is None:
-        raise RunError(f"method {ctx.method.name}: there is no robot of one's own to ask.")
-    given = RobotInput(clock=state["clock"], observation=state["observation"], belief=state["belief"])
-    said = checked(ctx.own.help(given, ctx), ctx.collab, ctx.method.name)
+    said = checked(ctx.robot.help(ctx.view), ctx.view.collab, ctx.method.name)
     return {"recalled": said.recalled, "intentions": said.intentions, "tasks": said.tasks, "fallbacks": said.fallbacks}
 
 
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Recall what the robot knows that resembles what it sees. Reads `observation`; writes `recalled`.
+    """Recall what the robot knows that resembles what it sees. Writes `recalled`.
 
-    Earlier days come from what the person told in the evenings, today from the robot's own guesses.
+    Earlier days come from the person's accounts, today from the robot's own guesses.
     """
-    ctx, clock, seen = runtime.context, state["clock"], state["observation"]
-    if not ctx.method.context:
+    view, clock = runtime.context.view, runtime.context.view.clock
+    if not runtime.context.method.context:
         return {"recalled": []}
-    query = f"{clock.label}, {clock.weekday}. {_sight(seen)}"
+    query = f"{clock.label}, {clock.weekday}. {_sight(view.observation)}"
     dawn = clock.day * 24
-    told = recall_both(ctx.history, query, clock, since=None)
-    guessed = recall_both(ctx.guesses, query, clock, since=dawn)
+    told = recall_both(view.history, query, clock, since=None)
+    guessed = recall_both(view.guesses, query, clock, since=dawn)
     return {"recalled": best([*told, *guessed])}
 
 
 def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Propose what the person may be up to. Reads `observation`, `recalled`; writes `intentions`.
+    """Propose what the person may be up to. Reads `recalled`; writes `intentions`.
 
     Raises:
         ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
     """
-    ctx, clock, seen = runtime.context, state["clock"], state["observation"]
+    ctx, view = runtime.context, runtime.context.view
+    clock, seen = view.clock, view.observation
     if ctx.method.intentions == "given":
         return {"intentions": [IntentionCandidate(text=state["true_intention"])]}
     if ctx.method.intentions == "skipped":
         return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
     percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
-    count = ctx.method.guesses or Numbers.ROBOT_INTENTIONS[ctx.collab]
-    reply = ctx.ask(
+    count = ctx.method.guesses or Numbers.ROBOT_INTENTIONS[view.collab]
+    reply = view.ask(
         "robot/intentions",
         IntentionsReply,
-        at=_at(clock, ctx, "imagine_intentions"),
-        images=_pictures(seen, ctx),
+        at=_at(view, "imagine_intentions"),
+        images=view.pictures if view.looks else (),
         variables={
             **when(clock),
-            **belief_variables(state["belief"], ctx),
+            **_belief(ctx),
             **as_variables(state["recalled"], clock),
-            "rooms": ctx.home.rooms,
+            "rooms": view.home.rooms,
             "percept": percept,
             "first_task": seen.first_task,
             "n_intentions": count,
@@ -209,7 +229,8 @@ def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> di
     ctx, candidates = runtime.context, state["intentions"]
     if ctx.method.intentions != "inferred":
         return {"intentions": [c.model_copy(update={"probability": 1.0, "accepted": True}) for c in candidates]}
-    asked = [example(state, ctx.person, intention=c.text) for c in candidates]
+    known = _known(state, ctx.view)
+    asked = [example(known, intention=c.text) for c in candidates]
     probabilities = _verdicts(ctx, "intention", asked)
     accepted = [p >= 0.5 for p in probabilities]
     fallbacks = []
@@ -228,14 +249,7 @@ def one_per_accepted(state: RobotState) -> list[Send]:
     return [
         Send(
             "imagine_tasks",
-            TaskRequest(
-                clock=state["clock"],
-                observation=state["observation"],
-                belief=state["belief"],
-                recalled=state["recalled"],
-                intention=intention,
-                rank=rank,
-            ),
+            TaskRequest(recalled=state["recalled"], intention=intention, rank=rank),
         )
         for rank, intention in enumerate(state["intentions"])
         if intention.accepted
@@ -248,24 +262,22 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     A reply that cannot be read leaves this intention without tasks, and that is said.
     A task with an object that is not in the home stays a candidate; done, it fails with its reason.
     """
-    ctx, clock, intention = runtime.context, state["clock"], state["intention"]
-    home, count = ctx.home, Numbers.ROBOT_TASKS[ctx.collab]
+    ctx, view, intention = runtime.context, runtime.context.view, state["intention"]
+    home, count = view.home, Numbers.ROBOT_TASKS[view.collab]
     direct = ctx.method.intentions == "skipped"
     if direct:
         count = Numbers.DIRECT_TASKS
-    extra = (
-        {"movable": home.objects("movable"), "first_task": state["observation"].first_task} if ctx.collab == 1 else {}
-    )
+    extra = {"movable": home.objects("movable"), "first_task": view.observation.first_task} if view.collab == 1 else {}
     try:
-        reply = ctx.ask(
-            f"robot/tasks_type{ctx.collab}",
-            TASKS_REPLY[ctx.collab],
-            at=_at(clock, ctx, "imagine_tasks", draw=state["rank"]),
-            images=_pictures(state["observation"], ctx) if direct else (),
+        reply = view.ask(
+            f"robot/tasks_type{view.collab}",
+            TASKS_REPLY[view.collab],
+            at=_at(view, "imagine_tasks", draw=state["rank"]),
+            images=view.pictures if direct and view.looks else (),
             variables={
-                **when(clock),
-                **belief_variables(state["belief"], ctx),
-                **as_variables(state["recalled"], clock),
+                **when(view.clock),
+                **_belief(ctx),
+                **as_variables(state["recalled"], view.clock),
                 **extra,
                 "intention": intention.text,
                 "seen": intention.text if direct else None,
@@ -298,7 +310,8 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
     for batch in sorted(state.get("imagined", []), key=lambda batch: batch["rank"]):
         for task in batch["tasks"]:
             superset.setdefault(task.act.describe(), task)
-    asked = [example(state, ctx.person, intention=t.intention, task=t.act.describe()) for t in superset.values()]
+    known = _known(state, ctx.view)
+    asked = [example(known, intention=t.intention, task=t.act.describe()) for t in superset.values()]
     probabilities = _verdicts(ctx, "task", asked)
     fallbacks = [] if superset else ["no valid task was imagined: the robot only watches"]
     tasks = [
@@ -308,16 +321,20 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
     return {"tasks": tasks, "fallbacks": fallbacks}
 
 
-def act(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
+def act(state: RobotState, runtime: Runtime[Context]) -> dict[str, Any]:
     """Do the accepted tasks in the home, most probable first. Reads `tasks`; writes `outcomes`."""
     accepted = sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0))
     return {"outcomes": [runtime.context.home.perform(runtime.context.agent, task.act) for task in accepted]}
 
 
-def belief_variables(belief: Belief, ctx: RobotContext) -> dict[str, Any]:
+def _belief(ctx: RobotContext) -> dict[str, Any]:
     """The inferred traits as prompts read them; nothing where the method goes without."""
-    known = belief if ctx.method.traits else Belief()
+    known = ctx.view.belief if ctx.method.traits else Belief()
     return {"big_five": known.big_five.model_dump() if known.big_five else None, "profile": known.profile}
+
+
+def _known(state: RobotState, view: RobotView) -> Known:
+    return Known(view.person, view.clock, view.belief, state["recalled"], state["intentions"])
 
 
 def _verdicts(ctx: RobotContext, kind: CandidateKind, asked: Sequence[Example]) -> list[float]:
@@ -330,9 +347,5 @@ def _sight(seen: Observation) -> str:
     return seen.first_task or (seen.percept.caption() if seen.percept else "")
 
 
-def _pictures(seen: Observation, ctx: RobotContext) -> list[Path]:
-    return [ctx.images / frame for frame in seen.frames] if ctx.ask.sees("robot") else []
-
-
-def _at(clock: Clock, ctx: RobotContext, node: str, draw: int = 0) -> Address:
-    return Address(ctx.person, clock.day, clock.hour, node, draw)
+def _at(view: RobotView, node: str, draw: int = 0) -> Address:
+    return Address(view.person, view.clock.day, view.clock.hour, node, draw)

@@ -1,104 +1,32 @@
 """What the graphs' nodes work with: connections, processes and weights, passed as LangGraph's runtime context.
 
-Nothing here is ever stored in state. Each graph has a context of its own, so that a node cannot reach what
-its agent must not know: `RobotContext` holds neither the persona nor the person's memories.
+Nothing here is ever stored in state. Each graph has a context of its own, so a node cannot reach another agent's
+secrets: a robot's holds neither the persona nor the person's memories (`coopera.graphs.robot_view`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
-from coopera.core.hour import DayPlan, Intention, LoggedHour, SearchSizes, Success, Task, TaskCandidate
-from coopera.core.household import HUMAN, ROBOT, AgentId, Collab, Outcome, SceneId
+from coopera.core.hour import DayPlan, HumanHour, Intention, Observation, SearchSizes, Success, Task, TaskCandidate
+from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
-from coopera.graphs.earlier_life import Lived
 from coopera.graphs.learning import Learner
 from coopera.graphs.method import Method
-from coopera.graphs.own_robot import OwnRobot, Robot
+from coopera.graphs.own_robot import OwnRobot
 from coopera.graphs.person import FULL, PersonModel
-from coopera.graphs.real_person import Interview
-from coopera.memory import MemoryStream, Record, Search
-
-
-class Memories(NamedTuple):
-    """The two streams an agent keeps of a person: one of intentions, one of tasks."""
-
-    intentions: MemoryStream
-    tasks: MemoryStream
-
-    def forget_from(self, now: int) -> None:
-        """Drop what is of this hour or later, before an hour is done (again)."""
-        self.intentions.forget_from(now)
-        self.tasks.forget_from(now)
-
-    def add(self, intention: str, tasks: Sequence[str], now: int) -> None:
-        """Append one hour."""
-        self.extend([(now, intention, tasks)])
-
-    def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
-        """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""
-        added = list(hours)
-        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in added])
-        self.tasks.extend([Record(task, now, {}) for now, _, tasks in added for task in tasks])
-
-
-@dataclass(frozen=True, slots=True)
-class HumanContext:
-    """The person's services for a day in a home."""
-
-    ask: Ask
-    persona: Persona
-    collab: Collab
-    home: Home
-    memories: Memories
-    embeddings: Embeddings
-    model: PersonModel = FULL
-    sizes: SearchSizes = SearchSizes()
-    logged: LoggedHour | None = None
-    """What a real person wrote down of this hour."""
-    interview: Interview | None = None
-    """How a real person in the loop is asked."""
-
-    def search(self, texts: Sequence[str]) -> Search:
-        """Search over a fixed list of texts (object names, motion captions)."""
-        return Search(self.embeddings, list(texts))
-
-
-@dataclass(frozen=True, slots=True)
-class RobotContext:
-    """The robot's services for a day: no persona, no memory of the person's own.
-
-    `history` holds what the person told in the evenings; `guesses` what the robot itself inferred, of
-    which only today's count, since the evening replaces them by the truth.
-    """
-
-    ask: Ask
-    person: PersonId
-    collab: Collab
-    method: Method
-    home: Home
-    history: Memories
-    guesses: Memories
-    learner: Learner
-    own: Robot | None
-    """A robot of one's own, as it is after its last evening; None where our graph helps."""
-    images: Path
-    """The folder to which the observation's frames are relative."""
-    agent: AgentId = ROBOT
-    """Whose body in the home the robot has."""
-
-
-def nothing_was_logged(_plan: DayPlan, _clock: Clock) -> None:
-    """Nobody wrote anything down: the person is simulated."""
+from coopera.graphs.player import HumanContext, Player
+from coopera.graphs.robot_view import Memories
+from coopera.memory import MemoryStream
 
 
 class Score(Protocol):
@@ -114,6 +42,30 @@ class Score(Protocol):
         outcomes: Sequence[Outcome] = (),
     ) -> tuple[list[TaskCandidate], Success]:
         """Judge candidates, and what came of those that were done, against the true intention and remaining tasks."""
+        ...
+
+
+class Life(Protocol):
+    """How a person's hour comes about: lived now, or on an earlier day that is met again."""
+
+    def decide(self, services: Services, plan: DayPlan, clock: Clock) -> HumanHour:
+        """What the person is up to this hour.
+
+        Raises:
+            HourError: If that could not be found out; the hour is then failed.
+        """
+        ...
+
+    def show(self, services: Services, plan: DayPlan, clock: Clock, first: Task) -> tuple[Observation, Outcome]:
+        """The person does the first task: what a robot sees of it, and what came of it."""
+        ...
+
+    def finish(self, services: Services, plan: DayPlan, clock: Clock, left: Sequence[Task]) -> list[Outcome]:
+        """The person does what is left: what came of each task."""
+        ...
+
+    def end(self, services: Services, plan: DayPlan, clock: Clock, human: HumanHour | None) -> None:
+        """Leave the home, and the person's memory, as they are after the hour; `human` is None if it failed early."""
         ...
 
 
@@ -137,24 +89,18 @@ class Services:
     seed: int
     frames: int
     """Sampled moments per hour and viewpoint; 0 renders nothing."""
+    player: Player
+    """Who plays the people."""
+    life: Life
+    """How their hours come about."""
     video: bool = False
     """Whether the first task of each hour is filmed, too."""
     person: PersonModel = FULL
     """How people are simulated."""
     sizes: SearchSizes = SearchSizes()
     """How much Search finds for an intention."""
-    lived: Lived | None = None
-    """Days that were lived before, which the people live again; by default they live new ones."""
-    logged: Callable[[DayPlan, Clock], LoggedHour | None] = nothing_was_logged
-    """What a real person wrote down of an hour."""
-    in_the_loop: bool = False
-    """Whether a real person is asked, by interrupts."""
-    graded: bool = False
-    """Whether the evening's feedback is grades from 1 to 5 instead of yes or no."""
-    interview: Interview | None = None
-    """How the node that runs now asks the person; set by the day graph."""
     identity_known: bool = True
-    """Whether the robot is told whom it is with, or guesses it (`coopera.graphs.identity`)."""
+    """Whether the robot is told whom it is with, or infers it (`coopera.graphs.identity`)."""
     hourly_traits: bool = False
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None
@@ -163,6 +109,10 @@ class Services:
     """Whose body in the homes the person has."""
     robot_agent: AgentId = ROBOT
     """Whose body in the homes the robot has."""
+
+    def here(self) -> Services:
+        """The services of the node that runs now, which may ask a real person."""
+        return replace(self, player=self.player.present())
 
     @property
     def pupil(self) -> Learner | OwnRobot:
@@ -177,6 +127,20 @@ class Services:
         """The streams of one owner ("human", "history" or "guesses") about a person in an episode."""
         stem = f"{owner}/{episode}/{person}"
         return Memories(self.stream(f"{stem}/intentions"), self.stream(f"{stem}/tasks"))
+
+    def human(self, plan: DayPlan) -> HumanContext:
+        """The person's services for a day."""
+        return HumanContext(
+            ask=self.ask,
+            persona=self.people[plan.person],
+            plan=plan,
+            home=self.home(plan.scene),
+            memories=self.memories("human", plan.episode, plan.person),
+            embeddings=self.embeddings,
+            player=self.player,
+            model=self.person,
+            sizes=self.sizes,
+        )
 
     def relative(self, path: Path) -> str:
         """A file's name as the trace gives it."""

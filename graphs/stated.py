@@ -1,87 +1,154 @@
-"""What a real person states of an hour: the question that asks for it, and the tasks made of the answer."""
+"""A real person in the simulated one's place: the hour is made of what they wrote down, or say when they are asked."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, TypeAlias
 
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
-from coopera.core.hour import Found, Intention
+from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
+from coopera.core.household import Collab
 from coopera.core.interview import Question
-from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
 from coopera.graphs.method import Numbers
-from coopera.graphs.real_person import ask_until_read, read_choice, read_intention, read_steps
-from coopera.graphs.services import HumanContext
+from coopera.graphs.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.real_person import (
+    Interview,
+    Verdict,
+    ask_here,
+    ask_until_read,
+    interviewer,
+    read_choice,
+    read_intention,
+    read_steps,
+    read_verdicts,
+)
+from coopera.graphs.simulated import Simulated, ask_for_tasks
 
-Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
+Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour]
+"""What a real person wrote down of an hour."""
 
 
-def stated_intention(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> Intention | None:
-    """The intention that a real person wrote down or gives now; None where the person is simulated."""
-    if ctx.logged:
-        return Intention(text=ctx.logged.intention)
-    if ctx.interview:
-        question = Question(kind="intention", **_when_and_where(ctx, clock, today))
-        return Intention(text=ask_until_read(ctx.interview, question, read_intention))
-    return None
+@dataclass(frozen=True, slots=True)
+class Logged:
+    """A person whose intentions, and tasks where given, are those of a log; a model does what the log leaves open."""
+
+    logs: Logs
+    otherwise: Simulated = Simulated()
+
+    def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
+        """Take the intention from the log."""
+        return Intention(text=self.logs(ctx.plan, state["clock"]).intention)
+
+    def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
+        """Take the tasks from the log, if it has any of this hour."""
+        steps = self.logs(ctx.plan, state["clock"]).tasks
+        return _taken_over(steps, state, ctx) if steps else self.otherwise.tasks(state, ctx)
+
+    def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
+        """Have the model answer for the person."""
+        return self.otherwise.verdicts(clock, ctx, human, robot)
+
+    def present(self) -> Player:
+        """The same: a log can always be read."""
+        return self
 
 
-def stated_steps(
-    ctx: HumanContext, clock: Clock, today: Sequence[str], intention: Intention, found: Found
-) -> list[str]:
-    """The steps of this hour in a real person's words; none where the model is to find them."""
-    if ctx.logged:
-        return ctx.logged.tasks
-    if ctx.interview:
-        question = Question(
-            kind="tasks",
-            **_when_and_where(ctx, clock, today),
-            intention=intention.text,
+@dataclass(frozen=True, slots=True)
+class Interviewed:
+    """A person in the loop: each question interrupts the run until they have answered it.
+
+    Attributes:
+        graded: Whether they answer with grades from 1 to 5 instead of yes or no.
+        interview: How they are asked.
+    """
+
+    graded: bool = False
+    interview: Interview = ask_here
+
+    def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
+        """Ask what they want to do."""
+        question = _question("intention", state["clock"], ctx, rooms=ctx.home.rooms, today=_today(state))
+        return Intention(text=ask_until_read(self.interview, question, read_intention))
+
+    def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
+        """Ask for the steps, among what there is for them in the home."""
+        found = state["found"]
+        question = _question(
+            "tasks",
+            state["clock"],
+            ctx,
+            rooms=ctx.home.rooms,
+            today=_today(state),
+            intention=state["intention"].text,
             places={name: room for name, (_, room) in found.fixed.items()},
             things={name: room for name, (_, room) in found.movable.items()},
             motions=found.motions,
             n_tasks=Numbers.HUMAN_TASKS[ctx.collab],
         )
-        return ask_until_read(ctx.interview, question, lambda answer: read_steps(answer, question))
-    return []
+        return _taken_over(
+            ask_until_read(self.interview, question, lambda said: read_steps(said, question)), state, ctx
+        )
+
+    def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
+        """Ask about everything that the robot imagined, at once."""
+        question = _question(
+            "feedback",
+            clock,
+            ctx,
+            intention=human.intention.text,
+            tasks=[task.act.describe() for task in human.tasks],
+            items=[*(c.text for c in robot.intentions), *(t.act.describe() for t in robot.tasks)],
+            graded=self.graded,
+        )
+        return ask_until_read(self.interview, question, lambda said: read_verdicts(said, question))
+
+    def present(self) -> Player:
+        """The person as the node that runs now reaches them."""
+        return replace(self, interview=interviewer())
 
 
-def chosen(ctx: HumanContext, steps: Sequence[str], found: Found) -> list[Draft | None]:
-    """The task of each step that is a choice of what there is; None for one in a person's own words."""
-    return [_choice(ctx, step, found) for step in steps]
-
-
-def fill(drafts: Sequence[Draft | None], read: Sequence[Draft], prompt: str) -> list[Draft]:
-    """Put what a model read of a person's own words in its places among the choices.
+def _taken_over(steps: Sequence[str], state: HumanState, ctx: HumanContext) -> Decomposed:
+    """Take each step as it is where it is a choice of what there is; a model reads the others.
 
     Raises:
-        ModelOutputError: If the model did not make one task of each step.
+        ModelOutputError: If the model did not make one task of each of those.
     """
-    gaps = sum(draft is None for draft in drafts)
-    if len(read) != gaps:
+    choices = [_choice(step, ctx.collab, state["found"]) for step in steps]
+    words = [step for step, choice in zip(steps, choices, strict=True) if choice is None]
+    read = ask_for_tasks(state, ctx, words) if words else []
+    if len(read) != len(words):
         said = str([draft.act.describe() for draft in read])
-        raise ModelOutputError(prompt, said, f"it has {len(read)} tasks for {gaps} steps of a person")
+        wrong = f"it has {len(read)} tasks for {len(words)} steps of a person"
+        raise ModelOutputError(f"human/tasks_type{ctx.collab}", said, wrong)
     rest = iter(read)
-    return [draft or next(rest) for draft in drafts]
+    return Decomposed([choice or next(rest) for choice in choices], stated=True)
 
 
-def _choice(ctx: HumanContext, step: str, found: Found) -> Draft | None:
+def _choice(step: str, collab: Collab, found: Found) -> Draft | None:
+    """The task of a step that is a choice of what there is; None for one in a person's own words."""
     try:
-        return read_choice(step, ctx.collab, found.fixed, found.movable, found.motions)
+        return read_choice(step, collab, found.fixed, found.movable, found.motions)
     except ValueError:
         return None
 
 
-def _when_and_where(ctx: HumanContext, clock: Clock, today: Sequence[str]) -> dict[str, object]:
-    return {
-        "person": ctx.persona.id,
-        "name": ctx.persona.name,
-        "day": clock.day,
-        "hour": clock.hour,
-        "time": clock.label,
-        "weekday": clock.weekday,
-        "collab": ctx.collab,
-        "rooms": ctx.home.rooms,
-        "today": list(today),
-    }
+def _today(state: HumanState) -> list[str]:
+    return [f"{memory['when']}: {memory['text']}" for memory in state["today"]]
+
+
+def _question(
+    kind: Literal["intention", "tasks", "feedback"], clock: Clock, ctx: HumanContext, **about: Any
+) -> Question:
+    return Question(
+        kind=kind,
+        person=ctx.persona.id,
+        name=ctx.persona.name,
+        day=clock.day,
+        hour=clock.hour,
+        time=clock.label,
+        weekday=clock.weekday,
+        collab=ctx.collab,
+        **about,
+    )

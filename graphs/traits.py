@@ -1,7 +1,7 @@
 """Traits inference: the robot's belief about the person, revised in the evening and, if wanted, hour by hour.
 
-PAPER App. D. In the evening it rests on what the person told. During the day nobody tells anything, so that an hourly
-revision rests on the robot's own guesses of the hours before; the evening starts again from the evening before.
+PAPER App. D. In the evening it rests on the person's account. During the day there is no account, so an hourly revision
+rests on the robot's own guesses of the hours before. The evening starts again from the belief of the evening before.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from coopera.graphs.recall import as_memory
 
 
 class Past(NamedTuple):
-    """An hour as the robot knows it: told, or guessed."""
+    """An hour as the robot knows it: from an account, or from its own guesses."""
 
     now: int
     intention: str
@@ -27,7 +27,7 @@ class Past(NamedTuple):
 
 
 def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
-    """What the person told of a day's hours; failed hours are left out."""
+    """The hours of a day by the person's account; failed hours are left out."""
     return [
         Past(dawn + hour.hour, hour.human.intention.text, [task.act.describe() for task in hour.human.tasks])
         for hour in hours
@@ -36,7 +36,7 @@ def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
 
 
 def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
-    """What the robot took for true in some hours of a day: its likeliest intention, and what it saw and offered.
+    """The robot's guesses for some hours of a day: its likeliest intention, the first task, and its accepted tasks.
 
     Hours in which it accepted no intention are left out.
     """
@@ -62,7 +62,7 @@ def revise(
         clock: Now.
         past: The hours it rests on.
         before: The belief so far.
-        evening: Whether they were told, or guessed.
+        evening: Whether they come from the account, or from guesses.
 
     Returns:
         The belief, and the reasons for its parts.

@@ -1,4 +1,7 @@
-"""Memory: embeddings, semantic search over fixed lists, and the recency-weighted memory stream."""
+"""Memory: the memory stream (relevance x recency), search over fixed lists, and embeddings.
+
+Stores of memory streams are checked, repaired, exported and imported here.
+"""
 
 from __future__ import annotations
 

@@ -9,6 +9,8 @@ import threading
 from collections.abc import Callable, Sequence
 from itertools import islice
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 import numpy as np
 from langchain_core.embeddings import Embeddings
@@ -31,8 +33,9 @@ Encode = Callable[[str], Vector]
 class CachedEmbeddings(Embeddings):
     """A LangChain `Embeddings` with a cache in RAM and, if a path is given, in SQLite.
 
+    Used in a `with` statement, or closed, it lets go of the file; the next text that is not in RAM opens it again.
     Two processes may share the file. The key is the SHA-256 of the model's identity and the text. Texts are encoded
-    one by one, so that an embedding's bits depend neither on its neighbours nor on what was cached before.
+    one by one, so the bits of an embedding depend on its text alone.
 
     Attributes:
         model_id: Identity of the model; part of each key, and noted in every store that uses the model.
@@ -74,10 +77,20 @@ class CachedEmbeddings(Embeddings):
         return np.stack(vectors) if vectors else np.zeros((0, 0), np.float32)
 
     def close(self) -> None:
-        """Close the cache file; the RAM part goes on working."""
-        if self._disk is not None:
-            self._disk.close()
-            self._disk = None
+        """Close the cache file until it is needed again; closing twice does no harm."""
+        with self._lock:
+            if self._disk is not None:
+                self._disk.close()
+
+    def __enter__(self) -> Self:
+        """Return the embeddings themselves."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the cache file."""
+        self.close()
 
     def _vectors(self, texts: Sequence[str]) -> list[Vector]:
         """Return each text's vector, in order, from RAM, from disk, or by encoding it.
@@ -128,16 +141,9 @@ class _Disk:
     def __init__(self, path: Path, model_id: str) -> None:
         self._path = path
         self._salt = hashlib.sha256(model_id.encode() + b"\0")
+        self._opened: sqlite3.Connection | None = None
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._db = sqlite3.connect(path, timeout=_PATIENCE, isolation_level=None, check_same_thread=False)
-            try:
-                self._db.execute("PRAGMA journal_mode=WAL")
-                self._db.execute("PRAGMA synchronous=NORMAL")
-                self._db.execute("CREATE TABLE IF NOT EXISTS vectors(key BLOB PRIMARY KEY, vector BLOB) WITHOUT ROWID")
-            except sqlite3.Error:
-                self._db.close()
-                raise
+            self._db()
         except (OSError, sqlite3.Error) as err:
             raise self._broken(err) from err
 
@@ -150,10 +156,10 @@ class _Disk:
             for start in range(0, len(keys), _PER_QUERY):
                 some = keys[start : start + _PER_QUERY]
                 marks = ",".join("?" * len(some))
-                rows = self._db.execute(f"SELECT key, vector FROM vectors WHERE key IN ({marks})", some)
+                rows = self._db().execute(f"SELECT key, vector FROM vectors WHERE key IN ({marks})", some)
                 for key, blob in rows:
                     found[by_key[key]] = np.frombuffer(blob, "<f4")
-        except (sqlite3.Error, ValueError) as err:
+        except (OSError, sqlite3.Error, ValueError) as err:
             raise self._broken(err) from err
         return found
 
@@ -161,12 +167,29 @@ class _Disk:
         """Add a vector; one that another process added in the meantime stays."""
         blob = vector.astype("<f4").tobytes()
         try:
-            self._db.execute("INSERT OR IGNORE INTO vectors VALUES (?, ?)", (self._key(text), blob))
-        except sqlite3.Error as err:
+            self._db().execute("INSERT OR IGNORE INTO vectors VALUES (?, ?)", (self._key(text), blob))
+        except (OSError, sqlite3.Error) as err:
             raise self._broken(err) from err
 
     def close(self) -> None:
-        self._db.close()
+        if self._opened is not None:
+            self._opened.close()
+            self._opened = None
+
+    def _db(self) -> sqlite3.Connection:
+        """Return the open file, opened now if need be."""
+        if self._opened is None:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            made = sqlite3.connect(self._path, timeout=_PATIENCE, isolation_level=None, check_same_thread=False)
+            try:
+                made.execute("PRAGMA journal_mode=WAL")
+                made.execute("PRAGMA synchronous=NORMAL")
+                made.execute("CREATE TABLE IF NOT EXISTS vectors(key BLOB PRIMARY KEY, vector BLOB) WITHOUT ROWID")
+            except sqlite3.Error:
+                made.close()
+                raise
+            self._opened = made
+        return self._opened
 
     def _key(self, text: str) -> bytes:
         digest = self._salt.copy()

@@ -1,8 +1,9 @@
 """How the records of a log are named in the store, so that nothing ever needs to be deleted there.
 
-Chroma's index does not survive deletions reliably: in a trial, adding and deleting a thousand records a few times in a
-row ended in unreadable vectors or a crash. So dropping the end of a log only notes where it was cut; what is written
-there anew carries the number of the cut in its id. The dropped rows stay in the store as ghosts that no id leads to.
+Chroma's index may break over deletions: in a trial a thousand records were added and deleted a few times, and vectors
+became unreadable or the process crashed. So dropping the end of a log only notes the position of the cut. Later records
+at the same positions have the number of the cut in their id. The dropped rows stay in the store; no id names them any
+more. They are called ghosts.
 """
 
 from __future__ import annotations

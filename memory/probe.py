@@ -1,8 +1,8 @@
 """Look at a store in a process of its own: `python -m coopera.memory.probe FOLDER [--all]`.
 
-Chroma's index is native code, and a damaged index file can end the process that reads it. So a store that was not
-closed properly, or was copied, is first opened here, where nothing is lost if that happens. Ends with status 0 if the
-store can be read, else with the reason on standard error (or by a signal). The caller holds the store's lock.
+Chroma's index is native code, and a damaged index file can end the process that reads it. So a copied store, or one
+not closed properly, is first opened here: the end of this process loses nothing. Ends with status 0 if the store can be
+read, else with the reason on standard error (or by a signal). The caller holds the store's lock.
 """
 
 from __future__ import annotations

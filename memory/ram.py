@@ -1,6 +1,6 @@
-"""What memory streams need of a Chroma client, in RAM: for runs that are done anew where they do not reach their end.
+"""A stand-in for a Chroma client in RAM, for runs without resumption: a stopped one starts anew.
 
-A durable write takes Chroma some ten milliseconds, which is more than all else that a quick hour takes.
+A durable write takes Chroma some ten milliseconds, longer than all the rest of a quick hour.
 """
 
 from __future__ import annotations

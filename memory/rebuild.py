@@ -1,9 +1,9 @@
 """Rebuild a damaged store from its texts.
 
-Vectors live in the index's files, texts in a SQLite database. The texts are read from there directly, past Chroma,
-which may refuse, or end the process, over a damaged index; then they are encoded again into a new store beside the
-damaged one, and the two change places. The damaged store is kept. `repair` is for the user, `heal` for what a crash
-alone explains.
+Vectors are in the index's files, texts in a SQLite database. The texts are read from the database directly, since
+Chroma may refuse a damaged index or end the process. They are encoded again into a new store beside the damaged one,
+and the two change places. The damaged store is kept. `repair` is for the user; `heal` mends the damage of a
+crash by itself.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Repaired(NamedTuple):
     Attributes:
         stream: Its name.
         records: How many records it has now.
-        missing: How many had no text or hour any more, and are gone.
-        altered: How many are there, but not as they were written (their check sum says so).
+        missing: Number of lost records: those without a text or an hour.
+        altered: Number of changed records: those with a wrong check sum.
     """
 
     stream: str
@@ -83,7 +83,7 @@ def repair(folder: Path, embeddings: Embeddings | None = None) -> list[Repaired]
 
 
 def heal(found: DamagedMemoryError, embeddings: Embeddings) -> None:
-    """Rebuild a store whose last writer was killed, provided that nothing of it is lost by that.
+    """Rebuild a store after a killed writer, if no record is lost by it.
 
     Args:
         found: The damage; names the store.

@@ -1,9 +1,9 @@
 """Exact top-k by recency x relevance over records in order of time, reading only as many as can matter.
 
-A record's score is cosine(query, record) x decay^(now - hour). A cosine is at most 1, so nothing older than a record
-whose recency is below the k-th best score found so far can enter the result, and the scan, which goes backwards from
-the newest record, ends there. How far it goes depends on the decay and on the number of records per hour, not on the
-number of records. Where the k-th best score is not positive the bound says nothing and all records are read.
+A record's score is cosine(query, record) x decay^(now - hour). The scan goes backwards from the newest record. A cosine
+is at most 1, so the scan ends at the first recency below the k-th best score so far: no older record can enter the
+result. The length of the scan depends on the decay and on the records per hour, not on the number of records. If the
+k-th best score is not positive, the bound says nothing and all records are read.
 """
 
 from __future__ import annotations

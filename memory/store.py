@@ -112,7 +112,7 @@ class Store:
 
     @classmethod
     def close_all(cls) -> None:
-        """Close what a program that ends has left open, so that its next start need not look for damage."""
+        """Close all open stores at the end of a program, so that its next start need not look for damage."""
         with cls._guard:
             for store in [store for store in cls._open.values() if store.pid == os.getpid()]:
                 store._users = 1

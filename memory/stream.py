@@ -87,9 +87,9 @@ class MemoryStream:
     ) -> Self:
         """Open a stream, or make it.
 
-        A process that is killed while Chroma writes its index leaves that half-written. The index only doubles what the
-        database holds, so such a store is rebuilt from its texts before it is opened, if every one of them is whole;
-        a warning tells so, and the half-written store is kept. All other damage is left to `memory.repair`.
+        A process killed while Chroma writes its index leaves a half-written index. The database holds the same records,
+        so the store is first rebuilt from its texts if every text is whole. A warning says so, and the half-written
+        store is kept. `coopera.memory.repair` is for all other damage.
 
         Args:
             path_or_client: Folder of the store; or URL of a Chroma server, such as "http://localhost:8000"; or a

@@ -1,4 +1,7 @@
-"""Language models behind one door, the offline routine model, and the classifiers; names load when used."""
+"""Language models behind one door: servers, weights in this process, recorded replies, and the offline routine model.
+
+The robot's yes/no classifiers are here, too.
+"""
 
 from __future__ import annotations
 

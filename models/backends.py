@@ -1,9 +1,15 @@
 """From a model's name to a chat model: which backends there are, and what each of them can do.
 
-A *spec* names a model: `offline` (`offline:words` compares texts by their letters alone, `offline:FILE.yaml` knows a
-household of one's own), `openai:MODEL` (any OpenAI-compatible server, at the base URL), `huggingface:REPO-OR-FOLDER`
-(in this process), `replay:RUN` (what was said in an earlier run), or `PROVIDER:MODEL` for the other providers of
-LangChain. A spec that ends in `+images` says that the model looks at pictures, where that cannot be found out.
+A *spec* names a model:
+
+- `offline`: the routine model; `offline:words` compares texts by their letters alone, `offline:FILE.yaml` knows a
+  household of one's own;
+- `openai:MODEL`: any OpenAI-compatible server, at the base URL;
+- `huggingface:REPO-OR-FOLDER`: weights in this process;
+- `recorded:RUN`: the recorded replies of an earlier run;
+- `PROVIDER:MODEL`: the other providers of LangChain.
+
+Add `+images` to a spec if the model looks at pictures and does not say so itself.
 """
 
 from __future__ import annotations
@@ -24,7 +30,7 @@ from langchain_core.messages import AIMessage, BaseMessage
 from coopera.core.errors import ConfigError, ModelCallError
 from coopera.core.protocols import Role
 from coopera.models.cache import CachedReply
-from coopera.models.replay import Past
+from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import CallSettings, Structure
 from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
@@ -32,9 +38,19 @@ ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
     "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
-    "huggingface:REPO-OR-FOLDER, replay:RUN, "
+    "huggingface:REPO-OR-FOLDER, recorded:RUN, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
+SPECS: dict[str, str] = {
+    "offline": "the routine model that ships: no language model, and no server or download is needed",
+    "offline:words": "the same, comparing texts by their letters alone",
+    "offline:HOUSEHOLD.yaml": "the same, knowing a household of your own",
+    "openai:MODEL": "a model of OpenAI, or of any server that speaks its protocol, at --base-url",
+    "huggingface:REPO-OR-FOLDER": "weights in this process",
+    "replay:RUN": "what was said in an earlier run, without any model",
+    "PROVIDER:MODEL": "any other provider of LangChain whose package is installed",
+}
+"""What a spec may be, and what it names."""
 _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
 
@@ -68,12 +84,12 @@ class Backend:
         name: As it stands in the trace and in the cache's keys.
         sees: Whether it looks at pictures.
         reads_variables: Whether it answers from the prompt's variables rather than from its text.
-        options: How a request is said to it.
-        structures: Ways to hold it to a schema, best first; one that it refuses is given up for the next.
+        options: Turns a request into the client's arguments.
+        structures: Ways to hold it to a schema, best first; after a refusal the next one is tried.
         line: The way to its server, if it has one.
-        address: Where its server is, if it is not where the provider has it.
-        weights: What tells its weights from others of the same name, for the cache.
-        past: A run whose record answers in its place.
+        address: Its server's address, if it differs from the provider's.
+        weights: A mark of its weights, for the cache: other weights of the same name have another mark.
+        past: The run with the recorded replies, if the model is a recorded one.
     """
 
     name: str
@@ -169,8 +185,8 @@ def open_backend(
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
-    if provider == "replay":
-        past = Past(Path(name))
+    if run := recorded_run(spec.removesuffix(_PICTURES)):
+        past = Past(run)
         return Backend(spec, None, sees=past.sees(role), past=past)
     if provider == "huggingface":
         return _huggingface(spec, name, chosen)
@@ -306,7 +322,7 @@ def _tool(request: Request) -> dict[str, Any]:
 
 
 def read_answer(message: AIMessage) -> CachedReply:
-    """A model's reply as text: what it says, or what it gives the tool that it was made to call."""
+    """A model's reply as text: its words, or the arguments of its tool call."""
     usage: Mapping[str, Any] = message.usage_metadata or {}
     text = str(message.text)
     if message.tool_calls:

@@ -9,7 +9,7 @@ from coopera.models.settings import Budget, Spent
 
 
 class Meter:
-    """Counts what models were asked for; replies from the cache and from a replayed run cost nothing. Thread-safe."""
+    """Counts what models were asked for; replies from the cache and from a recorded run cost nothing. Thread-safe."""
 
     def __init__(self, budget: Budget, spent: Spent | None = None) -> None:
         """Go on from what was spent before."""

@@ -55,10 +55,7 @@ class ReplyCache:
             RunError: If the file cannot be opened or is something else.
         """
         self._path = path
-        self._shared = None
-        if shared is not None:
-            shared.parent.mkdir(parents=True, exist_ok=True)
-            self._shared = ReplyCache(shared)
+        self._shared: ReplyCache | None = None
         self._lock = threading.Lock()
         with self._guarded():
             self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
@@ -69,6 +66,13 @@ class ReplyCache:
                     " tokens_out INTEGER, cut INTEGER) WITHOUT ROWID"
                 )
             except sqlite3.Error:
+                self._db.close()
+                raise
+        if shared is not None:
+            try:
+                shared.parent.mkdir(parents=True, exist_ok=True)
+                self._shared = ReplyCache(shared)
+            except (OSError, RunError):
                 self._db.close()
                 raise
 

@@ -1,7 +1,7 @@
 """Decoding that cannot leave a JSON schema: at each step only tokens that keep the reply valid can be drawn.
 
-llguidance says which tokens those are. A reply that nears the length limit is closed by the shortest way, so that even
-a model which knows nothing, or will not stop, answers with valid JSON.
+llguidance says which tokens are valid. A reply near the length limit is closed by the shortest way. So even a model
+without knowledge, or without an end, answers with valid JSON.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ from coopera.models.backends import Backend, Request, open_backends
 from coopera.models.budget import Meter
 from coopera.models.cache import CachedReply, ReplyCache, key_of
 from coopera.models.parsing import BadReplyError, read_reply
-from coopera.models.replay import SCHEMA_FOLLOWS, Past
+from coopera.models.recorded import SCHEMA_FOLLOWS, Past
 from coopera.models.schemas import enforced_schema, schema_of, strays
 from coopera.models.settings import CallSettings
 from coopera.models.transport import Sleep, wait
@@ -181,8 +181,8 @@ class Door:
     def take_calls(self) -> list[ModelCall]:
         """Return the calls made since the last time, and forget them.
 
-        The order is that of the nodes' first calls; within a node, that of the draws, since those of nodes that ran
-        in parallel end in any order.
+        Nodes come in the order of their first calls. Within a node calls come in the order of their draws, since
+        parallel calls end in any order.
         """
         with self._lock:
             calls, self._calls = self._calls, []
@@ -287,7 +287,7 @@ class Door:
             try:
                 answer = backend.ask(request, talk.fault)
             except ModelCallError as err:
-                raise ModelCallError(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
+                raise type(err)(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
             if self.meter is not None:
                 self.meter.end(answer.tokens_in + answer.tokens_out)
             if key is not None:

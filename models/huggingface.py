@@ -142,7 +142,7 @@ class HuggingFaceChat(BaseChatModel):
         return ChatResult(generations=[ChatGeneration(message=self._answer(question))])
 
     def _answer_all(self, questions: Sequence[_Question]) -> list[AIMessage | Exception]:
-        """Answer questions in one go; where that fails, one by one, so that none suffers from another."""
+        """Answer questions together; if this fails, one by one, so a bad question spoils only its own answer."""
         try:
             with torch.inference_mode():
                 return list(self._generate_together(questions))

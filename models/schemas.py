@@ -1,8 +1,8 @@
 """The JSON schema of a reply: as a model reads it in words, and as a decoder or a server enforces it.
 
-The enforced schema is narrower than the reply type: every field is required, the names and ids of objects are those
-that the prompt shows, and lists are as long as the prompt asks for. What it forbids, the reply type may still accept:
-a model that cannot be held to it is told where it strays, and in the end its reply counts as it is.
+The enforced schema is narrower than the reply type. It requires every field, takes the names and ids of objects from
+the prompt, and fixes the length of lists. Some models cannot be held to a schema. Such a model is shown its errors;
+after the last attempt its reply counts if the reply type accepts it.
 """
 
 from __future__ import annotations

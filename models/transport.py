@@ -1,7 +1,8 @@
 """The way to a server: a gate that keeps the pace, and patience with requests that fail on their way.
 
-A request that the server could not take, or that came back as no chat completion, is sent again after a pause that
-doubles each time, or as long as the server's Retry-After asks for. Every failure is noted in the call's faults.
+A failed request is sent again after a pause. A request has failed if the server could not take it or sent back no chat
+completion. The pause doubles each time, or is as long as the server's Retry-After asks. The call's faults list every
+failure.
 """
 
 from __future__ import annotations
@@ -45,6 +46,8 @@ class Gate:
         self._sleep, self._clock = sleep, clock
         self._begun: deque[float] = deque()
         self._lock = threading.Lock()
+        self.answered = threading.Event()
+        """Whether what lies behind it has ever answered."""
 
     @contextmanager
     def passed(self) -> Iterator[None]:
@@ -72,7 +75,7 @@ _sharing = 1
 
 
 def share_pace(processes: int) -> None:
-    """Say that this process is one of several that keep the pace together: each keeps its part, at least 1 of it."""
+    """Share the pace between several processes: each keeps its part of every limit, at least 1."""
     global _sharing
     _sharing = processes
 
@@ -115,15 +118,23 @@ class Line:
 
         Raises:
             RefusedError: If the server finds the request itself wrong (400 or 422).
+            NobodyThereError: If the connection is refused where nobody has ever answered.
             ModelCallError: If it cannot be answered, or was not for all the retries.
         """
         for attempt in itertools.count():
             try:
                 with self.gate.passed():
-                    return request()
+                    answer = request()
+                self.gate.answered.set()
+                return answer
             except self.unreachable as err:
                 problem, failure = say(err), err
                 status = status_of(err)
+                if status is not None:
+                    self.gate.answered.set()
+                if not self.gate.answered.is_set() and _connection_refused(err):
+                    hint = "`coopera models check` says when one does"
+                    raise NobodyThereError(f"no server listens there ({problem.rstrip('.')}); {hint}") from err
                 if status in {400, 422}:
                     raise RefusedError(problem) from err
                 if status is not None and status not in _AGAIN and status < 500:
@@ -160,6 +171,10 @@ class Line:
             return None
 
 
+class NobodyThereError(ModelCallError):
+    """No server listens at an address where none has answered before: to wait for one would be in vain."""
+
+
 class RefusedError(Exception):
     """The server finds the request wrong; asked for in another form it may do. Never leaves the backend."""
 
@@ -168,3 +183,10 @@ def status_of(err: BaseException) -> int | None:
     """The HTTP status that an error of a client tells of, if it does."""
     status = getattr(err, "status_code", None)
     return status if isinstance(status, int) else None
+
+
+def _connection_refused(err: BaseException | None) -> bool:
+    """Whether an error comes of a connection that was refused."""
+    while err is not None and not isinstance(err, ConnectionRefusedError):
+        err = err.__cause__ or err.__context__
+    return err is not None

@@ -1,4 +1,7 @@
-"""Prompts as files that a user edits, and the library that loads, checks and renders them."""
+"""The prompts, as files for a user to edit.
+
+The prompt library loads, checks and renders them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The home: scenes, bodies, motions, navigation, skills, cameras. pybullet is imported only where it is used."""
+"""The simulated home: homes as data, bodies, motions, acts, cameras and percepts, behind one `World`.
+
+pybullet is imported only by the modules that use it.
+"""
 
 from __future__ import annotations
 

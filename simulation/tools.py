@@ -1,7 +1,7 @@
 """A home as LangChain tools, for a tool-calling model that plans for one of its bodies.
 
 `world_tools(world, "robot")` gives tools that a chat model can be bound to (`model.bind_tools`). Each answers with one
-sentence or a small table; what cannot be done is said with its reason, so that the model can try something else.
+sentence or a small table; a refusal gives its reason, so that the model can try something else.
 """
 
 from __future__ import annotations

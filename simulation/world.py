@@ -58,9 +58,9 @@ class World:
 
         Args:
             scene: The home.
-            agents: Who lives there, in the order in which they get their first places; without it one person,
-                "human", and one robot, "robot".
-            robot: Name of that one robot's body, one of `coopera.simulation.bodies.robot.ROBOTS`.
+            agents: Who lives there, in the order of their first places; by default one person, "human", and one robot,
+                "robot".
+            robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
@@ -69,7 +69,7 @@ class World:
 
         Raises:
             SimulationError: If the home has no room for them to stand in.
-            ConfigError: If there is no such robot, or an agent's id cannot be used.
+            ConfigError: If there is no such robot, its files cannot be used, or an agent's id cannot be used.
         """
         agents = [PersonAgent(), RobotAgent(body=robot)] if agents is None else agents
         check_agents(agents)
@@ -219,7 +219,7 @@ class World:
         return self.layout.room_at(*self.state.agent(agent).place).name
 
     def things_on(self, room: str) -> dict[str, str]:
-        """What lies about in a room: {thing: what it is on}, sorted; "floor" for what is on nothing."""
+        """The movable things of a room, sorted: {thing: the furniture under it, or "floor"}."""
         there = {name for name, (_, where) in self.objects("movable").items() if where == room}
         things = (thing for thing in self.layout.movable if thing.name in there)
         return {thing.name: self.state.thing(thing).on or "floor" for thing in things}

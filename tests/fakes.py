@@ -37,6 +37,12 @@ class LetterEmbeddings(Embeddings):
     def embed_documents(self, texts: list[str]) -> list[list[float]]:
         return [self.embed_query(text) for text in texts]
 
+    def __enter__(self) -> LetterEmbeddings:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """There is no file to close."""
+
 
 class FakeHome:
     """Three fixed and three movable objects in two rooms; whatever is asked for works, unless `broken`."""

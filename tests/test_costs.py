@@ -12,6 +12,7 @@ import pytest
 from coopera import Config, run_study
 from coopera.cli import main
 from coopera.config.schema import Models
+from coopera.models.recorded import PREFIXES
 from coopera.rundir.directory import RunDir
 from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
@@ -66,20 +67,23 @@ def test_a_budget_of_nothing_is_refused(flag: str, capsys: pytest.CaptureFixture
     assert f"{flag} must be a whole number from 1 up, not 0." in capsys.readouterr().err
 
 
-def test_a_replayed_run_is_the_same_without_any_model(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    out = lived.parent / "replayed"
-    assert main(["run", "--model", f"replay:{lived}", "--out", str(out)]) == 0
+@pytest.mark.parametrize("prefix", PREFIXES)
+def test_a_recorded_run_is_the_same_without_any_model(
+    prefix: str, lived: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = lived.parent / prefix
+    assert main(["run", "--model", f"{prefix}:{lived}", "--out", str(out)]) == 0
     now, before = truth(out), truth(lived)
     assert {name for name in before if name.startswith("trace")} <= set(now)
     for name in before:
         if name not in {"config.yaml", "summary.json"}:  # these name the models
             assert now[name] == before[name], name
     capsys.readouterr()
-    assert main(["run", "--model", f"replay:{lived}", "--seed", "1", "--out", str(out) + "-1"]) == 1
+    assert main(["run", "--model", f"{prefix}:{lived}", "--seed", "1", "--out", str(out) + "-1"]) == 1
     assert "never asked this" in capsys.readouterr().err
-    assert main(["run", "--model", "replay:nowhere"]) == 2
-    assert main(["run", "--human-model", "replay:nowhere"]) == 2
-    assert "replay:nowhere cannot be opened: this folder holds no run" in capsys.readouterr().err
+    assert main(["run", "--model", f"{prefix}:nowhere"]) == 2
+    assert main(["run", "--human-model", f"{prefix}:nowhere"]) == 2
+    assert "recorded:nowhere cannot be opened: this folder holds no run" in capsys.readouterr().err
 
 
 def test_an_estimate_foretells_the_calls_of_the_run(lived: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,8 @@ from coopera.core.asks import ASKS
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 
+SEED = int(os.environ.get("COOPERA_TEST_WEIGHTS_SEED", "0"))
+"""Seed of all random weights: no test may need the weights, or the arithmetic, of one machine."""
 TEXT = (
     "{% for m in messages %}{{ m['role'] }}: {{ m['content'] }}\n{% endfor %}"
     "{% if add_generation_prompt %}assistant: {% endif %}"
@@ -71,7 +74,7 @@ def random_llama(folder: Path, words: PreTrainedTokenizerFast | None = None) -> 
     words = words or byte_tokenizer()
     words.save_pretrained(folder)
     with torch.random.fork_rng():
-        torch.manual_seed(0)
+        torch.manual_seed(SEED)
         LlamaForCausalLM(LlamaConfig(vocab_size=len(words), **LLAMA)).save_pretrained(folder)
     return folder
 
@@ -101,7 +104,7 @@ def random_llava(folder: Path, words: PreTrainedTokenizerFast | None = None) -> 
     text = LlamaConfig(vocab_size=len(words), **LLAMA)
     image = words.convert_tokens_to_ids("<image>")
     with torch.random.fork_rng():
-        torch.manual_seed(0)
+        torch.manual_seed(SEED)
         config = LlavaConfig(vision_config=vision, text_config=text, image_token_id=image)
         LlavaForConditionalGeneration(config).save_pretrained(folder)
     return folder
@@ -113,7 +116,7 @@ def random_bert(folder: Path, words: Sequence[str]) -> Path:
     (folder / "vocab.txt").write_text("\n".join(vocabulary))
     BertTokenizerFast(vocab=str(folder / "vocab.txt"), model_max_length=512).save_pretrained(folder)
     with torch.random.fork_rng():
-        torch.manual_seed(0)
+        torch.manual_seed(SEED)
         config = BertConfig(
             vocab_size=len(vocabulary),
             hidden_size=16,

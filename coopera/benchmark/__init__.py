@@ -1,1 +1,4 @@
-"""Many studies compared: the grid's runs, their results on file, a Ray cluster, and the leaderboard."""
+"""Benchmarks: the runs of a grid, on this machine or on a Ray cluster, and their result files.
+
+The leaderboard checks and ranks such results.
+"""

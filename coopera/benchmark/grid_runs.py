@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import yaml
 
+from coopera.config.at_most import at_most, smaller
+from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import Config, load_config
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
-from coopera.evaluation.measures import robot_seconds
+from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
 from coopera.studies.catalogues import load_catalogues, resolve
+from coopera.studies.own_files import names_file
 from coopera.studies.workers import Done, work_through
 
 NOBODY = "none"
@@ -83,7 +87,7 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
         for method in methods:
             jobs.append(_job(life, method, out / "runs" / life.name / method, home, base))
     for job in {(job.config.method, job.labels["setting"], job.labels["episode"]): job for job in jobs}.values():
-        resolve(job.config.model_copy(update={"out": None, "lived": None}), known)
+        resolve(job.config.model_copy(update={"out": None, "earlier_life": None}), known)
     return Benchmark(out, grid, jobs)
 
 
@@ -94,10 +98,12 @@ def claim_folder(bench: Benchmark) -> None:
         ConfigError: If it cannot be written or holds something else.
     """
     path = bench.root / "grid.yaml"
-    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person"})
+    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person_model"})
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
     if path.is_file():
         before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
+        for key in ("run", "shared"):
+            before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
         # methods, seeds and settings may be added to what was run
         fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
@@ -143,7 +149,8 @@ def do_run(job: RunJob) -> None:
         run_study(job.config, resumable=False)
     run = RunDir.open(job.folder)
     hours = run.hours()
-    rows = rows_of(hours, run.evenings(), _activity(job.config), job.labels)
+    with _activity(job.config) as activity:
+        rows = rows_of(hours, run.evenings(), activity, job.labels)
     data = {"rows": [row.model_dump() for row in rows], "seconds": robot_seconds(hours)}
     write_atomic(job.folder / ROWS, canonical_json(data, indent=None))
 
@@ -151,8 +158,8 @@ def do_run(job: RunJob) -> None:
 def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
     """The rows of what is done, their card, and the robot's seconds per hour by method.
 
-    Lives that only some methods have met so far are left out, so that all methods are seen on the same days; where no
-    life is whole yet, all rows there are.
+    Only complete lives count, so all methods are compared on the same days. A life is complete when all methods have
+    met it. Before any life is complete, all rows count.
     """
     rows: list[Row] = []
     seconds: dict[str, list[float]] = {}
@@ -195,7 +202,23 @@ def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
     given = {name: value for name, value in flags.items() if value is not None}
     if path:
         read_grid(data, str(path))
-    return read_grid({**data, **given}, str(path) if path and not given else "the grid")
+        data = {**data, "run": in_words_of_today(Config, data.get("run") or {}, f"{path}: run")}
+    return _cut(read_grid({**data, **given}, str(path) if path and not given else "the grid"))
+
+
+def _cut(grid: Grid) -> Grid:
+    """Cut a grid to the sizes of COOPERA_AT_MOST."""
+    most = at_most()
+    return grid.model_copy(
+        update={
+            "settings": grid.settings[: most.settings],
+            "methods": grid.methods[: most.methods],
+            **{
+                name: smaller(getattr(grid, name), getattr(most, name))
+                for name in ("episodes", "days", "hours", "seeds")
+            },
+        }
+    )
 
 
 def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Config:
@@ -212,7 +235,7 @@ def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Confi
             "method",
             "seed",
             "out",
-            "lived",
+            "earlier_life",
         ):
             raise ConfigError(f"{file or 'run'}: run.{name}: the grid itself decides this.")
     return load_config(None, {**{"pictures": "none"}, **grid.run, **flags})
@@ -226,7 +249,7 @@ def _life_config(life: Life, grid: Grid, config: Config) -> Config:
 
 
 def _job(life: Life, method: str, folder: Path, lived: Path | None, base: Config) -> RunJob:
-    config = base.model_copy(update={"method": method, "out": folder, "lived": lived})
+    config = base.model_copy(update={"method": method, "out": folder, "earlier_life": lived})
     labels = {
         "method": method,
         "setting": life.setting,
@@ -244,15 +267,17 @@ def _chosen(field: str, wanted: Sequence[str] | int | None, known: Sequence[str]
         if wanted > len(known):
             raise ConfigError(f"{field}: {wanted} are asked for, and there are {len(known)}.")
         return list(known[:wanted])
-    return list(wanted)
+    return [str(Path(name).expanduser().resolve()) if names_file(name) else name for name in wanted]
 
 
 def _is_done(job: RunJob) -> bool:
     return (job.folder / ROWS).is_file()
 
 
-def _activity(config: Config) -> Callable[[str], str]:
+@contextmanager
+def _activity(config: Config) -> Iterator[Callable[[str], str]]:
     from coopera.evaluation.activities import nearest_group  # noqa: PLC0415
     from coopera.studies.assemble import open_embeddings  # noqa: PLC0415 - heavy
 
-    return nearest_group(open_embeddings(config))
+    with open_embeddings(config) as embeddings:
+        yield nearest_group(embeddings)

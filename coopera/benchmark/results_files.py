@@ -1,4 +1,4 @@
-"""What a benchmark leaves behind: the table of its hours, the card that describes it, and what is drawn from them."""
+"""The result files of a benchmark: the table of its hours, the card with its description, tables and figures."""
 
 from __future__ import annotations
 

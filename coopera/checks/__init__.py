@@ -1,1 +1,4 @@
-"""Whether something will work, before it is run: a model, a household file, a method; and what a run will cost."""
+"""Checks before a run: will this model, this household file or this method work?
+
+The estimate foretells what a run will cost.
+"""

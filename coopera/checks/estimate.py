@@ -13,6 +13,7 @@ from coopera.config.schema import Config, Models
 from coopera.core.asks import ASKS
 from coopera.core.hour import ModelCall
 from coopera.core.replies import REPLIES
+from coopera.models.recorded import recorded_run
 from coopera.models.schemas import schema_of
 from coopera.models.settings import Budget
 from coopera.rundir.directory import RunDir
@@ -83,7 +84,7 @@ def _tried(config: Config, hours: int) -> list[ModelCall]:
                 "models": Models(),
                 "backbone": "offline:words",
                 "schedule": None,
-                "lived": None,
+                "earlier_life": None,
                 "pictures": "none",
                 "budget": Budget(),
                 "out": Path(folder) / "run",
@@ -109,4 +110,4 @@ def _rounded(counts: Mapping[str, float], config: Config, role: str) -> dict[str
 
 
 def _paid(model: str) -> bool:
-    return model.partition(":")[0] not in {"offline", "replay"}
+    return model.partition(":")[0] != "offline" and recorded_run(model) is None

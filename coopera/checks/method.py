@@ -13,8 +13,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
+from coopera.checks.leaks import alike, check_no_leak, decided, reached
 from coopera.config.schema import Config
-from coopera.core.errors import CooperaError
+from coopera.core.errors import ConformanceError, CooperaError
 from coopera.core.hour import CandidateKind, DayAccount, DayPlan, FeedbackItem, HourAccount, HourRecord
 from coopera.core.household import Collab
 from coopera.core.people import Belief
@@ -30,16 +31,13 @@ from coopera.studies.study import new_run, plan_days
 _HANDED_ON = ("worlds", "beliefs", "learned")
 
 
-class ConformanceError(CooperaError):
-    """A method breaks a rule; the text says which, and where it showed."""
-
-
 def check_method(method: Method, *, collabs: Sequence[Collab] = (1, 2), hours: int = 2) -> None:
     """Run a method for two short days and check what makes its results worth comparing.
 
     Every hour is scored and every candidate has a verdict of the right kind. The same seed gives the same results when
     the run is stopped between the days, and within the second, and goes on with a new robot. Evenings with no hours,
-    without any readable answer, and with nothing but yes or no are learned from without harm.
+    without any readable answer, and with nothing but yes or no are learned from without harm. In two lives that look
+    alike the method gets the same and does the same, unless it declares that it is given the intention.
 
     Args:
         method: With a robot; its other parts are the classifier `kernel` and the offline model.
@@ -87,6 +85,23 @@ def _check(config: Config) -> None:
                 f"{one.day} at {one.hour}:00. Keep what is learned in save and load, or let learn alone decide it; "
                 "draw from coopera.core.randomness."
             )
+    if METHODS[config.method].intentions != "given":
+        _check_leaks(config, name)
+
+
+def _check_leaks(config: Config, name: str) -> None:
+    """Compare two lives that look alike, of two days of two hours each."""
+    assert config.out is not None
+    short = config.model_copy(update={"hours": 2})
+    days = plan_days(short)
+    with new_run(short.model_copy(update={"out": config.out.parent / "decided"})) as (_, services):
+        usual = decided(services, days)
+    found = []
+    for life, hidden in (("one", usual), ("other", alike(usual))):
+        with new_run(short.model_copy(update={"out": config.out.parent / life})) as (_, services):
+            found.append(reached(services, days, usual, hidden))
+    one, other = found
+    check_no_leak(one, other, name)
 
 
 def _live(services: Services, plan: DayPlan, *, after: DayInput | None = None, then: DayPlan | None = None) -> DayInput:

@@ -1,1 +1,4 @@
-"""The commands, one module per group; each is a thin layer over a function that Python can call too."""
+"""The commands of the command line, one module per group.
+
+Each command is a thin layer over a function for Python.
+"""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -35,7 +36,9 @@ def analyse_humans(
         list[Path] | None,
         typer.Option(metavar="LOG", help="A real person's log, named after them; may be repeated."),
     ] = None,
-    generic: Annotated[str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile.")] = None,
+    generic: Annotated[
+        str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile. [default: nobody]")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of shuffles, resamples and the user studies.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where the results go.")] = Path("analysis"),
     as_json: AsJson = False,
@@ -60,10 +63,10 @@ def analyse_humans(
     from coopera.report.study_forms import write_study
     from coopera.rundir.lives import write_results
 
-    embeddings, learner = _open(encoder, finetune, seed)
     nobody = PersonId(generic) if generic else None
-    checks = Checks(learner, embeddings, logs, nobody, seed, lambda what: typer.echo(what, err=True))
-    figures = analyse_people(found.variants, checks)
+    with _open(encoder, finetune, seed) as (embeddings, learner):
+        checks = Checks(learner, embeddings, logs, nobody, seed, lambda what: typer.echo(what, err=True))
+        figures = analyse_people(found.variants, checks)
     given = {"--encoder": encoder, "--generic": generic, "--seed": seed or None}
     words = [str(word) for flag, value in given.items() if value is not None for word in (flag, value)]
     words += [word for log in recorded or [] for word in ("--recorded", str(log))] + ["--finetune"] * finetune
@@ -107,8 +110,9 @@ def score(
     _tell(score_answers(right, read_participants(answers, right.study)), as_json=as_json)
 
 
-def _open(encoder: str | None, finetune: bool, seed: int) -> tuple[Embeddings, Learner]:
-    """The encoder of sentences, and what learns with it."""
+@contextmanager
+def _open(encoder: str | None, finetune: bool, seed: int) -> Iterator[tuple[Embeddings, Learner]]:
+    """The encoder of sentences, and what learns with it; the encoder's file is closed at the end."""
     from coopera.config.schema import load_config
     from coopera.core.errors import ConfigError, MemoryStoreError
     from coopera.evaluation.people.learners import FrozenEncoder
@@ -116,18 +120,19 @@ def _open(encoder: str | None, finetune: bool, seed: int) -> tuple[Embeddings, L
     from coopera.studies.assemble import open_embeddings
 
     config = load_config()
-    embeddings = open_embeddings(config)
-    if encoder:
-        embeddings = hugging_face(encoder, config.data_dir / "embeddings.sqlite")
-        try:
-            embeddings.embed_query("Does it load?")
-        except MemoryStoreError as err:
-            raise ConfigError(f"--encoder: {err}") from err
-    if finetune:
-        from coopera.evaluation.people.finetune import FinetunedEncoder
+    cache = config.data_dir / "embeddings.sqlite"
+    with hugging_face(encoder, cache) if encoder else open_embeddings(config) as embeddings:
+        if encoder:
+            try:
+                embeddings.embed_query("Does it load?")
+            except MemoryStoreError as err:
+                raise ConfigError(f"--encoder: {err}") from err
+        if finetune:
+            from coopera.evaluation.people.finetune import FinetunedEncoder
 
-        return embeddings, FinetunedEncoder(encoder or _bundled(), seed=seed)
-    return embeddings, FrozenEncoder(embeddings, encoder or "all-MiniLM-L6-v2")
+            yield embeddings, FinetunedEncoder(encoder or _bundled(), seed=seed)
+        else:
+            yield embeddings, FrozenEncoder(embeddings, encoder or "all-MiniLM-L6-v2")
 
 
 def _bundled() -> str:

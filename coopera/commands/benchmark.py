@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list
+from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list, nested, option
 
 STOPPED = 130
 FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episodes, --days, --hours"
@@ -17,27 +17,46 @@ FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episode
 
 def benchmark(
     grid: Annotated[Path | None, typer.Argument(metavar="[GRID.yaml]", help="A grid file; flags win.")] = None,
-    methods: Annotated[str | None, typer.Option(metavar="NAME,…", help="`all` takes all. [default: ours]")] = None,
-    settings: Annotated[str | None, typer.Option(metavar="1,…", help="1 to 4, 3+1, or those of the grid file.")] = None,
+    methods: Annotated[
+        str | None, typer.Option(metavar="NAME,…|all", help="Methods. [see: coopera list methods; default: ours]")
+    ] = None,
+    settings: Annotated[
+        str | None, typer.Option(metavar="1,…", help="1 to 4, 3+1, or those of the grid file. [default: 1]")
+    ] = None,
     collab: Annotated[str | None, typer.Option(metavar="1,2", help="Collaboration types. [default: 2]")] = None,
     seeds: Annotated[int | None, typer.Option(help="How many seeds, from 0. [default: 1]")] = None,
     humans: Annotated[
-        str | None, typer.Option("--humans", "--people", metavar="ID,…|N", help="People, or how many.")
+        str | None,
+        typer.Option(
+            "--humans",
+            "--people",
+            metavar="ID-or-FILE,…|N",
+            help="People, or how many. [see: coopera list people; default: all there are]",
+        ),
     ] = None,
-    scenes: Annotated[str | None, typer.Option(metavar="ID,…|N", help="Homes, or how many.")] = None,
+    scenes: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ID-or-FILE,…|N", help="Homes, or how many. [see: coopera list homes; default: all there are]"
+        ),
+    ] = None,
     episodes: Annotated[int | None, typer.Option(help="Episodes of each setting. [default: as the paper]")] = None,
-    days: Annotated[int | None, typer.Option(help="Days of each episode. [default: as the setting has it]")] = None,
-    hours: Annotated[int | None, typer.Option(help="Hours of each day, from 9 am. [default: 13]")] = None,
+    days: Annotated[int | None, option("days")] = None,
+    hours: Annotated[int | None, option("hours")] = None,
     workers: Annotated[int, typer.Option(min=1, max=256, help="Processes on this machine.")] = 1,
-    ray: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here.")] = None,
+    ray: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here. [default: none]")
+    ] = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="The benchmark's folder; run again, it goes on.")] = Path(
         "runs/benchmark"
     ),
-    limit: Annotated[float | None, typer.Option(metavar="MINUTES", help="Start no run after so many minutes.")] = None,
+    limit: Annotated[
+        float | None, typer.Option(metavar="MINUTES", help="Start no run after so many minutes. [default: no limit]")
+    ] = None,
     model: Model = None,
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
-    classifier: Annotated[str | None, typer.Option(metavar="NAME", help="kernel or lora. [default: kernel]")] = None,
+    classifier: Annotated[str | None, option("classifier")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Run methods on the same days of the same people, and write tables, figures and statistics.
@@ -59,9 +78,7 @@ def benchmark(
         "hours": hours,
     }
     found = bench.load_grid(grid, flags)
-    shared: dict[str, Any] = {"base_url": base_url, "prompts": prompts, "classifier": classifier}
-    if model is not None:
-        shared["models"] = dict.fromkeys(("human", "robot", "judge"), model)
+    shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
     bench.claim_folder(planned)
     failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)

@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder
+from coopera.commands.listing import rows_of, show_rows
+from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 
 app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 
@@ -16,28 +17,27 @@ app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 @app.command("list")
 def list_humans(as_json: AsJson = False) -> None:
     """List the shipped people and the imported ones."""
-    from coopera.config.schema import default_data_dir
-    from coopera.people.shipped import catalogue
-    from coopera.report.tables import print_table
+    from coopera.core.people import TRAITS
 
-    people = catalogue(default_data_dir())
-    if as_json:
-        typer.echo(json.dumps([person.model_dump(mode="json") for person in people], ensure_ascii=False))
-        return
-    rows = [[person.id, person.name, *_scores(person), person.source] for person in people]
-    print_table(["id", "name", "O", "C", "E", "A", "N", "source"], rows)
+    people = rows_of("people")
+    if not as_json:
+        people = [{**one, **{trait[0].upper(): f"{one['big_five'][trait]:.1f}" for trait in TRAITS}} for one in people]
+    show_rows(people, ("id", "name", *(trait[0].upper() for trait in TRAITS), "source"), as_json=as_json)
 
 
 @app.command()
 def show(
-    person: Annotated[str, typer.Argument(metavar="ID", help="An id from `coopera humans list`.")],
+    person: Annotated[
+        str, typer.Argument(metavar="ID-or-FILE", help="An id from `coopera humans list`, or a persona file.")
+    ],
     as_json: AsJson = False,
 ) -> None:
     """Show one person: self-introduction and Big Five."""
     from coopera.config.schema import default_data_dir
-    from coopera.people.shipped import find
+    from coopera.people.shipped import find, read_persona
+    from coopera.studies.own_files import names_file
 
-    found = find(person, default_data_dir())
+    found = read_persona(Path(person)) if names_file(person) else find(person, default_data_dir())
     if as_json:
         typer.echo(found.model_dump_json())
         return
@@ -47,10 +47,8 @@ def show(
 @app.command("import")
 def import_humans(
     file: Annotated[Path, typer.Argument(metavar="FILE.csv", help="Synthetic-Persona-Chat as published.")],
-    limit: Annotated[int | None, typer.Option(min=1, help="Take the first rows only.")] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR, or the user's own]")
-    ] = None,
+    limit: Annotated[int | None, typer.Option(min=1, help="Take the first rows only. [default: all]")] = None,
+    out: DataFolder = None,
     workers: Annotated[int, typer.Option(min=1, max=64, help="Rows worked on at the same time.")] = 4,
     force: Annotated[bool, typer.Option("--force", help="Write anew those who are there already.")] = False,
     model: Model = None,
@@ -76,13 +74,14 @@ def import_humans(
         replies.mkdir(parents=True, exist_ok=True)
     except OSError as err:
         raise ConfigError(f"{replies}: people cannot be stored here ({err.strerror}).") from err
-    maker = Maker(open_ask(config, prompts=library, root=replies), config.models.human, library.hashes())
 
     def tell(person: str, what: str) -> None:
         typer.echo(f"{person}: {what}", err=True)
 
     try:
-        done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
+        with open_ask(config, prompts=library, root=replies) as ask:
+            maker = Maker(ask, config.models.human, library.hashes())
+            done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
     except KeyboardInterrupt:
         typer.echo("Stopped. The same command goes on where it was.", err=True)
         raise typer.Exit(130) from None
@@ -116,9 +115,3 @@ def check(
         what = {"file": str(file), "id": person.id, "name": person.name}
         sentence = f"{file}: this is {person.name} ({person.id})."
     typer.echo(json.dumps(what) if as_json else sentence)
-
-
-def _scores(person: Any) -> list[str]:
-    from coopera.core.people import TRAITS
-
-    return [f"{getattr(person.big_five, trait):.1f}" for trait in TRAITS]

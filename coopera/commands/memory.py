@@ -24,7 +24,8 @@ def repair(run: RunPath, as_json: AsJson = False) -> None:
     from coopera.studies.assemble import open_embeddings
 
     folder = run / "memory"
-    done = rebuild(folder, open_embeddings(RunDir.open(run).config))
+    with open_embeddings(RunDir.open(run).config) as embeddings:
+        done = rebuild(folder, embeddings)
     if as_json:
         typer.echo(json.dumps({"run": str(run), "repaired": [one._asdict() for one in done]}))
         return

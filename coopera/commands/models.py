@@ -41,13 +41,14 @@ def check(
     from coopera.studies.assemble import open_embeddings
 
     config = load_config(study, {"base_url": base_url})
-    backend, tried = check_model(
-        spec,
-        base_url=config.base_url,
-        settings=config.calls,
-        embeddings=open_embeddings(config),
-        homes=[config.data_dir / "scenes"],
-    )
+    with open_embeddings(config) as embeddings:
+        backend, tried = check_model(
+            spec,
+            base_url=config.base_url,
+            settings=config.calls,
+            embeddings=embeddings,
+            homes=[config.data_dir / "scenes"],
+        )
     works = all(one.ok for one in tried)
     if as_json:
         told = {"model": spec, "base_url": config.base_url, "structure": backend.structure, "ok": works}

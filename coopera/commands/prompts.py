@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from coopera.commands.listing import prompt_rows, show_rows
 from coopera.commands.options import AsJson, PromptFolder
 
 app = typer.Typer(help="The prompts that language models are asked with.", no_args_is_help=True)
@@ -16,23 +17,9 @@ app = typer.Typer(help="The prompts that language models are asked with.", no_ar
 @app.command("list")
 def list_prompts(prompts: PromptFolder = None, as_json: AsJson = False) -> None:
     """List the prompts: whose model is asked, how warm, and what the reply must be."""
-    from coopera.prompts import PromptLibrary
-    from coopera.report.tables import print_table
-
-    library = PromptLibrary(prompts)
-    heads = {name: library.head(name) for name in library.names}
-    if as_json:
-        found = [
-            {**head.model_dump(mode="json"), "sha": library.hashes()[name], "file": str(library.path(name))}
-            for name, head in heads.items()
-        ]
-        typer.echo(json.dumps(found, ensure_ascii=False))
-        return
-    rows = [
-        [name, head.model_role, f"{head.temperature:g}", head.reply, str(head.version), head.paper]
-        for name, head in heads.items()
-    ]
-    print_table(["id", "asks", "temperature", "reply", "version", "paper"], rows)
+    columns = ("id", "model_role", "temperature", "reply", "version", "paper")
+    heads = ("id", "asks", *columns[2:])
+    show_rows(prompt_rows(prompts), columns, as_json=as_json, heads=heads)
 
 
 @app.command()

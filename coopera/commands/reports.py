@@ -11,8 +11,10 @@ from coopera.commands.options import AsJson, RunPath
 
 def trace(
     run: RunPath,
-    day: Annotated[int | None, typer.Option(min=0, help="Only this day, counted from 0 as in the file names.")] = None,
-    hour: Annotated[int | None, typer.Option(min=0, max=23, help="Only this hour of day, such as 9 or 14.")] = None,
+    day: Annotated[int | None, typer.Option(min=0, help="Only this day, counted from 0. [default: all]")] = None,
+    hour: Annotated[
+        int | None, typer.Option(min=0, max=23, help="Only this hour of day, such as 9 or 14. [default: all]")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Print hours of a run as readable trees, from its trace files alone."""

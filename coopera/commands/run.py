@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, CallBudget, Model, PromptFolder, RunPath, TokenBudget, as_list
+from coopera.commands.options import AsJson, CallBudget, RunPath, TokenBudget, nested, takes_settings
 from coopera.core.errors import BudgetError
 
 if TYPE_CHECKING:
@@ -18,65 +18,11 @@ if TYPE_CHECKING:
 STOPPED = 130  # what shells give a program that Ctrl-C ended
 
 
+@takes_settings
 def run(
     study: Annotated[Path | None, typer.Argument(metavar="[STUDY.yaml]", help="A study file; flags win.")] = None,
-    setting: Annotated[int | None, typer.Option(help="The paper's setting, 1 to 4. [default: 1]")] = None,
-    collab: Annotated[int | None, typer.Option(help="1 watch and help, 2 free-form. [default: 2]")] = None,
-    humans: Annotated[str | None, typer.Option(metavar="ID,…", help="People, in the order they take part.")] = None,
-    scenes: Annotated[str | None, typer.Option(metavar="ID,…", help="Homes, in the order they are lived in.")] = None,
-    days: Annotated[int | None, typer.Option(help="Days of each episode. [default: as the setting has it]")] = None,
-    hours: Annotated[int | None, typer.Option(help="Hours of each day, from 9 am. [default: 13]")] = None,
-    method: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's method. [default: ours]")] = None,
-    seed: Annotated[int | None, typer.Option(help="Every random draw derives from it. [default: 0]")] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="The run directory. [default: the next runs/run-NNN]")
-    ] = None,
-    model: Model = None,
-    human_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the person.")] = None,
-    robot_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the robot.")] = None,
-    judge_model: Annotated[str | None, typer.Option(metavar="SPEC", help="Language model of the judge.")] = None,
-    base_url: BaseUrl = None,
-    prompts: PromptFolder = None,
-    classifier: Annotated[
-        str | None, typer.Option(metavar="NAME", help="kernel, lora or lora-instruct. [default: kernel]")
-    ] = None,
-    classifier_config: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Recipe of lora-instruct, such as another base.")
-    ] = None,
-    learning: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="warm or fresh (anew on everything). [default: warm]"),
-    ] = None,
-    who: Annotated[
-        str | None, typer.Option(help="known, or unknown: the robot guesses whom it is with. [default: known]")
-    ] = None,
-    traits: Annotated[
-        str | None, typer.Option(help="When traits are inferred: evening, or hourly too. [default: evening]")
-    ] = None,
-    human: Annotated[
-        str | None, typer.Option(help="simulated, log:FILE (a real person's log) or me. [default: simulated]")
-    ] = None,
-    feedback: Annotated[str | None, typer.Option(help="yes_no or graded (1 to 5). [default: yes_no]")] = None,
-    lived: Annotated[
-        Path | None, typer.Option(metavar="RUN", help="A finished run of --method none, whose days are lived again.")
-    ] = None,
-    person: Annotated[
-        str | None, typer.Option(metavar="NAME", help="full, or an ablation: no_extension, single_shot.")
-    ] = None,
-    search_objects: Annotated[
-        int | None, typer.Option(metavar="N", help="Objects the person is offered for an intention. [default: 30]")
-    ] = None,
-    search_motions: Annotated[
-        int | None, typer.Option(metavar="N", help="Motions the person is offered for an intention. [default: 5]")
-    ] = None,
-    motions: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Motion-X (.npy) or AMASS (.npz) clips the person can do, too.")
-    ] = None,
-    renderer: Annotated[str | None, typer.Option(help="tiny or egl, which draws large pictures faster.")] = None,
-    robot: Annotated[str | None, typer.Option(metavar="NAME", help="The robot's body. [default: fetch]")] = None,
-    pictures: Annotated[str | None, typer.Option(help="sampled, none or video. [default: sampled]")] = None,
-    budget_calls: CallBudget = None,
-    budget_tokens: TokenBudget = None,
+    *,
+    flags: dict[str, Any],
     estimate: Annotated[
         bool, typer.Option("--estimate", help="Only say how many calls and tokens the run would take.")
     ] = False,
@@ -86,37 +32,7 @@ def run(
     from coopera.config.schema import load_config
     from coopera.studies.catalogues import resolve
 
-    roles = {"human": human_model or model, "robot": robot_model or model, "judge": judge_model or model}
-    flags = {
-        "setting": setting,
-        "collab": collab,
-        "humans": as_list(humans),
-        "scenes": as_list(scenes),
-        "days": days,
-        "hours": hours,
-        "method": method,
-        "seed": seed,
-        "out": out,
-        "models": {role: spec for role, spec in roles.items() if spec is not None} or None,
-        "base_url": base_url,
-        "prompts": prompts,
-        "classifier": classifier,
-        "classifier_config": classifier_config,
-        "learning": learning,
-        "who": who,
-        "traits": traits,
-        "human": human,
-        "person": person,
-        "motions": motions,
-        "search": _given(objects=search_objects, motions=search_motions),
-        "feedback": feedback,
-        "lived": lived,
-        "renderer": renderer,
-        "robot": robot,
-        "pictures": pictures,
-        "budget": _given(calls=budget_calls, tokens=budget_tokens),
-    }
-    config = resolve(load_config(study or _replayed(model), flags))
+    config = resolve(load_config(study or _recorded(flags.get("models", {})), flags))
     assert config.out is not None  # resolve sets it
     if estimate:
         _show_estimate(config, as_json=as_json)
@@ -139,7 +55,8 @@ def resume(
     from coopera.rundir.directory import RunDir
 
     found = RunDir.open(run)
-    raised = load_config(run / "config.yaml", {"budget": _given(calls=budget_calls, tokens=budget_tokens)}).budget
+    given = nested({"budget.calls": budget_calls, "budget.tokens": budget_tokens})
+    raised = load_config(run / "config.yaml", given).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.people.terminal import Terminal
@@ -150,17 +67,15 @@ def resume(
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
-def _given(**numbers: int | None) -> dict[str, int] | None:
-    """The numbers that flags give."""
-    return {name: number for name, number in numbers.items() if number is not None} or None
-
-
-def _replayed(model: str | None) -> Path | None:
-    """The study file of the run that is to be replayed, so that it need not be described again."""
+def _recorded(models: Mapping[str, str]) -> Path | None:
+    """The study file of the run whose record is to answer, so that it need not be described again."""
+    from coopera.config.schema import Models
+    from coopera.models.recorded import recorded_run
     from coopera.rundir.directory import RunDir
 
-    kind, _, folder = (model or "").partition(":")
-    return RunDir.open(Path(folder)).root / "config.yaml" if kind == "replay" else None
+    every = models.values() if len(models) == len(Models.model_fields) else ()
+    folder = next((found for spec in every if (found := recorded_run(spec))), None)
+    return RunDir.open(folder).root / "config.yaml" if folder else None
 
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:
@@ -198,7 +113,7 @@ def _carry_out(
 
     try:
         # a live line and a person's typing would get in each other's way
-        console = Console(stderr=True, highlight=False, force_terminal=False) if config.human == "me" else None
+        console = Console(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
         with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
     except WaitingError as err:

@@ -9,32 +9,19 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson
+from coopera.commands.listing import rows_of, show_rows
+from coopera.commands.options import AsJson, DataFolder
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
 Home = Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")]
 Png = Annotated[Path | None, typer.Option(metavar="FILE", help="Write a picture.")]
-DataFolder = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="DIR", help="Data folder. [default: COOPERA_DATA_DIR or the user's]"),
-]
 Force = Annotated[bool, typer.Option("--force", help="Replace homes that are there already.")]
-_COLUMNS = ("id", "rooms", "fixed", "movable")
 
 
 @app.command("list")
 def list_homes(as_json: AsJson = False) -> None:
     """List the shipped homes and the imported ones."""
-    from coopera.homes.stored import figures
-    from coopera.report.tables import print_table
-    from coopera.simulation.homes.scene import list_scenes
-
-    found = [figures(_load(scene)) for scene in list_scenes([_imported()])]
-    rows = [{column: row[column] for column in _COLUMNS} for row in found]
-    if as_json:
-        typer.echo(json.dumps(rows))
-        return
-    print_table(_COLUMNS, [[str(value) for value in row.values()] for row in rows])
+    show_rows(rows_of("homes"), ("id", "rooms", "fixed", "movable"), as_json=as_json)
 
 
 @app.command()

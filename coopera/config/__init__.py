@@ -1,1 +1,4 @@
-"""What a run is told: the configuration with all its fields, and the strict reading and atomic writing of files."""
+"""The configuration of a run: its fields, their defaults and their checks.
+
+Files are read strictly and written atomically here.
+"""

@@ -4,27 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Hashable
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from coopera.core.errors import ConfigError, RunError
-
-
-class _StrictLoader(yaml.SafeLoader):
-    """YAML 1.1 as PyYAML's safe loader reads it, except that a repeated key is an error."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        seen: set[Hashable] = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if isinstance(key, Hashable) and key in seen:
-                raise yaml.constructor.ConstructorError(None, None, f"{key!r} stands twice", key_node.start_mark)
-            if isinstance(key, Hashable):
-                seen.add(key)
-        return super().construct_mapping(node, deep)
+from coopera.core.strict_yaml import StrictLoader
 
 
 def read_text(path: Path, what: str) -> str:
@@ -54,7 +40,7 @@ def read_yaml(path: Path, what: str) -> dict[str, Any]:
     """
     try:
         # a subclass of SafeLoader: builds plain data only
-        data = yaml.load(read_text(path, what), Loader=_StrictLoader)
+        data = yaml.load(read_text(path, what), Loader=StrictLoader)
     except yaml.MarkedYAMLError as err:
         line = f", line {err.problem_mark.line + 1}" if err.problem_mark else ""
         raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err

@@ -1,1 +1,4 @@
-"""Homes that a user keeps: imported, generated or written, stored in the data folder, and counted."""
+"""The homes of a user: imported, generated or written by hand, and stored in the data folder.
+
+The statistics of all homes are computed here, too.
+"""

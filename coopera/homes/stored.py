@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coopera.config.files import write_output
 from coopera.core.errors import ConfigError
 from coopera.simulation.homes.scene import Scene, dump_scene, list_scenes, load_scene
-from coopera.simulation.homes.untrusted import read_text
+from coopera.studies.own_files import meshes_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,7 +19,7 @@ _INSTANCE = ".scene_instance.json"
 
 
 class Arrival(NamedTuple):
-    """An imported home: where it lies now, what was left out, and what `prove` says of it."""
+    """An imported home: its file, the parts left out, and the problems found by `prove`."""
 
     scene: Scene
     file: Path
@@ -89,7 +89,7 @@ def bring_in(
         raise ConfigError(f"{path}: there is no such file or folder.")
     if path.is_file() and not path.name.endswith(_INSTANCE):
         home = load_scene(path)
-        return [_arrive(home, [], prove(home), folder, meshes=_meshes_of(home), force=force)]
+        return [_arrive(home, [], prove(home), folder, meshes=meshes_of(home), force=force)]
     from coopera.simulation.making.hssd.files import Folder  # noqa: PLC0415
     from coopera.simulation.making.hssd.homes import import_scene  # noqa: PLC0415
 
@@ -107,13 +107,6 @@ def bring_in(
         skipped = [f"{item.what}: {item.why}" for item in found.skipped]
         arrivals.append(_arrive(found.scene, skipped, found.problems, folder, meshes=found.meshes, force=force))
     return arrivals
-
-
-def _meshes_of(home: Scene) -> dict[str, str]:
-    """The files of a home's meshes, by their names."""
-    names = {part.file for thing in home.objects for part in thing.mesh}
-    folder = home.meshes
-    return {} if folder is None else {name: read_text(folder / name) for name in sorted(names)}
 
 
 def _arrive(

@@ -1,1 +1,4 @@
-"""Who lives: people that ship, people imported from conversations, logs of real people, a person at the terminal."""
+"""The people of a run: personas that ship and personas imported from conversations.
+
+Real people are here, too: by their log, or at the terminal.
+"""

@@ -133,9 +133,9 @@ def import_people(
     """Make a persona of each row and store it as <folder>/<id>.yaml; existing ones are kept unless forced.
 
     The language model summarises and extends profile 1 into a self-introduction, then reads the Big Five from it
-    (PAPER §3.2 and App. B). Rows are worked on by `workers` threads. Each person is written when whole, so an import
-    that is stopped goes on where it was; a row whose replies cannot be used is passed over and said. `on_person` is
-    told each id with "written", "kept" or "failed", from the calling thread.
+    (PAPER §3.2 and App. B). `workers` threads work on the rows. Each person is written when complete, so a stopped
+    import goes on where it was. A row with unusable replies is skipped and reported. `on_person` gets each id with
+    "written", "kept" or "failed", in the calling thread.
 
     Raises:
         ConfigError: If the file or the folder cannot be used.

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias
 
 from coopera.config.schema import Config
-from coopera.core.clock import Clock, hour_label
+from coopera.core.clock import hour_label
 from coopera.core.errors import ConfigError
 from coopera.core.hour import DayPlan, LoggedHour
 from coopera.core.people import PersonId
+from coopera.graphs.stated import Logs
 from coopera.people.log_file import read_log
 
-Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
 _LOG = "log:"
 _ENDINGS = (".csv", ".jsonl", ".ndjson")
 
 
 def open_logs(config: Config, days: Sequence[DayPlan]) -> Logs | None:
-    """Read the logs that `human: log:PATH` names; None where nobody wrote a log.
+    """Read the logs that `played_by: log:PATH` names; None where nobody wrote a log.
 
     PATH is one person's log, or a folder with a log per person, named by id (amara.csv). The recorded days of a
     person are lived in their order, whatever their numbers.
@@ -27,9 +26,9 @@ def open_logs(config: Config, days: Sequence[DayPlan]) -> Logs | None:
     Raises:
         ConfigError: If a log is missing, cannot be read, or lacks a day or an hour that is to be lived.
     """
-    if not config.human.startswith(_LOG):
+    if not config.played_by.startswith(_LOG):
         return None
-    path = Path(config.human.removeprefix(_LOG)).expanduser()
+    path = Path(config.played_by.removeprefix(_LOG)).expanduser()
     people = list(dict.fromkeys(plan.person for plan in days))
     logs = {person: _by_day(_find(path, person, people)) for person in people}
     logged: dict[tuple[int, int], LoggedHour] = {}
@@ -65,11 +64,11 @@ def _find(path: Path, person: PersonId, people: Sequence[PersonId]) -> Path:
     if path.is_dir():
         found = [path / f"{person}{ending}" for ending in _ENDINGS if (path / f"{person}{ending}").is_file()]
         if not found:
-            raise ConfigError(f"human: {path} must hold a log of each person; {person}.csv or .jsonl is missing.")
+            raise ConfigError(f"played_by: {path} must hold a log of each person; {person}.csv or .jsonl is missing.")
         return found[0]
     if len(people) > 1:
         raise ConfigError(
-            f"human: {path} is the log of one person, and {len(people)} take part ({', '.join(people)}); name one with "
-            "--humans, or give a folder with a log per person."
+            f"played_by: {path} is the log of one person, and {len(people)} take part ({', '.join(people)}); name one "
+            "with --humans, or give a folder with a log per person."
         )
     return path

@@ -32,7 +32,7 @@ class Terminal:
             WaitingError: If the person says "later" or is gone; the question then waits in the run.
         """
         self._console.rule(align="left")
-        self._say(f"Day {question.day + 1}, {question.weekday}, {question.time}. You are {question.name}.")
+        self._say(f"{question.weekday}, {question.time}. You are {question.name}.")
         if question.problem:
             self._console.print(question.problem, style="yellow", markup=False)
         if question.kind == "intention":
@@ -85,7 +85,7 @@ class Terminal:
         except EOFError:
             line = LATER
         if line.lower() == LATER:
-            raise WaitingError(f"The run waits for {question.name}: day {question.day + 1}, {question.time}.")
+            raise WaitingError(f"The run waits for {question.name}: day {question.day}, {question.time}.")
         return line
 
     def _say(self, text: str) -> None:

@@ -1,1 +1,4 @@
-"""What people look at: the report's page, its charts and films, an hour as a tree, tables, progress in a terminal."""
+"""Views of a run for its reader: the report page with its charts and pictures.
+
+In a terminal: an hour as a tree, tables, and progress.
+"""

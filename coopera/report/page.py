@@ -17,12 +17,13 @@ from coopera.core.errors import RunError
 from coopera.core.hour import Evening, FeedbackItem, HourRecord, IntentionCandidate, RobotHour, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.people import BigFive, Persona
+from coopera.evaluation.measuring import all_measures
 from coopera.report import charts, learned
 from coopera.report.pictures import Album, embed
 from coopera.report.progress import figure
 from coopera.report.tree import reasons
 from coopera.rundir.directory import RunDir
-from coopera.rundir.summary import MEASURES, day_entry, pooled
+from coopera.rundir.summary import day_entry, headline, pooled
 from coopera.rundir.trace_files import intention_verdicts
 
 MAX_BYTES = 24_000_000
@@ -130,7 +131,8 @@ def render(run: RunDir, album: Album) -> str:
             days=days,
             hours=run.config.day_hours,
             summary=run.summary(),
-            overall={measure: pooled(records, measure) for measure in MEASURES},
+            overall={spec.name: pooled(records, spec.name) for spec in all_measures()},
+            measures=all_measures(),
             curve=_curve(days),
             ends=_ends(records),
             by_hour=_by_hour(records, run.config.day_hours),
@@ -224,7 +226,7 @@ def _ends(records: Sequence[HourRecord]) -> tuple[float | None, float | None]:
     """Predicate F1 on the first and on the last day, each pooled over the episodes."""
     ages = [record.episode_day for record in records] or [0]
     first, last = (
-        pooled((record for record in records if record.episode_day == age), "predicate").f1
+        headline((record for record in records if record.episode_day == age), "predicate")
         for age in (min(ages), max(ages))
     )
     return first, last
@@ -241,9 +243,9 @@ def _curve(days: Sequence[DayView]) -> Markup:
             names = ", ".join(dict.fromkeys(day.name for day in found.values()))
             values = [found[age].entry["predicate"]["f1"] if age in found else None for age in ages]
             series.append(charts.Series(f"{names} (episode {episode})", "episode", values))
-    for measure in reversed(MEASURES):
+    for measure in ("judge", "predicate"):
         values = [
-            pooled((hour.record for day in days if day.entry["episode_day"] == age for hour in day.hours), measure).f1
+            headline((hour.record for day in days if day.entry["episode_day"] == age for hour in day.hours), measure)
             for age in ages
         ]
         series.append(charts.Series(f"{measure} F1", measure, values, labelled=measure == "predicate"))
@@ -252,7 +254,7 @@ def _curve(days: Sequence[DayView]) -> Markup:
 
 def _by_hour(records: Sequence[HourRecord], hours: Sequence[int]) -> Markup:
     """Success by hour of day, pooled over all days."""
-    values = [pooled((record for record in records if record.hour == hour), "predicate").f1 for hour in hours]
+    values = [headline((record for record in records if record.hour == hour), "predicate") for hour in hours]
     return charts.bars(values, [hour_label(hour).replace(" ", "") for hour in hours])
 
 

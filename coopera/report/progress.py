@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from coopera.core.clock import hour_label
+from coopera.evaluation.measuring import all_measures
 
 
 class Progress:
@@ -86,12 +87,14 @@ def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None
     table = Table(title=f"{summary['method']}, setting {summary['setting']}", title_justify="left")
     for name in ("day", "person", "home"):
         table.add_column(name)
-    for name in ("predicate F1", "precision", "recall", "judge F1"):
-        table.add_column(name, justify="right")
+    shown: list[tuple[str, str, str]] = []
+    for spec in all_measures():
+        shown += [(spec.title, spec.name, spec.headline), *((name, spec.name, name) for name in spec.beside)]
+    for title, _, _ in shown:
+        table.add_column(title, justify="right")
     for day in summary["days"]:
-        predicate, judge = day["predicate"], day["judge"]
-        rates = (predicate["f1"], predicate["precision"], predicate["recall"], judge["f1"])
-        table.add_row(str(day["day"]), day["person"], day["scene"], *(figure(rate) for rate in rates))
+        figures = (figure(day[measure][name]) for _, measure, name in shown)
+        table.add_row(str(day["day"]), day["person"], day["scene"], *figures)
     console.print(table)
     if summary.get("failed_hours"):
         console.print(f"{summary['failed_hours']} of {summary['hours']} hours failed and are not in these figures.")

@@ -14,6 +14,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.hour import Counts, Evening, HourRecord, HumanHour, ModelCall, Reasons, RobotHour, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.people import TRAITS
+from coopera.evaluation.measuring import all_measures
 from coopera.report.progress import figure
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes, intention_verdicts, read_json
@@ -82,8 +83,10 @@ def hour_tree(record: HourRecord, evening: Evening | None = None) -> Tree:
     _add_outcomes(tree, "what the person did", human_outcomes(record))
     if record.success:
         branch = tree.add("[bold]success[/]")
-        branch.add(f"predicate {_counts(record.success.predicate)}")
-        branch.add(f"judge     {_counts(record.success.judge)}")
+        for spec in all_measures():
+            if (found := spec.read(record.success)) is not None:
+                said = _counts(found) if isinstance(found, Counts) else _flat(found.model_dump())
+                branch.add(f"{spec.name:9} {said}")
     _add_calls(tree, record.calls)
     return tree
 

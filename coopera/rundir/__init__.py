@@ -1,1 +1,4 @@
-"""A run's folder: its files, who writes them, how they are summed up, exported, and read again."""
+"""The run directory: the files of a run, and the lock of the process that writes them.
+
+Summaries, exports and earlier lives are read from these files.
+"""

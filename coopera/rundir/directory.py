@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
-from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.files import canonical_json, reason, write_atomic, write_output
 from coopera.config.schema import Config, load_config
 from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
 from coopera.core.hour import Evening, HourRecord
@@ -158,6 +158,11 @@ class RunDir:
         run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
         run._write_info()
         return run
+
+    def keep_homes(self, files: Mapping[str, str]) -> None:
+        """Write the files of homes that no catalogue has, by name, into the folder `scenes`, as people are kept."""
+        for name, text in files.items():
+            write_output(self.root / "scenes" / name, text)
 
     def discard(self) -> None:
         """Take back a run that was only just created, so that its folder is as it was before."""

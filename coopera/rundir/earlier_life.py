@@ -1,4 +1,4 @@
-"""A finished run without a robot, whose days the people of another run live again."""
+"""An earlier life on file: the days of a finished run without a robot, for other runs to meet again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from coopera.graphs.earlier_life import Shown
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
 
-_SAME = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed", "person", "base_url")
+_SAME = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed", "person_model", "base_url")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +66,10 @@ def open_lived(config: Config) -> LivedDays | None:
     """
     from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
 
-    if config.lived is None:
+    if config.earlier_life is None:
         return None
-    run = RunDir.open(config.lived)
-    where = f"lived: {config.lived}"
+    run = RunDir.open(config.earlier_life)
+    where = f"earlier_life: {config.earlier_life}"
     if run.state != "finished":
         raise ConfigError(f"{where} must be a finished run, and it is {run.state}.")
     if find_method(run.config.method).robot:
@@ -78,7 +78,7 @@ def open_lived(config: Config) -> LivedDays | None:
     for field in theirs:
         if theirs[field] != ours[field]:
             raise ConfigError(f"{where} has {field} {theirs[field]}, where this run has {ours[field]}.")
-    return LivedDays(config.lived)
+    return LivedDays(config.earlier_life)
 
 
 def _days(config: Config) -> dict[str, Any]:

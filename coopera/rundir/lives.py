@@ -45,8 +45,8 @@ def read_lives(paths: Sequence[Path]) -> FoundLives:
     """Read what people did in some runs. A day that stands in two runs, as it may with two methods, counts once.
 
     Raises:
-        ConfigError: If there is no run, one holds no hour, or they do not go together: another language model behind
-            the person, another collaboration type, or another person of the same id; or if there is one person only.
+        ConfigError: If there is no run, or a run without an hour. If the runs do not go together: they differ in the
+            person's language model, in the collaboration type, or in the person of an id. If they hold one person only.
         RunError: If a run's files are damaged or newer than this version.
     """
     if not paths:
@@ -58,7 +58,7 @@ def read_lives(paths: Sequence[Path]) -> FoundLives:
         run = RunDir.open(path)
         kinds[path] = (str(run.info.get("models", {}).get("human", run.config.models.human)), run.config.collab)
         _same_kind(kinds, path)
-        variant = str(getattr(run.config, "person", FULL))
+        variant = run.config.person_model
         lives = variants.setdefault(variant, Lives([], {}, []))
         hours = run.hours()
         days = _days(run, hours)

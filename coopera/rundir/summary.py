@@ -10,12 +10,17 @@ from typing import Any
 
 from coopera.config.schema import Config
 from coopera.core.hour import Counts, Evening, HourRecord
+from coopera.evaluation.agreement import by_person, l1
+from coopera.evaluation.measuring import Pooled, all_measures, find_measure
 
-MEASURES = ("predicate", "judge")
-_RATES = ("f1", "precision", "recall")
-_COUNTS = ("tp", "fp", "fn", "tn", "unscored")
-_HELP = ("remaining", "helped", "done", "useless", "metres", "saved_metres")
-COLUMNS = ("day", "episode", "episode_day", "hour", "person", "scene", "measure", *_RATES, *_COUNTS, "status", *_HELP)
+_HOUR = ("day", "episode", "episode_day", "hour", "person", "scene")
+_COUNTS = ("f1", "precision", "recall", "tp", "fp", "fn", "tn", "unscored")
+
+
+def columns() -> list[str]:
+    """The columns of metrics.csv: which hour, by which measure, and the figures of every measure."""
+    figures = [name for spec in all_measures() for name in spec.figures.model_fields if name not in _COUNTS]
+    return [*_HOUR, "measure", *_COUNTS, "status", *dict.fromkeys(figures)]
 
 
 def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
@@ -23,25 +28,20 @@ def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
 
     What the help was worth (`coopera.core.hour.Help`) stands in the row of the predicate, which it is measured by.
     """
-    rows = []
-    given = record.success.help if record.success else None
-    for measure in MEASURES:
-        counts = getattr(record.success, measure) if record.success else None
-        row: dict[str, Any] = {
-            name: getattr(record, name) for name in ("day", "episode", "episode_day", "hour", "person", "scene")
-        }
-        row |= {"measure": measure, "status": record.status}
-        row |= {name: getattr(counts, name) if counts else None for name in (*_RATES, *_COUNTS)}
-        shown = given if measure == "predicate" else None
-        row |= {name: getattr(shown, name) if shown else None for name in _HELP}
-        rows.append(row)
-    return rows
+    blank: dict[str, Any] = dict.fromkeys(columns())
+    blank |= {name: getattr(record, name) for name in (*_HOUR, "status")}
+    rows: dict[str, dict[str, Any]] = {}
+    for spec in all_measures():
+        row = rows.setdefault(spec.row or spec.name, {**blank, "measure": spec.row or spec.name})
+        found = spec.read(record.success) if record.success else None
+        row |= found.model_dump() if found else {}
+    return list(rows.values())
 
 
 def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
     """Rows as CSV text; an empty cell is a figure that does not exist."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer = csv.DictWriter(text, columns(), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
     return text.getvalue()
@@ -50,9 +50,8 @@ def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
 def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = ()) -> dict[str, Any]:
     """The content of summary.json, from the hours in order and the evenings.
 
-    `unscored` counts candidates that the predicate could not score, `judge_unscored` those without a readable
-    verdict of the judge; a failed hour counts in `failed_hours` and in nothing else. `repairs` counts what code mended
-    in the person's tasks.
+    `unscored` counts candidates without a score by the predicate, `judge_unscored` those without a readable verdict of
+    the judge. A failed hour counts in `failed_hours` alone. `repairs` counts the person's tasks mended by code.
     """
     days = sorted({record.day for record in hours})
     told = {evening.day: evening for evening in evenings}
@@ -97,14 +96,16 @@ def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
 
 
 def _agreement(hours: Iterable[HourRecord], told: Mapping[int, Evening]) -> dict[str, float | None]:
-    """L1 of each measure to the person's own answers, hour by hour; None where no hour has both."""
-    from coopera.evaluation.measures import by_person, l1  # noqa: PLC0415 - slow to import
-
+    """L1 of each measure of F1 to the person's own answers, hour by hour; None where no hour has both."""
     scored = [(record, record.success) for record in hours if record.success and record.day in told]
     people = [
         by_person([item for item in told[record.day].feedback if item.hour == record.hour]).f1 for record, _ in scored
     ]
-    found = {measure: l1([getattr(success, measure).f1 for _, success in scored], people) for measure in MEASURES}
+    found: dict[str, float | None] = {}
+    for spec in all_measures():
+        if issubclass(spec.figures, Counts):
+            counts = [spec.read(success) for _, success in scored]
+            found[spec.name] = l1([one.f1 if one else None for one in counts], people)
     return {measure: None if value is None else round(value, 6) for measure, value in found.items()}
 
 
@@ -115,17 +116,11 @@ def _identified(hours: Iterable[HourRecord]) -> dict[str, int]:
 
 
 def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> dict[str, Any]:
-    """One day of the summary: the counts of its hours added up, and the rates of the sums (PAPER §4.3).
+    """One day of the summary: by each measure, the figures of its hours together (PAPER §4.3).
 
-    `people` is success as the person said it in the evening; `help` what the help was worth (`docs/measures.md`).
+    `people` is success as the person said it in the evening; `docs/measures.md` has the others.
     """
-    # evaluation is slow to import; the command line answers --help without it
-    from coopera.evaluation.measures import by_person, false_help, help_score, pool_help  # noqa: PLC0415
-
     first = hours[0]
-    given = pool_help(record.success.help for record in hours if record.success and record.success.help)
-    scored = sum(bool(record.success and record.success.help) for record in hours)
-    rates = {"score": help_score(given), "false_per_hour": false_help(given, scored)}
     return {
         "day": first.day,
         "episode": first.episode,
@@ -134,15 +129,18 @@ def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> di
         "scene": first.scene,
         "hours": len(hours),
         "failed_hours": sum(record.status == "failed" for record in hours),
-        **{measure: pooled(hours, measure).model_dump() for measure in MEASURES},
+        **{spec.name: dict(pooled(hours, spec.name)) for spec in all_measures()},
         "people": by_person(evening.feedback if evening else []).model_dump(),
-        "help": {**given.model_dump(), **rates},
     }
 
 
-def pooled(hours: Iterable[HourRecord], measure: str) -> Counts:
-    """Add up one measure over hours, failed ones left out."""
-    # evaluation is slow to import; the command line answers --help without it
-    from coopera.evaluation.counts import pool  # noqa: PLC0415
+def pooled(hours: Iterable[HourRecord], measure: str) -> Pooled:
+    """Pool one measure's figures over hours; those that failed, or were not measured by it, are left out."""
+    spec = find_measure(measure)
+    figures = [spec.read(record.success) for record in hours if record.success]
+    return spec.pool([one for one in figures if one is not None])
 
-    return pool(getattr(record.success, measure) for record in hours if record.success)
+
+def headline(hours: Iterable[HourRecord], measure: str) -> float | None:
+    """The one figure by a measure that tables and charts show of some hours."""
+    return pooled(hours, measure)[find_measure(measure).headline]

@@ -1,1 +1,4 @@
-"""Running: a configuration completed from what there is, wired to services, lived as one study or several at once."""
+"""Running a study: the configuration is completed, the services are opened, and the study graph runs.
+
+Several studies run at once here, and a run's acts are replayed.
+"""

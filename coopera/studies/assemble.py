@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -19,18 +19,21 @@ from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
+from coopera.graphs.earlier_life import EarlierLife
 from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.life import LivedNow
 from coopera.graphs.own_robot import MakeRobot, OwnRobot
 from coopera.graphs.person import PERSON_MODELS
-from coopera.graphs.services import nothing_was_logged
-from coopera.memory import MemoryStream, Search, bundled
+from coopera.graphs.player import Player
+from coopera.graphs.simulated import Simulated
+from coopera.graphs.stated import Interviewed, Logged, Logs
+from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
 from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
 from coopera.models.transport import wait
-from coopera.people.real import Logs
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_lived
@@ -48,16 +51,20 @@ def model_specs(config: Config) -> dict[Role, str]:
     return {"human": config.models.human, "robot": robot, "judge": config.models.judge}
 
 
-def open_embeddings(config: Config) -> Embeddings:
-    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too."""
+def open_embeddings(config: Config) -> CachedEmbeddings:
+    """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too.
+
+    To be used in a `with` statement: whoever has opened it closes the file.
+    """
     return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
 
 
 @made_once(2)
-def _embeddings(cache: Path) -> Embeddings:
+def _embeddings(cache: Path) -> CachedEmbeddings:
     return bundled(cache)
 
 
+@contextmanager
 def open_ask(
     config: Config,
     *,
@@ -66,8 +73,8 @@ def open_ask(
     root: Path | None = None,
     check: Callable[[], None] = lambda: None,
     meter: Meter | None = None,
-) -> Ask:
-    """Open the one door to the configured language models.
+) -> Iterator[Ask]:
+    """Open the one door to the configured language models, and close its files at the end.
 
     Args:
         config: Says which models.
@@ -81,20 +88,22 @@ def open_ask(
         PromptError: If a prompt file is broken, naming file and line.
         ConfigError: If a model is unknown or cannot be used here.
     """
-    return open_door(
-        prompts=prompts or PromptLibrary(config.prompts),
-        # a model that is finetuned is held by the robot itself, and twice would be once too often
-        specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
-        seed=config.seed,
-        embeddings=embeddings or open_embeddings(config),
-        base_url=config.base_url,
-        cache=root / "llm_cache.sqlite" if root else None,
-        shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
-        meter=meter,
-        settings=config.calls,
-        sleep=partial(_wait, check),
-        root=root,
-    )
+    with ExitStack() as stack:
+        door = open_door(
+            prompts=prompts or PromptLibrary(config.prompts),
+            # a model that is finetuned is held by the robot itself, and twice would be once too often
+            specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
+            seed=config.seed,
+            embeddings=embeddings or stack.enter_context(open_embeddings(config)),
+            base_url=config.base_url,
+            cache=root / "llm_cache.sqlite" if root else None,
+            shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
+            meter=meter,
+            settings=config.calls,
+            sleep=partial(_wait, check),
+            root=root,
+        )
+        yield stack.enter_context(closing(door))
 
 
 def _wait(check: Callable[[], None], seconds: float) -> None:
@@ -123,18 +132,18 @@ def open_services(
         logs: What a real person wrote down of the hours.
     """
     with ExitStack() as stack:
-        embeddings = open_embeddings(config)
+        embeddings = stack.enter_context(open_embeddings(config))
         meter = Meter(config.budget, run.spent())
         stack.callback(lambda: run.note_spent(meter.spent))
         prompts = prompts or PromptLibrary(config.prompts)
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
-        ask = _Interruptible(door, run.check)
+        ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
         yield Services(
             ask=ask,
             method=method,
             people={persona.id: persona for persona in people.values()},
-            home=_Homes(stack, config, embeddings),
+            home=_Homes(stack, config, embeddings, run.root),
             stream=_Streams(stack, run.root / "memory" if run.resumable else RamClient(), embeddings),
             embeddings=embeddings,
             learner=Learner(
@@ -143,7 +152,7 @@ def open_services(
                 config.seed,
                 config.learning,
             ),
-            identity_known=config.who == "known",
+            identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",
             own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
             recorder=run,
@@ -151,13 +160,19 @@ def open_services(
             seed=config.seed,
             frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
-            person=PERSON_MODELS[config.person],
+            person=PERSON_MODELS[config.person_model],
             sizes=config.search,
-            lived=open_lived(config),
-            logged=logs or nothing_was_logged,
-            in_the_loop=config.human == "me",
-            graded=config.feedback == "graded",
+            player=_player(config, logs),
+            life=EarlierLife(days) if (days := open_lived(config)) else LivedNow(),
         )
+
+
+def _player(config: Config, logs: Logs | None) -> Player:
+    """Who plays the people: those who wrote logs, somebody who is asked, or a language model."""
+    graded = config.feedback == "graded"
+    if logs:
+        return Logged(logs, Simulated(graded))
+    return Interviewed(graded) if config.played_by == "me" else Simulated(graded)
 
 
 def _own_robot(config: Config, method: Method) -> MakeRobot | None:
@@ -167,9 +182,9 @@ def _own_robot(config: Config, method: Method) -> MakeRobot | None:
     return method.own
 
 
-def open_home(config: Config, scene: SceneId, embeddings: Embeddings) -> World:
-    """Open one of a run's homes as it was built; it is to be closed after use."""
-    layout = load_scene(scene, [config.data_dir / "scenes"])
+def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path) -> World:
+    """Open one of a run's homes as it was built, the run's own copy if it has one; it is to be closed after use."""
+    layout = load_scene(scene, [config.data_dir / "scenes", run / "scenes"])
     motions = load_motions(config.motions)
     match = _nearest_motion(embeddings, motions)
     return World(
@@ -203,13 +218,13 @@ class _Interruptible:
 class _Homes:
     """Opens a home at its first use and keeps it open."""
 
-    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings) -> None:
-        self._stack, self._config, self._embeddings = stack, config, embeddings
+    def __init__(self, stack: ExitStack, config: Config, embeddings: Embeddings, run: Path) -> None:
+        self._stack, self._config, self._embeddings, self._run = stack, config, embeddings, run
         self._open: dict[SceneId, Home] = {}
 
     def __call__(self, scene: SceneId) -> Home:
         if scene not in self._open:
-            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings))
+            self._open[scene] = self._stack.enter_context(open_home(self._config, scene, self._embeddings, self._run))
         return self._open[scene]
 
 

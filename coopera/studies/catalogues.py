@@ -7,18 +7,22 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from coopera.config.at_most import cut
 from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
 from coopera.graphs.person import PERSON_MODELS
 from coopera.models.backends import household_file
+from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
+from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
-from coopera.simulation.bodies.robot import ROBOTS
+from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
+from coopera.studies.own_files import by_id
 
 
 class Catalogues(NamedTuple):
@@ -52,19 +56,21 @@ def load_catalogues(config: Config) -> Catalogues:
 def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     """Fill in what the setting decides and check every name; humans, scenes, days and out are then set.
 
+    Sizes are cut to those of COOPERA_AT_MOST (`coopera.config.at_most`).
+
     Raises:
         ConfigError: Naming the field, what is wrong and what there is.
     """
     known = catalogues or load_catalogues(config)
-    config = _by_schedule(config)
+    config = _by_schedule(by_id(config))
     n_people, n_scenes, days = known.needs[config.setting]
     _refuse_what_comes_later(config)
     _check("method", "method", [config.method], known.methods)
-    _check("person", "way to simulate a person", [config.person], list(PERSON_MODELS))
-    _check("robot", "robot", [config.robot], list(ROBOTS))
+    _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
+    load_robot(config.robot)
     _refuse_online(config)
-    _check("humans", "person", config.humans or [], known.people)
-    _check("scenes", "home", config.scenes or [], known.scenes)
+    _check("humans", "person", config.humans or [], [*known.people, *config.files.humans])
+    _check("scenes", "home", config.scenes or [], [*known.scenes, *config.files.scenes])
     people = config.humans or _first("humans", known.people, n_people, config.setting)
     scenes = config.scenes or _first("scenes", known.scenes, n_scenes, config.setting)
     if not config.schedule:
@@ -75,15 +81,27 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
-        _livable(humans.find(person, config.data_dir), config.person)
-    return config.model_copy(
-        update={
-            "humans": list(people),
-            "scenes": list(scenes),
-            "days": config.days or days,
-            "out": config.out or next_folder(Path("runs")),
-        }
+        _livable(find_person(config, person), config.person_model)
+    return cut(
+        config.model_copy(
+            update={
+                "humans": list(people),
+                "scenes": list(scenes),
+                "days": config.days or days,
+                "out": config.out or next_folder(Path("runs")),
+            }
+        )
     )
+
+
+def find_person(config: Config, person: str) -> Persona:
+    """Return somebody who takes part, from a file that was given or from the catalogue.
+
+    Raises:
+        ConfigError: If there is nobody of that id, or the file cannot be used.
+    """
+    given = config.files.humans.get(person)
+    return read_persona(given) if given else humans.find(person, config.data_dir)
 
 
 def tuned_model(config: Config) -> str | None:
@@ -139,7 +157,9 @@ def _check(field: str, what: str, wanted: Sequence[str], known: Sequence[str]) -
 def _livable(persona: Persona, model: str) -> None:
     """Refuse a person who lacks the text that a person model lives by."""
     if not PERSON_MODELS[model].profile(persona):
-        raise ConfigError(f"humans: {persona.id} has no notes in the persona file, and --person {model} lives by them.")
+        raise ConfigError(
+            f"humans: {persona.id} has no notes in the persona file, and --person-model {model} lives by them."
+        )
 
 
 def _knowledge(models: Models) -> None:
@@ -168,9 +188,11 @@ def _refuse_what_comes_later(config: Config) -> None:
     """Refuse choices that are named in the design but not built yet."""
     if config.pictures == "video":
         need_video()
+    check_recipe = find_classifier(config.classifier).check_recipe
     if config.classifier_config is not None:
-        if config.classifier != "lora-instruct" and not tuned_model(config):
-            raise ConfigError(f"classifier_config: is for lora-instruct, and the classifier is {config.classifier}.")
-        read_recipe(config.classifier_config)
+        check_recipe = read_recipe if tuned_model(config) else check_recipe
+        if check_recipe is None:
+            raise ConfigError(f"classifier_config: the classifier {config.classifier} takes no recipe file.")
+        check_recipe(config.classifier_config)
     if config.prompts is not None and not config.prompts.is_dir():
         raise ConfigError(f"prompts: {config.prompts} must be a folder of prompt files, and there is no such folder.")

@@ -7,6 +7,7 @@ so that a run without pictures can be looked at later.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import NamedTuple
 
@@ -32,8 +33,8 @@ class Replayed(NamedTuple):
 def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None) -> Iterator[Replayed]:
     """Do all acts of a run again, hour by hour; every episode begins with its homes as they were built.
 
-    The homes are never set from the trace, so that each hour builds on all those before it. Only after an hour that
-    came out differently is the home set to what the trace says, so that later hours are judged by themselves.
+    The homes are not set from the trace, so each hour builds on all hours before it. There is one exception: after an
+    hour with a difference the home is set to the state in the trace, so later hours are judged by themselves.
 
     Args:
         run: The run, open for reading.
@@ -42,26 +43,25 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
     Raises:
         RunError: If the run has no hours yet, or its people lived their hours in another run.
     """
-    if run.config.lived is not None:
-        raise RunError(f"{run.root}: this run met days lived before; replay that life instead: {run.config.lived}.")
+    if run.config.earlier_life is not None:
+        raise RunError(
+            f"{run.root}: this run met days lived before; replay that life instead: {run.config.earlier_life}."
+        )
     records = run.hours()
     if not records:
         raise RunError(f"{run.root}: there are no hours to replay yet.")
-    embeddings = open_embeddings(run.config)
     homes: dict[SceneId, World] = {}
     episode = None
-    try:
+    with open_embeddings(run.config) as embeddings, ExitStack() as stack:
         for record in records:
             if record.episode != episode:
                 episode = record.episode
                 for home in homes.values():
                     home.restore({})
             if record.scene not in homes:
-                homes[record.scene] = open_home(run.config, record.scene, embeddings)
+                home = open_home(run.config, record.scene, embeddings, run.root)
+                homes[record.scene] = stack.enter_context(home)
             yield _hour(homes[record.scene], record, look)
-    finally:
-        for home in homes.values():
-            home.close()
 
 
 def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], None] | None) -> Replayed:

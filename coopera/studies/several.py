@@ -1,8 +1,8 @@
 """Several studies at once, so that a server which answers many requests together is kept busy.
 
-Each study has a thread of its own. Its graphs' nodes are plain functions that wait in threads too, rather than
-coroutines, since the home and the memories are libraries that block; what waits for a server lets the others go on.
-What homes compute takes turns within a process, so the threads can be spread over several.
+Each study has a thread of its own. Its graphs' nodes are plain functions, not coroutines, since the libraries of home
+and memory block. While one study waits for a server, the others go on. The homes of a process compute one after the
+other, so the threads can be spread over several processes.
 """
 
 from __future__ import annotations

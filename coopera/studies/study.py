@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -29,14 +29,16 @@ from coopera.graphs.real_person import Interview
 from coopera.graphs.study import Waiting, waiting
 from coopera.models.backends import household_file
 from coopera.models.settings import Budget
-from coopera.people import shipped as humans
+from coopera.models.transport import NobodyThereError
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
 from coopera.rundir.directory import RunDir
 from coopera.rundir.stopping import Stop
+from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
-from coopera.studies.catalogues import resolve
+from coopera.studies.catalogues import find_person, resolve
+from coopera.studies.own_files import home_files
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
@@ -52,7 +54,7 @@ def nobody(question: Question) -> Answer:
     Raises:
         WaitingError: Always.
     """
-    raise WaitingError(f"The run waits for {question.name}: day {question.day + 1}, {question.time}.")
+    raise WaitingError(f"The run waits for {question.name}: day {question.day}, {question.time}.")
 
 
 def run_study(
@@ -68,7 +70,7 @@ def run_study(
     Args:
         config: What to run; what it leaves open is filled in.
         on_event: Told of each node that ends.
-        ask_person: Puts a question to a real person, with `human: me`; it may raise `WaitingError`, and
+        ask_person: Puts a question to a real person, with `played_by: me`; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
         resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it
@@ -121,29 +123,33 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
 
     Raises:
         ConfigError: If the configuration is wrong; nothing is then written.
+        ModelCallError: If no server listens where a model should be; a run that has no hour yet is taken back.
     """
     config = resolve(config)
     prompts = PromptLibrary(config.prompts)
-    people = [humans.find(person, config.data_dir) for person in config.humans or []]
+    people = [find_person(config, person) for person in config.humans or []]
+    own = [path for id, path in config.files.scenes.items() if id in (config.scenes or [])]
+    homes = {name: text for path in own for name, text in home_files(load_scene(path)).items()}
     logs = open_logs(config, plan_days(config))
     specs = {str(role): spec for role, spec in model_specs(config).items()}
-    with ExitStack() as stack:
-        made = RunDir.create(
-            config,
-            people=people,
-            prompts=prompts.hashes(),
-            models=specs,
-            knowledge=knowledge_of(specs.values()),
-            stop=stop,
-            resumable=resumable,
-        )
-        run = stack.enter_context(made)
+    made = RunDir.create(
+        config,
+        people=people,
+        prompts=prompts.hashes(),
+        models=specs,
+        knowledge=knowledge_of(specs.values()),
+        stop=stop,
+        resumable=resumable,
+    )
+    with made as run:
         try:
-            services = stack.enter_context(open_services(config, run, run.people(), prompts, logs))
-        except ConfigError:
-            run.discard()
+            run.keep_homes(homes)
+            with open_services(config, run, run.people(), prompts, logs) as services:
+                yield run, services
+        except (ConfigError, NobodyThereError):
+            if not run.hours_done():
+                run.discard()
             raise
-        yield run, services
 
 
 def knowledge_of(specs: Iterable[str]) -> dict[str, str]:

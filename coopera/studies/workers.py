@@ -1,4 +1,4 @@
-"""Processes that work through jobs side by side: one that dies costs the job it was at, which another does again."""
+"""Processes for jobs side by side: if a process dies, another one does its job again."""
 
 from __future__ import annotations
 

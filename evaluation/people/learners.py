@@ -59,9 +59,9 @@ class FrozenEncoder:
     def steps(self, train: Sequence[Step], labels: Sequence[int], test: Sequence[Step]) -> list[int]:
         """Predict which steps are real, from how the candidate relates to the hours before.
 
-        The features are the products of the principal components of the candidate and of the mean of the hours before,
-        so that the machine learns what comes after what. How many components it looks at is chosen by cross-validation
-        within the training steps.
+        The features are products of principal components: those of the candidate times those of the mean of the hours
+        before. So the machine learns the order of intentions. Cross-validation within the training steps chooses the
+        number of components.
         """
         scores = [self._cross_validated(train, labels, size) for size in _COMPONENTS]
         best = _COMPONENTS[max(range(len(scores)), key=lambda at: scores[at])]

@@ -31,12 +31,11 @@ class Scale(NamedTuple):
 def scale(scores: Floats, labels: npt.NDArray[np.bool_], *, days: int) -> Scale:
     """Choose slope and threshold from scores of examples that the model had not learned from.
 
-    The slope is Platt's. The threshold is not where yes and no are equally likely, but where saying yes serves F1
-    best (yes is rare, and F1 then wants more of it), so that 0.5 is the place to decide: P(yes) is calibrated up to
-    this shift. Trials with simulated people showed that the F1-best threshold on a few days of feedback is mostly
-    chance, and that saying yes to 1.5 to 2 times the share of true ones is hard to beat. So the search is kept to 1 to
-    2.5 times that share, and one day alone decides nothing: on it hardly anything happens twice, so what is left out
-    there tells nothing of tomorrow.
+    The slope is Platt's. The threshold serves F1: yes is rare, and F1 then wants more yes than equal odds give. So 0.5
+    is the place to decide, and P(yes) is calibrated up to this shift. In trials with simulated people the F1-best
+    threshold on a few days of feedback was mostly chance. Yes to 1.5 to 2 times the share of true ones was hard to
+    beat. So the search stays within 1 to 2.5 times that share. One day alone decides nothing: hardly anything happens
+    twice on it, and held-out examples of the day do not predict tomorrow.
 
     Args:
         scores: Shape (n,); higher means yes.

@@ -80,9 +80,9 @@ class KernelClassifier:
             seed: Only chooses the landmarks where there are more than `LANDMARKS` examples.
 
         Returns:
-            `examples`, `positives`, and, measured on days left out of learning (on hours, with a single day) and on
-            what the robot had imagined (not on true intentions added in the evening, which have no rank):
-            `f1` at the chosen threshold and `f1_always_yes`.
+            `examples`, `positives`, `f1` at the chosen threshold, and `f1_always_yes`. Both F1 are measured on held-out
+            days (with a single day: on held-out hours), and only on the robot's candidates: the true intentions of
+            the evening have no rank and do not count.
         """
         taught = lesson(examples, self._inputs, most=MOST)
         counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}

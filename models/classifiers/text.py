@@ -26,8 +26,8 @@ class Inputs:
             the person by nothing else.
         context: The recalled earlier intentions and tasks.
         time: The hour.
-        rank: The robot's own order of its guesses. DEVIATES: the paper's classifiers do not see it. But they see
-            nothing of what the robot saw either, and its order is the sum of that.
+        rank: The robot's own order of its candidates. DEVIATES: the paper's classifiers do not see it. They do not see
+            the observation either, and the order sums it up.
     """
 
     traits: bool = True
@@ -71,8 +71,8 @@ class Lesson(NamedTuple):
 def lesson(examples: Iterable[Example], inputs: Inputs, *, most: int | None = None) -> Lesson:
     """Prepare labelled examples for learning; those without a label are left out.
 
-    Each person's profile and Big Five become the newest in all of that person's examples, so that an early belief
-    about who this is does not hide what the early feedback taught.
+    All examples of a person get the newest profile and Big Five of this person. Otherwise an early belief would hide
+    the lesson of the early feedback.
     # PAPER App. D, as in the authors' code.
 
     Args:

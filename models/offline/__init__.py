@@ -1,4 +1,7 @@
-"""The offline routine model: people, robot and judge by rules, household knowledge and text similarity."""
+"""The offline routine model: person, robot and judge by rules, household knowledge and text similarity.
+
+It is a LangChain chat model, but not a language model.
+"""
 
 from __future__ import annotations
 

@@ -42,13 +42,13 @@ def _common_sense(embeddings: Embeddings) -> CommonSense:
 class OfflineChatModel(BaseChatModel):
     """A routine model that answers coopera's prompts without any language model, network or GPU.
 
-    It is not a language model and reads no prompt text: it answers from the prompt's variables, by rules over a
-    household knowledge file and by MiniLM similarity of texts. `messages[-1].additional_kwargs["coopera"]` must
-    hold {"prompt", "variables", "seed", "temperature"}, with variables as `coopera.core.asks` lists them. The reply is
+    It is no language model and does not read the prompt's text. It answers from the prompt's variables, by rules over a
+    household knowledge file and by MiniLM similarity of texts. `messages[-1].additional_kwargs["coopera"]` must hold
+    {"prompt", "variables", "seed", "temperature"}; `coopera.core.asks` lists the variables of each prompt. The reply is
     the JSON of the prompt's reply type. The same question with the same seed gets the same answer on every machine.
 
-    The three roles share common sense, as language models would. What is private to a person is reachable from
-    the role "human" only. docs/offline-model.md says what all this is good for, and what not.
+    The three roles share common sense, as language models would. Only the role "human" can reach a person's private
+    parameters. docs/offline-model.md explains the uses and the limits.
     """
 
     model_config = ConfigDict(arbitrary_types_allowed=True)

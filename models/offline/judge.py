@@ -1,7 +1,7 @@
-"""The judge: would this offer help somebody who is up to this? By common sense, not by the predicate's rule.
+"""The judge: would this task candidate help with this intention? By common sense, not by the predicate's rule.
 
-The predicate compares the offer with the tasks, class by class or cosine by cosine. The judge also accepts what
-serves the purpose: a thing with which one makes the motion of a task, or a usual placement of the same thing elsewhere.
+The predicate compares the candidate with the tasks, class by class or cosine by cosine. The judge also accepts
+candidates with the same purpose: another thing for the motion of a task, or another usual place for the same thing.
 """
 
 from __future__ import annotations

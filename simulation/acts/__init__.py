@@ -1,4 +1,4 @@
-"""What changes the home: walking, taking, putting, handing over, motions, and the state that they leave behind.
+"""Acts, which change the home: walking, taking, putting, handing over, making a motion.
 
 A plan of an act is made and checked here before the world carries it out; predicates read the state.
 """

@@ -1,4 +1,4 @@
-"""Where a person's body goes for a motion at a piece of furniture: which seat, which spot, at which heights."""
+"""The place of a person's body for a motion at a piece of furniture: the seat, the spot and the heights."""
 
 from __future__ import annotations
 

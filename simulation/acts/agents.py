@@ -1,4 +1,4 @@
-"""Who lives in a home: people and robots, each with an id of its own, and a robot with the name of its body."""
+"""The agents of a home, as data: people and robots, each with an id, and a robot with its body."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class PersonAgent:
 
 @dataclass(frozen=True, slots=True)
 class RobotAgent:
-    """A robot; `body` is one of `coopera.simulation.bodies.robot.ROBOTS`."""
+    """A robot; `body` is as `coopera.simulation.bodies.robot.load_robot` takes it."""
 
     id: AgentId = ROBOT
     body: str = "fetch"
@@ -33,7 +33,7 @@ Agent: TypeAlias = PersonAgent | RobotAgent
 
 
 def check_agents(agents: Sequence[Agent]) -> None:
-    """See that a home can be lived in by these: at least one, each with an id that can be written and is its own.
+    """Refuse agents who cannot share a home: it needs one at least, and each needs an id of its own.
 
     Raises:
         ConfigError: Naming the id and what was expected.
@@ -49,5 +49,5 @@ def check_agents(agents: Sequence[Agent]) -> None:
 
 
 def named(agent: AgentId) -> str:
-    """What a sentence calls an agent: the one person and the one robot that ship have no name of their own."""
+    """The words for an agent in a sentence: its id, but "the human" and "the robot" for those that ship."""
     return f"the {agent}" if agent in (HUMAN, ROBOT) else agent

@@ -1,4 +1,4 @@
-"""Where everybody stands when a home is new: as far as there are rooms, each in one of their own."""
+"""The places of all agents in a new home: a room for each, as far as there are rooms."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from coopera.simulation.homes.scene import Room
 
 
 def first_states(ground: Ground, agents: Sequence[Agent]) -> dict[AgentId, PersonState | RobotState]:
-    """Each in the middle of a room, the first in the most spacious one; where rooms run out, away from the others.
+    """Put each agent into the middle of a room, the first into the most spacious one; further ones away from the rest.
 
     Raises:
         SimulationError: If somebody finds no room to stand in.

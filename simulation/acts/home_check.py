@@ -22,9 +22,9 @@ _FLOATING = 0.03
 def check(scene: Scene) -> list[str]:
     """Return all problems of a home, empty for a good one; the order is that of the checks and of the scene.
 
-    Looked at: rooms that overlap, doors that open into nothing, objects outside their room or inside each other,
-    things that float, rooms nobody gets into, furniture nobody can walk up to or put a thing on, and things that
-    nobody can take.
+    It finds overlapping rooms, doors into nothing, objects outside their room, objects inside each other, and floating
+    things. It finds rooms without a way in, furniture without a place to stand or to put a thing, and things out of
+    reach.
     """
     problems = [*_rooms(scene), *_doors(scene), *_places(scene), *_overlaps(scene), *_supports(scene)]
     try:

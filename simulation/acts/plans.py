@@ -1,4 +1,4 @@
-"""The words in which the home's acts are planned: steps, plans, who takes up which floor, and what cannot be done."""
+"""The types for planning an act in the home: steps, plans, the floor that a body takes up, and refusals."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ Step = Walk | Turn | Handle | Give | Play
 
 
 class Watch(Protocol):
-    """Called before each deed of a person: lets a robot go where it will see it."""
+    """Called before each act of a person: lets a robot go where it will see it."""
 
     @property
     def robot(self) -> AgentId:
@@ -94,7 +94,7 @@ class Watch(Protocol):
         ...
 
     def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add the robot's drive to the plan; the deed is the person in the middle of it."""
+        """Add the robot's drive to the plan; `deed` is the person in the middle of the act."""
         ...
 
 
@@ -162,7 +162,7 @@ class Ground:
 
 
 def discs(state: HomeState, agent: AgentId) -> list[Disc]:
-    """The floor that an agent takes up: where it stands, and where a person sits or would get up to."""
+    """The floor taken up by an agent: its place, and for a sitting person also the place to get up to."""
     body = state.agents[agent]
     found = [Disc(*body.spot)]
     if math.dist(body.spot, body.place) > 0.1:

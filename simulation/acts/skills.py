@@ -117,7 +117,7 @@ def stands_for(ground: Ground, plan: Plan, agent: AgentId, errand: Errand) -> It
 def go_to_reach(
     ground: Ground, plan: Plan, agent: AgentId, errand: Errand, watch: Watch | None = None
 ) -> tuple[Stand, Array] | None:
-    """Add a walk to where an agent's hand gets to a point; with `watch`, a robot goes first to see the deed.
+    """Add a walk to where an agent's hand gets to a point; with `watch`, a robot goes first to see the act.
 
     Returns:
         The place, and the posture in which the point is reached; None if there is no such place.

@@ -27,7 +27,7 @@ class PersonState(Frozen):
     """A person: `spot` is the place on the floor from which they walk off, `place` where the body is.
 
     The two differ where the person sits or lies on something. `support`, `worktop` and `posture` are those of
-    `motions_poses.Setting`; `thing` is what they hold from the magic box, `at` the furniture they are at.
+    `coopera.simulation.motions.poses.Setting`. The person holds `thing` from the magic box and is `at` a furniture.
     """
 
     kind: Literal["person"] = "person"

@@ -46,7 +46,7 @@ def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str |
 def walk_to_deed(
     ground: Ground, plan: Plan, agent: AgentId, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
 ) -> None:
-    """Add a person's walk to a deed; a robot that is to see it goes ahead, and comes back if it had to step aside.
+    """Add a person's walk to an act; a robot that is to see it goes ahead, and comes back if it had to step aside.
 
     Raises:
         UnableError: If there is no way.

@@ -159,9 +159,9 @@ def _any_normal(line: Array) -> Array:
 class Aim:
     """What a pose should achieve, in the body frame (metres); bends are (forward, left turn, left lean) in degrees.
 
-    `hands` and `feet` are where the hands' middles and the ankles go; a missing one hangs or stands at rest.
-    `elbows` lifts the elbows sideways: 0 lets them hang, 1 holds them level with the shoulders.
-    `toes` is the feet's pitch in degrees (positive: toes down); `knee_pole` is where the knees point if not forward.
+    `hands` gives targets for the middles of the hands, `feet` for the ankles. A hand without a target hangs, a foot
+    without a target stands. `elbows` lifts the elbows sideways: 0 lets them hang, 1 brings them to shoulder height.
+    `toes` is the pitch of the feet in degrees (positive: toes down). `knee_pole` turns the knees away from forward.
     """
 
     pelvis: tuple[float, float, float] = (0.0, 0.0, STANDING)

@@ -1,4 +1,4 @@
-"""A home as data: rooms, furniture, objects and the places on them, read from files and checked.
+"""A home as data: rooms, doorways, fixed and movable objects and the places on them, read from files and checked.
 
-The catalogue says what each class of object is; nothing here needs pybullet.
+The catalogue describes each class of object; nothing here needs pybullet.
 """

@@ -1,7 +1,7 @@
-"""What is known of each class of thing: size, colours, where it belongs, and what can be done with it.
+"""The knowledge of each class of thing: its size, its colours, its usual places and its uses.
 
-The knowledge itself is catalogue.yaml, which a user may read and edit. A class that is not in it is an unknown
-thing: a plain box whose top is its surface.
+The knowledge itself is in catalogue.yaml, for a user to read and edit. A class outside it is an unknown thing: a plain
+box with a flat top.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A home as plain data: rooms, doors and objects, in a JSON file that a person can edit.
 
-Units are metres and radians, Z is up, yaw turns about Z. An object's own frame has its width along x, its
-depth along y, its base centre at the origin, and its front towards +y; so at yaw 0 it faces +y.
+Units are metres and radians, Z is up, yaw turns about Z. In an object's own frame the origin is the centre
+of its base. Its width is along x, its depth along y. Its front looks towards +y, so at yaw 0 it faces +y.
 Walls are not written down: they stand on the edges of the rooms, with a gap at each door.
 """
 
@@ -84,9 +84,9 @@ class MeshPart(Frozen):
 class SceneObject(Frozen):
     """One object of the home, in its initial place.
 
-    `position` is the centre of its base. `size` is (width, depth, height) in its own frame. `on` names the
-    fixed object that carries a movable one; a movable thing without it stands on the floor. `mesh` is what it looks
-    like where it is not drawn from our own shapes; the box of its size stands for it in all other respects.
+    `position` is the centre of the object's base. `size` is (width, depth, height) in the object's own frame.
+    `on` names the fixed object under a movable one. A movable object without `on` stands on the floor.
+    `mesh` replaces our own shapes in pictures. For everything else the object is the box of its size.
     """
 
     id: int = Field(ge=0)

@@ -6,9 +6,11 @@ import json
 from pathlib import Path
 from typing import TypeVar
 
+import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from coopera.core.errors import ConfigError
+from coopera.core.strict_yaml import StrictLoader
 
 MOST_BYTES = 256 * 2**20
 """No file of geometry is larger."""
@@ -55,6 +57,31 @@ def read_json(path: Path, model: type[Model]) -> Model:
     except RecursionError as err:
         raise ConfigError(f"{path}: this is not valid JSON (it is nested too deeply).") from err
     except ValidationError as err:
-        first = err.errors(include_url=False)[0]
-        field = ".".join(str(part) for part in first["loc"]) or "the whole file"
-        raise ConfigError(f"{path}, field {field}: {first['msg']}.") from err
+        raise _does_not_fit(path, err) from err
+
+
+def read_yaml(path: Path, model: type[Model]) -> Model:
+    """Read a YAML file as a pydantic model.
+
+    Raises:
+        ConfigError: If the file cannot be read or does not fit; names file and field.
+    """
+    try:
+        # a subclass of SafeLoader: builds plain data only
+        return model.model_validate(yaml.load(read_text(path), StrictLoader))
+    except yaml.MarkedYAMLError as err:
+        line = f", line {err.problem_mark.line + 1}" if err.problem_mark else ""
+        raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err
+    except yaml.YAMLError as err:
+        raise ConfigError(f"{path}: this is not valid YAML ({' '.join(str(err).split())}).") from err
+    except RecursionError as err:
+        raise ConfigError(f"{path}: this is not valid YAML (it is nested too deeply).") from err
+    except ValidationError as err:
+        raise _does_not_fit(path, err) from err
+
+
+def _does_not_fit(path: Path, err: ValidationError) -> ConfigError:
+    first = err.errors(include_url=False)[0]
+    field = ".".join(str(part) for part in first["loc"])
+    where = f"{path}, field {field}" if field else str(path)
+    return ConfigError(f"{where}: {first['msg'].removeprefix('Value error, ')}.")

@@ -1,1 +1,4 @@
-"""Homes that are made: generated from a seed, furnished, imported from HSSD, proved usable, drawn from above."""
+"""The making of homes: generated from a seed, furnished, or imported from HSSD.
+
+A new home is proved usable, and drawn from above.
+"""

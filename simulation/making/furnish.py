@@ -1,7 +1,7 @@
 """Furnish one room of a generated home, so that everything in it can be walked up to.
 
-Each piece is tried at many places, the best-looking first, and kept where the floor that is left stays in one
-piece, leads to every door, and gives every piece so far a place to stand in front of it.
+Each piece is tried at many places, the best-looking first. A place is good if the free floor stays connected, leads to
+every door, and leaves room to stand in front of every piece so far.
 """
 
 from __future__ import annotations

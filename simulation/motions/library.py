@@ -105,8 +105,8 @@ class Library:
     def match(self, text: str, search: Callable[[str], str] | None = None) -> Motion:
         """Find the motion that a free-form text means.
 
-        A caption means itself. Otherwise `search` decides, where given and where it answers with a caption; else
-        the caption that shares most with the text, rare words counting more; ties go to the first listed.
+        A caption means itself. For another text `search` decides, if it is given and answers with a caption. Otherwise
+        the caption with the most words of the text decides; rare words count more, and ties go to the first listed.
         """
         plain = " ".join(text.lower().split())
         if plain in self._by_caption:

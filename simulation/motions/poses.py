@@ -23,9 +23,9 @@ _LYING = 0.12
 class Setting(NamedTuple):
     """The heights that a motion adapts to (metres above the floor).
 
-    `support` is what the body sits or lies on (0: the floor); `worktop` what its hands work at, None where there
-    is nothing: then the lap, or WORKTOP when standing. `posture` overrides the motion's own: who wants to sit
-    where there is no seat stands.
+    The body sits or lies at the height `support` (0: on the floor). The hands work at the height `worktop`; with None
+    they work on the lap, or at WORKTOP when the person stands. `posture` replaces the posture of the motion: a person
+    without a seat stands.
     """
 
     support: float = 0.0

@@ -1,8 +1,8 @@
 """Motion capture in SMPL-X parameters (Motion-X, AMASS) as poses of our person.
 
-Of the model's joints 22 are read: root, legs, spine, collars, neck, head, arms. Our body has one joint for the three
-of the spine, one for neck and head, and hinges for elbows and knees, so limbs are matched by the directions of their
-bones; collars are folded into the arms; wrists, fingers, toes and the face are dropped.
+Of the model's joints 22 are read: root, legs, spine, collars, neck, head, arms. Our body has one joint for the spine's
+three, one for neck and head, and hinges for elbows and knees. So limbs are matched by the directions of their bones.
+Collars count to the arms; wrists, fingers, toes and the face are dropped.
 
 SMPL's own axes are x left, y up, z forward; ours x forward, y left, z up. Motion-X keeps y up in the world, AMASS z.
 """

@@ -39,7 +39,7 @@ _APART = 0.8
 
 
 class Focus(NamedTuple):
-    """What is to be seen: a person at their deed, the furniture that hides nothing that matters, and the room."""
+    """The subject of a picture: a person in the act, the furniture under or around the body, and the room."""
 
     who: AgentId
     person: Placed

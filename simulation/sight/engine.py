@@ -1,4 +1,4 @@
-"""pybullet, imported without the line that it prints to standard error: that belongs to the command that runs us."""
+"""pybullet, imported without its line on standard error: standard error belongs to the running command."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from ctypes.util import find_library
 from importlib import import_module
@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from coopera.core.errors import ConfigError
+from coopera.simulation.bodies.body_file import OF_PYBULLET
 
-_SHIPPED = "pybullet_data/"
 _QUIET = threading.RLock()
 Renderer = Literal["tiny", "egl"]
 """Tiny needs nothing; EGL is faster with large pictures and needs the system's libEGL. Their pixels differ."""
@@ -54,18 +54,30 @@ pybullet: Any = sys.modules.get("pybullet") or _quietly("pybullet")
 
 
 def load_urdf(path: Path, client: int, *, drawn: bool = True) -> int:
-    """Load a body with a fixed base; a mesh named "pybullet_data/…" comes from what ships with pybullet."""
+    """Load a body with a fixed base; a mesh named "pybullet_data/…" comes from what ships with pybullet.
+
+    Raises:
+        ConfigError: If the engine cannot make anything of the file.
+    """
     text = path.read_text(encoding="utf-8")
     flags = 0 if drawn else pybullet.URDF_IGNORE_VISUAL_SHAPES
     given = {"useFixedBase": True, "physicsClientId": client, "flags": flags}
-    if _SHIPPED not in text:
-        return int(pybullet.loadURDF(str(path), **given))
+    if OF_PYBULLET not in text:
+        return _loaded(path, path, given)
     data = str(import_module("pybullet_data").getDataPath())
     with tempfile.TemporaryDirectory() as folder:
         whole = Path(folder) / path.name
-        text = text.replace('filename="', f'filename="{path.parent}/').replace(f"{path.parent}/{_SHIPPED}", f"{data}/")
+        here = path.parent.absolute()
+        text = text.replace('filename="', f'filename="{here}/').replace(f"{here}/{OF_PYBULLET}", f"{data}/")
         whole.write_text(text, encoding="utf-8")
+        return _loaded(path, whole, given)
+
+
+def _loaded(path: Path, whole: Path, given: Mapping[str, Any]) -> int:
+    try:
         return int(pybullet.loadURDF(str(whole), **given))
+    except pybullet.error as err:
+        raise ConfigError(f"{path}: pybullet cannot load this URDF; what it prints says why.") from err
 
 
 def start_renderer(name: Renderer, client: int) -> int:

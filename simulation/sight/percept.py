@@ -36,10 +36,10 @@ def perceive(
     class_of: Callable[[str], str],
     rng: np.random.Generator,
 ) -> Percept:
-    """Report the recording's last deed; what is drawn for one error never changes another.
+    """Report the last act of a recording; the draw for one error never changes another.
 
-    The motion is what pose matching makes of the joints that the camera saw, whatever was played; it is named by its
-    class, never by its caption, and so is the thing in hand, where a hand was seen.
+    Pose matching recognises the motion from the joints in the camera's view, not from the motion played. The report
+    gives the motion's class, never its caption. It gives the class of the thing in hand if a hand is in view.
     """
     shot = recording.shots[-1]
     moment = shot.at(shot.deed)

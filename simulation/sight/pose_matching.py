@@ -1,10 +1,10 @@
 """Recognises a motion from joints alone: the library's poses are compared with those seen, in their order in time.
 
-What is seen are joint positions, as a 3D pose estimator gives them: some joints hidden, all of them noisy, and with
-no word of where on the floor the body is or which way it faces. So two poses are compared as their distance after the
-best shift along the floor and the best turn about the vertical (Procrustes analysis without scale). A motion
-explains the instants if its poses follow each other at its own pace, from whatever phase; an instant may instead be one
-of coming or going, since people walk to what they do. Which motion was played is not among the arguments.
+The input is joint positions, as a 3D pose estimator gives them: some joints are hidden, all are noisy, and the body's
+place and heading are unknown. So two poses are compared by their distance after the best shift along the floor and the
+best turn about the vertical (Procrustes analysis without scale). A motion explains the instants if its poses follow
+each other at its own pace, from any phase. A walking pose may explain an instant instead, since people walk to what
+they do. The played motion is not an argument.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a recorded act looks like: for every tick, where all bodies are, how they are bent, and what they hold.
+"""The look of a recorded act: for every tick the place and the pose of all bodies, and the things in their hands.
 
 A recording is a list of shots. A shot is what a robot watches from one place: the end of a walk and then a reach,
 a motion or a hand-over. Longer walks are cut, as a film would. Poses are computed only for the ticks asked for.
@@ -31,7 +31,7 @@ TICKS = 30
 """Ticks per second."""
 _PERSON_SPEED, _ROBOT_SPEED = 1.1, 0.8  # metres per second
 _SHOWN = 1.3
-"""Seconds of a walk that a shot shows before the deed."""
+"""Seconds of a walk that a shot shows before the act."""
 _MOTION = 8.0
 _TURN, _REACH, _HOLD, _BACK, _SETTLE = 8, 22, 8, 16, 26
 _ARMS = ("right_shoulder", "right_elbow")
@@ -54,7 +54,7 @@ class Moment(NamedTuple):
 
 @dataclass(slots=True)
 class Shot:
-    """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the deed is best seen."""
+    """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the act is best seen."""
 
     ticks: int
     at: Callable[[int], Moment]
@@ -183,7 +183,7 @@ class Filming:
                 self.held[step.agent] = Held(step.carries)
 
     def _approach(self, agent: AgentId) -> tuple[int, Callable[[int], Placed]]:
-        """The last moments of the walk before a deed."""
+        """The last moments of the walk before an act."""
         walk, self._walk = self._walk, None
         there = self.bodies[agent]
         if walk is None or len(walk.points) < 2:

@@ -42,13 +42,13 @@ class Watcher:
         return self._drawn
 
     def watch(self, plan: Plan, robot: AgentId, who: AgentId, deed: Placed, spot: Point) -> None:
-        """Add to a plan: a robot drives to where it will see a deed of a person, out of their way.
+        """Add to a plan: a robot drives to where it will see an act of a person, out of their way.
 
         Args:
             plan: The plan so far; the robot's drive is added.
             robot: Who is to see it.
-            who: Whose deed it is.
-            deed: The person in the middle of the deed.
+            who: The person.
+            deed: The person in the middle of the act.
             spot: The floor from which they do it.
         """
         person = plan.state.person(who)
@@ -71,7 +71,7 @@ class Watcher:
             except UnableError:  # it cannot get there: it watches from where it is
                 plan.steps, plan.state = steps, state
             if math.dist(person.spot, spot) < 0.05 and plan.state.agents[who].spot != person.spot:
-                plan.steps, plan.state = steps, state  # who is at the deed already is not sent away
+                plan.steps, plan.state = steps, state  # who is at the place already is not sent away
             plan.metres = metres
         x, y = plan.state.agents[robot].spot
         yaw = math.atan2(deed.y - y, deed.x - x)
@@ -129,5 +129,5 @@ class Onlooker:
     person: AgentId
 
     def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add to a plan the robot's drive to where it sees the person's deed."""
+        """Add to a plan the robot's drive to where it sees the person's act."""
         self.watcher.watch(plan, self.robot, self.person, deed, spot)

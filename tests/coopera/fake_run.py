@@ -31,7 +31,7 @@ from coopera.core.hour import (
 from coopera.core.household import FreeMotion, HandOver, Outcome, Percept, PickPlace
 from coopera.core.people import TRAITS, Belief, BigFive, Persona
 from coopera.core.randomness import rng_at
-from coopera.evaluation.success import count
+from coopera.evaluation.counts import count
 from coopera.people.shipped import find
 from coopera.rundir.directory import RunDir
 

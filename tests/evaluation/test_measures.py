@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour
 from coopera.core.household import HandOver, Outcome, SceneId
 from coopera.core.people import PersonId
-from coopera.evaluation.measures import by_person, false_help, help_given, help_score, l1, pool_help, robot_seconds
+from coopera.evaluation.agreement import by_person, l1
+from coopera.evaluation.latency import robot_seconds
+from coopera.evaluation.measures.help import false_help, help_given, help_score, pool_help
 
 
 def done(metres: float = 2.0, *, ok: bool = True) -> Outcome:

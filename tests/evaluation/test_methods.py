@@ -5,6 +5,7 @@ from importlib.metadata import EntryPoint
 import pytest
 
 from coopera.core.errors import ConfigError
+from coopera.core.registry import Registry
 from coopera.evaluation import methods
 from coopera.graphs import Method
 
@@ -16,9 +17,10 @@ NO_METHOD = "a word"
 def _installed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three entry points of another package, as pip would have installed them."""
     values = {"habits": f"{__name__}:OWN", "gone": "no_such_module:METHOD", "word": f"{__name__}:NO_METHOD"}
-    installed = [EntryPoint(name, value, methods.GROUP) for name, value in values.items()]
-    monkeypatch.setattr(methods, "entry_points", lambda group: [e for e in installed if e.group == group])
-    monkeypatch.setattr(methods, "METHODS", dict(methods.METHODS))
+    registry = Registry("method", Method, registered=dict(methods.METHODS))
+    installed = {name: EntryPoint(name, value, registry.group) for name, value in values.items()}
+    monkeypatch.setitem(vars(registry), "_installed", installed)
+    monkeypatch.setattr(methods, "_METHODS", registry)
 
 
 def test_methods_of_other_packages_are_choices_under_the_name_they_are_registered_by() -> None:
@@ -31,7 +33,7 @@ def test_methods_of_other_packages_are_choices_under_the_name_they_are_registere
     ("name", "why"),
     [
         ("gone", r"gone of another package \(no_such_module:METHOD\) cannot be loaded: No module named"),
-        ("word", r"word of another package .* must be a graphs.Method, not str"),
+        ("word", r"word of another package .* must give a Method, and gives str"),
         ("nothing", r"there is no method 'nothing' \(known are ours, direct_prompting"),
     ],
 )

@@ -1,12 +1,16 @@
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
 
 from coopera.core.errors import ConfigError
+from coopera.core.people import Frozen
+from coopera.evaluation import measuring
 from coopera.evaluation.analysis import agreement, comparisons, curve, effort, generalisation, last_day, score
 from coopera.evaluation.figures import all_figures
+from coopera.evaluation.measuring import MeasureSpec, sums
 from coopera.evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
 from coopera.evaluation.tables import all_tables
 
@@ -134,5 +138,39 @@ def test_tables_and_figures_are_drawn_of_whatever_there_is() -> None:
     assert "| ours | 0.667 | 0.505 |" in tables["paper"].markdown()
     assert r"\label{tab:comparisons}" in tables["comparisons"].latex()
     assert r"95 \%" in tables["last_day_predicate"].latex()
-    assert all_figures(rows, ["ours", "random"]) == all_figures(rows, ["ours", "random"])
+    drawn = all_figures(rows, ["ours", "random"])
+    assert drawn == all_figures(rows, ["ours", "random"])
     assert "generalisation" not in tables
+    days = re.findall(r">(\d)</text>", drawn["breakdown_predicate"])
+    assert set(days) == {"0", "1"}, "days are counted from 0"
+
+
+class Walked(Frozen):
+    steps: int
+    metres: float | None = None
+
+
+def test_a_further_measure_has_columns_and_a_table_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(measuring._MEASURES, "_registered", {})
+    measuring.register_measure(
+        MeasureSpec("walked", "", "metres walked", Walked, lambda _: Walked(steps=0), sums(Walked), "metres")
+    )
+    rows = [row(hour=9, walked_steps=4, walked_metres=1.5), row(hour=10, walked_steps=2, walked_metres=2.0)]
+    rows.append(failed(hour=11))
+    text = to_csv(rows)
+    assert text.splitlines()[0].endswith(",saved_metres,walked_steps,walked_metres")
+    assert from_csv(text, "hours.csv") == rows
+    assert score(rows, "walked") == 3.5
+    titles = [table.title for table in all_tables([row(day=1, walked_steps=1, walked_metres=0.5)], ["ours"])]
+    assert titles[:5] == [
+        *(f"F1 by {name} on each person's last day" for name in ("predicate", "judge", "people")),
+        "Help score on each person's last day",
+        "Metres walked on each person's last day",
+    ]
+    with pytest.raises(ConfigError, match="walked_steps: this column is missing"):
+        score([row(walked_metres=1.5)], "walked")
+
+
+def test_a_column_that_is_no_measures_is_refused() -> None:
+    with pytest.raises(ConfigError, match="the columns must be those of format 1; check Note"):
+        from_csv(to_csv([row()]).replace("saved_metres", "saved_metres,Note", 1), "hours.csv")

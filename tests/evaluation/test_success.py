@@ -11,6 +11,7 @@ from coopera.core.hour import Counts, Help, Intention, Task, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver, Outcome, PickPlace
 from coopera.core.randomness import Address
 from coopera.evaluation import Measure, count, pool
+from coopera.evaluation.measures.predicate import Predicate
 from tests.fakes import FakeHome, LetterEmbeddings, ScriptedAsk
 
 AT = Address("mara", 0, 9, "score")
@@ -49,19 +50,19 @@ def test_every_candidate_is_counted_once(pairs: list[tuple[bool, bool | None]]) 
 
 
 def test_type_1_matches_by_class_and_not_by_instance() -> None:
-    measure = Measure(ScriptedAsk({}), LetterEmbeddings())
+    predicate = Predicate(LetterEmbeddings())
     task = Task(id="9.2", thought="", act=place("mug_1", "desk_1"))
-    assert measure.matches(FakeHome(), candidate(place("mug_2", "desk_1")), [task])
-    assert not measure.matches(FakeHome(), candidate(place("mug_2", "sofa_1")), [task])
-    assert not measure.matches(FakeHome(), candidate(place("book_1", "desk_1")), [task])
+    assert predicate.matches(FakeHome(), candidate(place("mug_2", "desk_1")), [task])
+    assert not predicate.matches(FakeHome(), candidate(place("mug_2", "sofa_1")), [task])
+    assert not predicate.matches(FakeHome(), candidate(place("book_1", "desk_1")), [task])
 
 
 def test_type_2_matches_a_thing_as_near_as_the_threshold() -> None:
-    measure = Measure(ScriptedAsk({}), LetterEmbeddings())
+    predicate = Predicate(LetterEmbeddings())
     task = Task(id="9.2", thought="", act=FreeMotion(target_id=1, target="desk_1", in_hand="novel", motion="read"))
-    assert measure.matches(FakeHome(), candidate(HandOver(object="Novel_1")), [task])
-    assert measure.matches(FakeHome(), candidate(HandOver(object="novels")), [task])
-    assert not measure.matches(FakeHome(), candidate(HandOver(object="hat")), [task])
+    assert predicate.matches(FakeHome(), candidate(HandOver(object="Novel_1")), [task])
+    assert predicate.matches(FakeHome(), candidate(HandOver(object="novels")), [task])
+    assert not predicate.matches(FakeHome(), candidate(HandOver(object="hat")), [task])
 
 
 def test_an_unreadable_judge_leaves_candidates_unscored_and_never_wrong() -> None:

@@ -9,8 +9,10 @@ import pytest
 from coopera.evaluation import METHODS, Measure
 from coopera.graphs import Services
 from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs.life import LivedNow
 from coopera.graphs.own_robot import OwnRobot
 from coopera.graphs.person import PERSON_MODELS
+from coopera.graphs.simulated import Simulated
 from coopera.memory import MemoryStream
 from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
 
@@ -56,7 +58,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
             seed=0,
             frames=frames,
             person=PERSON_MODELS[person],
-            **changed,
+            **{"player": Simulated(), "life": LivedNow(), **changed},
         )
 
     yield make

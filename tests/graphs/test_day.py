@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -23,15 +24,16 @@ def days(count: int, hours: int = 3) -> list[DayPlan]:
     ]
 
 
-def saver(folder: Path) -> SqliteSaver:
-    connection = sqlite3.connect(folder / "checkpoints.sqlite", check_same_thread=False)
-    return SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
-
-
-def run_study(services: Services, checkpoints: SqliteSaver | None = None, *, go_on: bool = False, n: int = 2) -> Any:
-    graph = build_study_graph(checkpoints)
+def run_study(services: Services, saver: SqliteSaver | None = None, *, go_on: bool = False, n: int = 2) -> Any:
+    graph = build_study_graph(saver)
     given: Any = None if go_on else {"schedule": days(n)}
     return graph.invoke(given, {"configurable": {"thread_id": "study"}}, context=services)
+
+
+def run_saved(services: Services, folder: Path, *, go_on: bool = False) -> None:
+    with closing(sqlite3.connect(folder / "checkpoints.sqlite", check_same_thread=False)) as connection:
+        saver = SqliteSaver(connection, serde=JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES)))
+        run_study(services, saver, go_on=go_on)
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -201,11 +203,11 @@ def test_a_study_killed_anywhere_and_resumed_equals_one_that_was_not(
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     for folder in (whole, broken):
         folder.mkdir()
-    run_study(make_services(folder=whole), saver(whole))
+    run_saved(make_services(folder=whole), whole)
     ask = DyingAsk(at, moment if at != "infer_traits" else min(moment, 2))
     with pytest.raises(Killed):
-        run_study(make_services(folder=broken, ask=ask), saver(broken))
-    run_study(make_services(folder=broken), saver(broken), go_on=True)
+        run_saved(make_services(folder=broken, ask=ask), broken)
+    run_saved(make_services(folder=broken), broken, go_on=True)
     assert files(broken) == files(whole)
 
 

@@ -9,7 +9,6 @@ from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, SearchSizes
 from coopera.core.household import SceneId
 from coopera.graphs import HumanContext, build_human_graph
-from coopera.graphs.hour import human_context
 from coopera.graphs.human import human_hour
 from tests.fakes import MARA, STIR, FakeHome, ScriptedAsk, moving, placing, type2_answers
 from tests.graphs.conftest import MakeServices
@@ -20,7 +19,7 @@ HOURS = [9, 10, 11]
 
 def person(make_services: MakeServices, collab: int = 2, **options: Any) -> HumanContext:
     plan = DayPlan(day=0, episode_day=0, person=MARA.id, scene=SceneId("toy"), hours=HOURS, collab=collab)  # type: ignore[arg-type]
-    return human_context(make_services(**options), plan)
+    return make_services(**options).human(plan)
 
 
 def live(ctx: HumanContext, clock: Clock = NINE) -> Any:

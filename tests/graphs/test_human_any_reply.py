@@ -19,7 +19,6 @@ from coopera.core.randomness import Address
 from coopera.core.replies import REPLIES
 from coopera.graphs import build_human_graph
 from coopera.graphs.checks import findings
-from coopera.graphs.hour import human_context
 from coopera.graphs.human import human_hour
 from coopera.models.parsing import BadReplyError, read_reply
 from tests.fakes import MARA, FakeHome, moving, placing
@@ -85,7 +84,7 @@ def test_tasks_that_leave_can_be_tried_or_the_hour_fails_with_a_reason(
     @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
     @given(st.data())
     def live(data: Any) -> None:
-        ctx = human_context(make_services(ask=AnyAsk(data.draw), home=home), plan)
+        ctx = make_services(ask=AnyAsk(data.draw), home=home).human(plan)
         try:
             hour = human_hour(graph.invoke(NINE, context=ctx))
         except ModelOutputError:  # the hour's graph records it as failed, with the reason

@@ -1,230 +1,175 @@
-"""The audit of leaks: whatever the person is up to, a robot that sees the same is told the same and says the same.
-
-Two lives are lived that look alike: the same first task, hour by hour. All that is hidden differs: who the person is,
-what they intend, why, and their tasks after the first with their objects. Until the evening, everything that reaches
-the robot must be equal in both.
-"""
+"""Every method is audited: in two lives that look alike it gets the same and does the same (`coopera.checks.leaks`)."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import FrameType, FunctionType
+from typing import Any
 
 import pytest
-from langgraph.runtime import Runtime
 
-import coopera.graphs.hour
 import coopera.graphs.robot
-from coopera.core.hour import DayPlan, Example, Observation, Proposal
-from coopera.core.household import Collab, SceneId
-from coopera.core.people import BigFive, Persona
+from coopera.checks.leaks import Hidden, HiddenLife, Reached, check_no_leak, reached
+from coopera.core.clock import Clock
+from coopera.core.errors import ConformanceError
+from coopera.core.hour import (
+    DayAccount,
+    DayPlan,
+    Example,
+    Found,
+    HourRecord,
+    HumanHour,
+    Intention,
+    IntentionCandidate,
+    Observation,
+    Proposal,
+    Task,
+    TaskCandidate,
+)
+from coopera.core.household import Collab, FreeMotion, HandOver, Outcome, PickPlace, SceneId
+from coopera.core.people import BigFive
 from coopera.evaluation import METHODS
-from coopera.graphs import Services, build_study_graph
-from coopera.graphs.learning import KINDS, Learner
+from coopera.graphs import Method, RobotView, Services
 from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.robot import RobotInput
-from coopera.graphs.services import RobotContext
-from tests.fakes import MARA, ScriptedAsk, TableClassifier, moving, placing, type2_answers
+from coopera.memory import MemoryStream
+from coopera.memory.ram import RamClient
+from tests.fakes import MARA, LetterEmbeddings, ScriptedAsk, TableClassifier, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
-HOURS = 2
-
-
-class Life(NamedTuple):
-    """What cannot be seen of a life."""
-
-    persona: Persona
-    intention: str
-    things: tuple[str, ...]
-    places: tuple[str, ...]
-
-
-BAKER = Life(MARA, "Bake for the village fair", ("spoon", "ladle", "whisk", "fork"), ("stove_1", "sofa_1"))
-POET = Life(
-    MARA.model_copy(
-        update={
-            "name": "Noor",
-            "profile": "I write poems at night.",
-            "notes": "I write poems.",
-            "big_five": BigFive(openness=1.5, neuroticism=4.5),
-        }
-    ),
-    "Write a poem about the rain",
-    ("pen", "notebook", "lamp", "eraser"),
-    ("desk_1", "stove_1"),
-)
-OFTEN = ("ours", "intention_agnostic", "frequency_prior")  # ways of their own; the others leave something out of ours
+HOURS = (9, 10)
 HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "given"]
+NOOR = MARA.model_copy(
+    update={"name": "Noor", "profile": "I write poems.", "notes": "", "big_five": BigFive(openness=1.5)}
+)
 
 
-def tasks(life: Life, collab: Collab) -> list[dict[str, Any]]:
+def baker(collab: Collab = 2) -> Hidden:
+    things = [("spoon", "stove_1"), ("ladle", "sofa_1"), ("whisk", "sofa_1")]
+    return Hidden(MARA, hours("Bake for the village fair", things, collab))
+
+
+def poet(collab: Collab = 2) -> Hidden:
+    """Begins each hour as the baker does; on the first day it is the baker's life."""
+    things = [("pen", "desk_1"), ("notebook", "stove_1"), ("lamp", "stove_1")]
+    return Hidden(NOOR, hours("Write a poem about the rain", things, collab))
+
+
+def hours(intention: str, things: Sequence[tuple[str, str]], collab: Collab) -> dict[tuple[int, int], HumanHour]:
     """A first task that is the same in every life, then what only this one does."""
+    places = {"desk_1": 1, "sofa_1": 2, "stove_1": 3}
+    acts: list[PickPlace | FreeMotion]
     if collab == 1:
-        return [placing("mug_1", "desk_1", 5, 1), *(placing("book_1", place, 4) for place in life.places)]
-    first = moving("stove_1", "pot", "stir a pot", 3)
-    rest = [moving("stove_1", thing, f"stir a pot {thing}", 3) for thing in life.things]
-    return [first, *({**task, "thought": f"To {life.intention}."} for task in rest)]
-
-
-class DayAccount(NamedTuple):
-    """Everything that reached the robot, and everything that it said."""
-
-    prompts: list[Any]
-    judged: list[Example]
-    given: list[Any]
-    said: list[Any]
-
-
-class Listening:
-    """A classifier that writes down what it is asked."""
-
-    def __init__(self, heard: list[Example]) -> None:
-        self._inner = TableClassifier()
-        self._heard = heard
-        self.train, self.save, self.load = self._inner.train, self._inner.save, self._inner.load
-
-    def probabilities(self, examples: Sequence[Example]) -> list[float]:
-        self._heard.extend(examples)
-        return self._inner.probabilities(examples)
-
-
-class Watched:
-    """A robot of one's own that writes down what it is given and what its memories hold."""
-
-    def __init__(self, inner: Any, heard: list[Any]) -> None:
-        self._inner, self._heard = inner, heard
-
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
-        memories = [
-            stream.recall("anything at all", given["clock"].now, 9)
-            for kept in (ctx.history, ctx.guesses)
-            for stream in (kept.intentions, kept.tasks)
-        ]
-        self._heard.append((dict(given), ctx.person, ctx.home.objects("movable"), memories))
-        proposal: Proposal = self._inner.help(given, ctx)
-        return proposal
-
-    def learn(self, told: Any, *, seed: int) -> dict[str, Any]:
-        learned: dict[str, Any] = self._inner.learn(told, seed=seed)
-        return learned
+        acts = [PickPlace(object_id=5, object="mug_1", receptacle_id=1, receptacle="desk_1")]
+        acts += [PickPlace(object_id=4, object="book_1", receptacle_id=places[p], receptacle=p) for _, p in things]
+    else:
+        acts = [FreeMotion(target_id=3, target="stove_1", in_hand="pot", motion="stir a pot")]
+        acts += [FreeMotion(target_id=places[p], target=p, in_hand=thing, motion="stand") for thing, p in things]
+    tasks = [Task(id=f"9.{n}", thought=intention, act=act) for n, act in enumerate(acts, 1)]
+    found = Found(fixed={}, movable={}, motions=[])
+    hour = HumanHour(recalled=[], intention=Intention(text=intention), found=found, tasks=tasks, reflections=[])
+    return {(day, hour_of_day): hour for day in (0, 1) for hour_of_day in HOURS}
 
 
 def live(
     make_services: MakeServices,
     folder: Path,
-    life: Life,
+    hidden: Hidden,
     *,
-    method: str = "ours",
+    method: str | Method = "ours",
     collab: Collab = 2,
-    days: int = 1,
-    **changed: bool,
-) -> DayAccount:
-    """Live some days; return what reached the robot by the last of them, before that day's evening."""
-    answers = type2_answers() | {
-        "human/intention": lambda v: {"intention": life.intention, "reason_human": life.persona.profile},
-        **{f"human/tasks_type{n}": lambda v: {"tasks": tasks(life, collab)} for n in (1, 2)},
-        **{
-            f"human/reflect_{by}_type{n}": lambda v: {
-                "verdicts": [{"yes": True, "reason": life.intention}] * len(tasks(life, collab)),
-                "tasks": tasks(life, collab),
-            }
-            for by in ("profile", "scene")
-            for n in (1, 2)
-        },
-        "robot/tasks_type1": lambda v: {"tasks": [placing("mug_2", "sofa_1", 6, 2)]},
-    }
-    ask, judged, given = ScriptedAsk(answers), list[Example](), list[Any]()
-    services = make_services(ask=ask, method=method, folder=folder, **changed)
-    services = replace(
-        services,
-        people={MARA.id: life.persona},
-        learner=Learner(dict.fromkeys(KINDS, lambda: Listening(judged)), services.recorder),
-    )
-    if own := METHODS[method].own:
-        services = replace(services, own=OwnRobot(lambda: Watched(own(), given), services.recorder))
-    # in type 1 the person's tasks move what the robot then sees; so that a day is looked at for one hour
-    hours = [9 + n for n in range(HOURS if collab == 2 else 1)]
-    schedule = [
-        DayPlan(day=day, episode_day=day, person=MARA.id, scene=SceneId("toy"), hours=hours, collab=collab)
-        for day in range(days)
+    before: Hidden | None = None,
+    **changed: Any,
+) -> Reached:
+    answers = type2_answers()
+    answers["robot/tasks_type1"] = lambda v: {"tasks": [placing("mug_2", "sofa_1", 6, 2)]}
+    services = make_services(ask=ScriptedAsk(answers), folder=folder, **changed)
+    services = replace(services, stream=streams_in_ram())
+    method = METHODS[method] if isinstance(method, str) else method
+    own = OwnRobot(method.own, services.recorder) if method.own else None
+    services = replace(services, method=method, own=own)
+    if method.judge:
+        fresh = {kind: lambda kind=kind: method.judge(kind) for kind in services.learner.fresh}  # type: ignore[misc]
+        services = replace(services, learner=replace(services.learner, fresh=fresh))
+    days = [
+        DayPlan(day=day, episode_day=day, person=MARA.id, scene=SceneId("toy"), hours=list(HOURS), collab=collab)
+        for day in (0, 1)
     ]
-    build_study_graph().invoke({"schedule": schedule}, context=services)
-    prompts = sorted(
-        (
-            (prompt, at, variables)
-            for prompt, at, variables in ask.asked
-            if prompt.startswith("robot/") and not variables.get("evening")
-        ),
-        key=lambda asked: asked[:2],  # tasks are imagined in threads, in any order
-    )
-    lived = [hour.robot for hour in services.recorder.read_day(days - 1)]
-    assert len(lived) == len(hours)
-    assert all(lived)
-    said = [
-        robot.model_copy(update={"tasks": [t.model_copy(update={"correct": None}) for t in robot.tasks]})
-        for robot in lived
-        if robot
-    ]
-    return DayAccount(prompts, judged, given, said)
+    return reached(services, days, before or baker(collab), hidden)
+
+
+def streams_in_ram() -> Callable[[str], MemoryStream]:
+    client, opened = RamClient(), dict[str, MemoryStream]()
+
+    def stream(name: str) -> MemoryStream:
+        if name not in opened:
+            opened[name] = MemoryStream.open(client, name, LetterEmbeddings())
+        return opened[name]
+
+    return stream
+
+
+def audit(make_services: MakeServices, folder: Path, **options: Any) -> tuple[Reached, Reached]:
+    collab: Collab = options.get("collab", 2)
+    one, other = (live(make_services, folder / str(n), life(collab), **options) for n, life in enumerate((baker, poet)))
+    return one, other
 
 
 @pytest.mark.parametrize("collab", [1, 2])
-@pytest.mark.parametrize(
-    "method", [name if name in OFTEN else pytest.param(name, marks=pytest.mark.slow) for name in HIDING]
-)
-def test_before_the_evening_nothing_that_was_not_seen_reaches_the_robot(
+@pytest.mark.parametrize("method", HIDING)
+def test_nothing_that_was_not_seen_reaches_the_robot(
     make_services: MakeServices, tmp_path: Path, method: str, collab: Collab
 ) -> None:
-    one, other = (
-        live(make_services, tmp_path / name, life, method=method, collab=collab)
-        for name, life in (("baker", BAKER), ("poet", POET))
-    )
-    assert one.prompts or one.given
-    assert one == other
+    one, other = audit(make_services, tmp_path, method=method, collab=collab)
+    assert one.prompts or one.views
+    assert len(one.did) == len(HOURS)
+    check_no_leak(one, other, method)
 
 
 def test_traits_inferred_hour_by_hour_rest_on_the_robots_own_guesses_alone(
     make_services: MakeServices, tmp_path: Path
 ) -> None:
-    one, other = (
-        live(make_services, tmp_path / name, life, hourly_traits=True) for name, life in (("a", BAKER), ("b", POET))
-    )
-    [(_, _, variables)] = [asked for asked in one.prompts if asked[0] == "robot/traits"]
+    one, other = audit(make_services, tmp_path, hourly_traits=True)
+    [variables] = [variables for _, (prompt, _, variables, _) in one.prompts if prompt == "robot/traits"]
     assert [memory["text"] for memory in variables["intentions"]] == ["Cook a meal"]
-    assert one == other
-    assert [robot.belief.profile for robot in one.said] == [None, "Cooks a lot."]
+    check_no_leak(one, other, "ours")
 
 
-def test_the_audit_sees_what_an_oracle_is_told_and_what_every_robot_is_told_in_the_evening(
-    make_services: MakeServices, tmp_path: Path
+def test_the_audit_hears_what_an_oracle_is_told(make_services: MakeServices, tmp_path: Path) -> None:
+    one, other = audit(make_services, tmp_path, method="oracle")
+    with pytest.raises(ConformanceError, match="oracle: .* what its language model was asked at 9:00"):
+        check_no_leak(one, other, "oracle")
+
+
+@pytest.mark.parametrize("method", ["ours", "frequency_prior"])
+def test_the_audit_hears_what_is_told_in_the_evening_before(
+    make_services: MakeServices, tmp_path: Path, method: str
 ) -> None:
-    for method, days in (("oracle", 1), ("ours", 2), ("frequency_prior", 2)):
-        one, other = (
-            live(make_services, tmp_path / method / str(n), life, method=method, days=days)
-            for n, life in enumerate((BAKER, POET))
-        )
-        assert one != other
+    one, other = (
+        live(make_services, tmp_path / str(n), baker(), before=life(), method=method)
+        for n, life in enumerate((baker, poet))
+    )
+    assert one.difference(other)
 
 
-Leak = Callable[[Services, coopera.graphs.hour.HourState, Observation], Observation]
+Leak = Callable[[Services, DayPlan, Clock, HumanHour, Observation], Observation]
 
 
-def in_words(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
-    return seen.model_copy(update={"first_task": state["human"].intention.text})
+def in_words(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
+    return seen.model_copy(update={"first_task": human.intention.text})
 
 
-def in_the_percept(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
+def in_the_percept(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
     assert seen.percept is not None
-    thing = state["human"].tasks[1].act.describe().split("with the ")[-1]
+    thing = human.tasks[1].act.describe().split("with the ")[-1]
     return seen.model_copy(update={"percept": seen.percept.model_copy(update={"in_hand": thing})})
 
 
-def in_memory(services: Services, state: coopera.graphs.hour.HourState, seen: Observation) -> Observation:
-    plan = state["plan"]
+def in_memory(services: Services, plan: DayPlan, clock: Clock, human: HumanHour, seen: Observation) -> Observation:
     memories = services.memories("guesses", plan.episode, plan.person)
-    memories.add("A guess", [state["human"].tasks[2].act.describe()], plan.clock(state["position"]).now - 1)
+    memories.add("A guess", [human.tasks[2].act.describe()], clock.now - 1)
     return seen
 
 
@@ -232,15 +177,14 @@ def in_memory(services: Services, state: coopera.graphs.hour.HourState, seen: Ob
 def test_the_audit_finds_the_truth_where_it_is_let_through(
     make_services: MakeServices, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, leak: Leak
 ) -> None:
-    sound = coopera.graphs.hour.demonstrate
+    class Leaky(HiddenLife):
+        def show(self, services: Services, plan: DayPlan, clock: Clock, first: Task) -> tuple[Observation, Outcome]:
+            seen, outcome = super().show(services, plan, clock, first)
+            return leak(services, plan, clock, self.decide(services, plan, clock), seen), outcome
 
-    def leaky(state: coopera.graphs.hour.HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-        update = sound(state, runtime)
-        return update | {"observation": leak(runtime.context, state, update["observation"])}
-
-    monkeypatch.setattr(coopera.graphs.hour, "demonstrate", leaky)
-    one, other = (live(make_services, tmp_path / str(n), life) for n, life in enumerate((BAKER, POET)))
-    assert one.prompts != other.prompts
+    monkeypatch.setattr("coopera.checks.leaks.HiddenLife", Leaky)
+    one, other = audit(make_services, tmp_path)
+    assert one.difference(other) == "what its language model was asked at 9:00"
 
 
 def test_the_audit_finds_the_truth_in_what_a_classifier_reads(
@@ -248,13 +192,128 @@ def test_the_audit_finds_the_truth_in_what_a_classifier_reads(
 ) -> None:
     sound = coopera.graphs.robot.example
     found = []
-    for life in (BAKER, POET):
+    for n, life in enumerate((baker(), poet())):
 
-        def leaky(*args: Any, life: Life = life, **fields: Any) -> Example:
-            return sound(*args, **fields).model_copy(update={"tasks": [life.things[0]]})
+        def leaky(*args: Any, life: Hidden = life, **fields: Any) -> Example:
+            return sound(*args, **fields).model_copy(update={"tasks": [life.hours[1, 9].intention.text]})
 
         monkeypatch.setattr(coopera.graphs.robot, "example", leaky)
-        found.append(live(make_services, tmp_path / life.intention, life))
+        found.append(live(make_services, tmp_path / str(n), life))
     one, other = found
-    assert one.prompts == other.prompts
-    assert one.judged != other.judged
+    assert one.difference(other) == "what its classifiers were shown at 9:00"
+
+
+def truth_on_the_stack() -> HumanHour:
+    """What the person hides, from the hour that is being lived."""
+    frame: FrameType | None = sys._getframe()
+    while frame is not None:
+        state = frame.f_locals.get("state")
+        if isinstance(state, dict) and "human" in state:
+            human: HumanHour = state["human"]
+            return human
+        frame = frame.f_back
+    raise AssertionError("nobody lives an hour")
+
+
+class Peeker:
+    """Offers what it finds out, and nothing else."""
+
+    def peek(self, view: RobotView) -> str:
+        """What cannot be known."""
+        raise NotImplementedError
+
+    def help(self, view: RobotView) -> Proposal:
+        return Proposal(intentions=[IntentionCandidate(text=self.peek(view), accepted=True)])
+
+    def learn(self, account: DayAccount, /, *, seed: int) -> dict[str, Any]:
+        return {}
+
+
+class ReadsTheStack(Peeker):
+    """Looks at who called it."""
+
+    def peek(self, view: RobotView) -> str:
+        return truth_on_the_stack().intention.text
+
+
+class ReadsTheRun(Peeker):
+    """Goes from the pictures that it is shown to the trace of the hour before."""
+
+    def peek(self, view: RobotView) -> str:
+        trace = next(folder for folder in view.pictures[0].parents if folder.name == "frames").parent / "trace"
+        hours = [HourRecord.model_validate_json(path.read_text()) for path in sorted(trace.glob("day-01/*.json"))]
+        return " ".join(["They wanted to", *(hour.human.intention.text for hour in hours if hour.human)])
+
+
+class WeighsTheTruth(Peeker):
+    """Says in all lives the same words, and lets the truth decide how sure it is."""
+
+    def help(self, view: RobotView) -> Proposal:
+        sure = len(truth_on_the_stack().tasks[1].act.describe()) / 1000
+        return Proposal(intentions=[IntentionCandidate(text="Something", probability=sure, accepted=True)])
+
+
+class BringsTheTruth(Peeker):
+    """Does what it cannot know to be of use."""
+
+    def help(self, view: RobotView) -> Proposal:
+        act = truth_on_the_stack().tasks[1].act
+        assert isinstance(act, FreeMotion)
+        task = TaskCandidate(intention="It", thought="", act=HandOver(object=act.in_hand), accepted=True)
+        return Proposal(intentions=[IntentionCandidate(text="It", accepted=True)], tasks=[task])
+
+
+@pytest.mark.parametrize(
+    ("robot", "hour"), [(ReadsTheStack, 9), (ReadsTheRun, 10), (WeighsTheTruth, 9), (BringsTheTruth, 9)]
+)
+def test_a_robot_that_peeks_is_caught_by_what_it_does(
+    make_services: MakeServices, tmp_path: Path, robot: type[Peeker], hour: int
+) -> None:
+    one, other = audit(make_services, tmp_path, method=Method(name="peeker", own=robot), frames=1)
+    with pytest.raises(ConformanceError, match=f"peeker: in two lives that look alike, what it did at {hour}:00"):
+        check_no_leak(one, other, "peeker")
+
+
+def test_a_classifier_that_peeks_is_caught_by_what_the_robot_does(make_services: MakeServices, tmp_path: Path) -> None:
+    class Peeking(TableClassifier):
+        def probabilities(self, examples: Sequence[Example]) -> list[float]:
+            return [float("poem" in truth_on_the_stack().intention.text)] * len(examples)
+
+    method = Method(name="peeking", judge=lambda kind: Peeking())
+    one, other = audit(make_services, tmp_path, method=method)
+    assert one.difference(other) == "what its language model was asked at 9:00"
+    assert one.did != other.did
+
+
+def test_nothing_of_the_hour_hangs_on_a_view(make_services: MakeServices, tmp_path: Path) -> None:
+    """Nothing public or private that a view's objects hold leads to the person, the home's state or their files."""
+    held: list[str] = []
+
+    class Walker(Peeker):
+        def help(self, view: RobotView) -> Proposal:
+            held.extend(sorted({type(one).__module__ for one in reachable(view)}))
+            return Proposal()
+
+    live(make_services, tmp_path, poet(), method=Method(name="walker", own=Walker))
+    ours = {module for module in held if module.startswith(("coopera", "tests"))}
+    assert ours == {"coopera.core.clock", "coopera.core.hour", "coopera.core.household", "coopera.core.people"} | {
+        "coopera.graphs.robot_view"
+    }
+
+
+def reachable(thing: Any) -> list[Any]:
+    """What attributes and items lead to; what a function closes over is left out, since Python hides nothing there."""
+    found, ahead = dict[int, Any](), [thing]
+    while ahead:
+        one = ahead.pop()
+        if id(one) in found or isinstance(one, (str, int, float, type(None))):
+            continue
+        found[id(one)] = one
+        if isinstance(one, dict):
+            ahead += [*one.keys(), *one.values()]
+        elif isinstance(one, (list, tuple, set)):
+            ahead += one
+        names = [name for kind in type(one).__mro__ for name in getattr(kind, "__slots__", ())]
+        if not isinstance(one, (FunctionType, type)):
+            ahead += [getattr(one, name) for name in [*names, *getattr(one, "__dict__", {})] if hasattr(one, name)]
+    return list(found.values())

@@ -6,12 +6,11 @@ from typing import Any
 
 import pytest
 
-from coopera.core.errors import CooperaError, RunError
+from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import HandOver, PickPlace
-from coopera.graphs import Method, RobotContext, Services
+from coopera.graphs import Method, RobotView, Services
 from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.robot import RobotInput
 from tests.graphs.conftest import MakeServices
 from tests.graphs.test_day import run_study
 
@@ -22,7 +21,7 @@ class Copycat:
     def __init__(self) -> None:
         self.liked: list[str] = []
 
-    def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+    def help(self, view: RobotView) -> Proposal:
         things = self.liked or ["whisk", "novel"]
         return Proposal(
             intentions=[IntentionCandidate(text="Do as ever", accepted=False)],
@@ -138,8 +137,18 @@ def test_a_proposal_that_breaks_a_rule_ends_the_run_with_its_reason(
     make_services: MakeServices, task: TaskCandidate, why: str
 ) -> None:
     class Rude(Copycat):
-        def help(self, given: RobotInput, ctx: RobotContext) -> Proposal:
+        def help(self, view: RobotView) -> Proposal:
             return Proposal(tasks=[task])
 
     with pytest.raises(RunError, match=f"method own: .*{why}"):
         run_study(services_with(make_services, Rude), n=1)
+
+
+def test_a_robot_whose_help_takes_anything_but_the_view_is_refused_before_it_helps(make_services: MakeServices) -> None:
+    class Older(Copycat):
+        def help(self, given: object, ctx: object) -> Proposal:  # type: ignore[override]
+            return Proposal()
+
+    wanted = r"Older\.help must take the RobotView alone, help\(self, view\), not \(given: 'object', ctx: 'object'\)"
+    with pytest.raises(ConfigError, match=wanted):
+        services_with(make_services, Older)

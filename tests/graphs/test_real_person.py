@@ -19,6 +19,8 @@ from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
 from coopera.graphs import STATE_TYPES, Services, build_study_graph
 from coopera.graphs.real_person import Verdict, read_choice, read_intention, read_steps, read_verdicts
+from coopera.graphs.simulated import Simulated
+from coopera.graphs.stated import Interviewed, Logged
 from coopera.graphs.study import waiting
 from tests.fakes import MARA, FakeHome, ScriptedAsk, moving, type2_answers
 from tests.graphs.conftest import MakeServices
@@ -61,10 +63,12 @@ def live(
     return questions
 
 
-def services_in_the_loop(make_services: MakeServices, folder: Path, **options: Any) -> Services:
+def services_in_the_loop(
+    make_services: MakeServices, folder: Path, *, graded: bool = False, **options: Any
+) -> Services:
     answers = type2_answers()
     answers["human/tasks_type2"] = lambda v: {"tasks": [moving("stove_1", "spoon", step, 3) for step in v["steps"]]}
-    return make_services(ask=ScriptedAsk(answers), folder=folder, in_the_loop=True, **options)
+    return make_services(ask=ScriptedAsk(answers), folder=folder, player=Interviewed(graded), **options)
 
 
 def test_the_person_is_asked_for_intention_tasks_and_in_the_evening_for_feedback(
@@ -154,7 +158,7 @@ def test_a_simulated_person_grades_too(make_services: MakeServices) -> None:
     answers = type2_answers()
     answers["human/grade_intentions"] = lambda v: {"grades": [{"grade": 4, "reason": "near"}] * len(v["guesses"])}
     answers["human/grade_tasks"] = lambda v: {"grades": [{"grade": 2}] * len(v["offers"])}
-    services = make_services(ask=ScriptedAsk(answers), graded=True)
+    services = make_services(ask=ScriptedAsk(answers), player=Simulated(graded=True))
     build_study_graph().invoke({"schedule": [DAY]}, context=services)
     feedback = services.recorder.evenings[0].feedback  # type: ignore[attr-defined]
     assert {(item.kind, item.grade, item.helpful) for item in feedback} == {("intention", 4, True), ("task", 2, False)}
@@ -166,7 +170,7 @@ def test_of_a_logged_hour_the_model_only_decomposes(make_services: MakeServices)
         10: LoggedHour(day=0, hour=10, intention="Cook"),
     }
     ask = ScriptedAsk(type2_answers())
-    services = make_services(ask=ask, method="none", logged=lambda plan, clock: log[clock.hour])
+    services = make_services(ask=ask, method="none", player=Logged(lambda plan, clock: log[clock.hour]))
     build_study_graph().invoke({"schedule": [DAY]}, context=services)
     first, second = (hour.human for hour in services.recorder.read_day(0))
     assert first is not None

@@ -1,20 +1,23 @@
 from __future__ import annotations
 
 import asyncio
-import inspect
+import dataclasses
 import threading
-from typing import Any, get_type_hints
+from typing import Any
 
 import pytest
 
 from coopera.core.clock import Clock
-from coopera.core.errors import ModelOutputError
+from coopera.core.errors import ModelOutputError, RunError
 from coopera.core.hour import DayPlan, Example, Observation
 from coopera.core.household import Percept, SceneId
 from coopera.core.people import Belief, BigFive
-from coopera.graphs import RobotContext, build_robot_graph
-from coopera.graphs.hour import robot_context
-from coopera.graphs.robot import RobotInput, robot_hour
+from coopera.core.randomness import Address
+from coopera.core.replies import IntentionReply
+from coopera.graphs import RobotContext, RobotView, build_robot_graph
+from coopera.graphs.hour import robot_view
+from coopera.graphs.robot import robot_hour
+from coopera.graphs.robot_view import HomeView
 from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -23,14 +26,15 @@ SEEN = Observation(percept=Percept(room="kitchen", near=["stove_1"], motion="sti
 KNOWN = Belief(big_five=BigFive(openness=4), profile="Cooks a lot.")
 
 
-def robot(make_services: MakeServices, collab: int = 2, **options: Any) -> RobotContext:
+def robot(make_services: MakeServices, collab: int = 2, seen: Observation = SEEN, **options: Any) -> RobotContext:
     plan = DayPlan(day=1, episode_day=1, person=MARA.id, scene=SceneId("toy"), hours=[10], collab=collab)  # type: ignore[arg-type]
-    return robot_context(make_services(**options), plan)
+    services = make_services(**options)
+    view = robot_view(services, plan, TEN, seen, KNOWN, MARA.id)
+    return RobotContext(view, services.home(plan.scene), services.method, services.learner)
 
 
-def watch(ctx: RobotContext, seen: Observation = SEEN, belief: Belief = KNOWN) -> Any:
-    given = RobotInput(clock=TEN, observation=seen, belief=belief)
-    return robot_hour(build_robot_graph().invoke(given, context=ctx))  # type: ignore[arg-type]
+def watch(ctx: RobotContext) -> Any:
+    return robot_hour(build_robot_graph().invoke({}, context=ctx), ctx.view.observation)  # type: ignore[arg-type]
 
 
 def test_the_nodes_are_those_of_the_design() -> None:
@@ -67,10 +71,10 @@ def test_graphs_can_be_awaited_side_by_side_with_the_results_of_each_alone(make_
     contexts = [robot(make_services, ask=ScriptedAsk(answers)) for _ in range(4)]
 
     async def live() -> list[Any]:
-        graph, given = build_robot_graph(), RobotInput(clock=TEN, observation=SEEN, belief=KNOWN)
-        return await asyncio.gather(*(graph.ainvoke(given, context=ctx) for ctx in contexts))  # type: ignore[arg-type]
+        graph = build_robot_graph()
+        return await asyncio.gather(*(graph.ainvoke({}, context=ctx) for ctx in contexts))
 
-    assert [robot_hour(state) for state in asyncio.run(live())] == [watch(robot(make_services))] * 4
+    assert [robot_hour(state, SEEN) for state in asyncio.run(live())] == [watch(robot(make_services))] * 4
 
 
 def test_a_thing_imagined_for_two_intentions_counts_once_for_the_likelier(make_services: MakeServices) -> None:
@@ -144,9 +148,10 @@ def test_an_unreadable_superset_of_intentions_ends_the_hour(make_services: MakeS
 def test_it_recalls_what_it_was_told_of_earlier_days_and_what_it_guessed_today(make_services: MakeServices) -> None:
     ask = ScriptedAsk(type2_answers())
     ctx = robot(make_services, ask=ask)
-    ctx.history.add("Bake bread", ["knead dough"], now=10)
-    ctx.guesses.add("A wrong guess of yesterday", [], now=10)
-    ctx.guesses.add("Tidy the home", [], now=24 + 9)
+    history, guesses = (make_services().memories(kept, 0, MARA.id) for kept in ("history", "guesses"))
+    history.add("Bake bread", ["knead dough"], now=10)
+    guesses.add("A wrong guess of yesterday", [], now=10)
+    guesses.add("Tidy the home", [], now=24 + 9)
     hour = watch(ctx)
     assert {m.text for m in hour.recalled} == {"Bake bread", "knead dough", "Tidy the home"}
     [variables] = ask.variables_of("robot/intentions")
@@ -157,7 +162,7 @@ def test_without_traits_and_context_neither_prompts_nor_classifiers_see_them(mak
     for method, absent in (("no_traits", ("profile", "big_five")), ("no_context", ("recalled_intentions",))):
         ask = ScriptedAsk(type2_answers())
         ctx = robot(make_services, ask=ask, method=method)
-        ctx.history.add("Bake bread", [], now=10)
+        make_services().memories("history", 0, MARA.id).add("Bake bread", [], now=10)
         watch(ctx)
         [variables] = ask.variables_of("robot/intentions")
         assert not any(variables[name] for name in absent)
@@ -175,22 +180,46 @@ def test_in_type_1_the_robot_is_given_the_first_task_in_words_and_may_use_what_c
     answers = type2_answers()
     answers["robot/tasks_type1"] = lambda v: {"tasks": [placing("mug_1", "desk_1", 5, 1)]}
     ask = ScriptedAsk(answers)
-    ctx = robot(make_services, collab=1, ask=ask)
-    watch(ctx, SEEN.model_copy(update={"first_task": "put the mug on the stove"}))
+    seen = SEEN.model_copy(update={"first_task": "put the mug on the stove"})
+    watch(robot(make_services, collab=1, seen=seen, ask=ask))
     variables = ask.variables_of("robot/tasks_type1")[0]
     assert variables["first_task"] == "put the mug on the stove"
     assert variables["movable"] == FakeHome().movable
 
 
-def test_nothing_true_about_the_hour_is_an_input_of_the_robot() -> None:
-    """These are the robot's input and services, and none of their types holds the truth; see also test_leaks.py."""
-    assert set(get_type_hints(RobotInput)) == {"clock", "observation", "belief"}
+def test_nothing_true_about_the_hour_is_in_what_a_robot_may_know() -> None:
+    """None of these types holds the truth; see also test_leaks.py."""
+    assert [field.name for field in dataclasses.fields(RobotView)] == [
+        *("clock", "observation", "pictures", "person", "belief", "collab", "home", "history", "guesses"),
+        *("ask", "looks"),
+    ]
     assert set(Observation.model_fields) == {"frames", "percept", "first_task"}
-    services = inspect.get_annotations(RobotContext)
-    assert set(services) == {
-        *("ask", "person", "collab", "method", "home", "history", "guesses", "learner", "own", "images", "agent"),
-    }
-    assert "Persona" not in " ".join(map(str, services.values()))
+
+
+def test_a_robot_looks_at_the_home_and_neither_acts_in_it_nor_reads_its_state(make_services: MakeServices) -> None:
+    view = robot(make_services).view.home
+    assert (view.rooms, view.motions) == (FakeHome.rooms, FakeHome.motions)
+    assert view.objects("fixed") == FakeHome().fixed
+    assert view.objects("movable") == FakeHome().movable
+    assert [view.class_of(name) for name in ("mug_2", "no_such_thing")] == ["mug", "no_such_thing"]
+    public = {name for name in dir(HomeView) if not name.startswith("_")}
+    assert public == {"classes", "class_of", "fixed", "motions", "movable", "objects", "of", "rooms", "scene"}
+
+
+def test_a_robot_asks_with_its_own_prompts_alone(make_services: MakeServices) -> None:
+    ask = robot(make_services).view.ask
+    with pytest.raises(RunError, match=r"human/intention: a robot asks prompts of its own role alone \(robot/intent"):
+        ask("human/intention", IntentionReply, at=Address(MARA.id, 1, 10, "peek"), variables={})
+    assert not hasattr(ask, "take_calls")
+
+
+def test_a_robot_reads_its_memories_and_writes_none(make_services: MakeServices) -> None:
+    view = robot(make_services).view
+    make_services().memories("history", 0, MARA.id).add("Bake bread", ["knead dough"], now=10)
+    assert [one.text for one in view.history.tasks.recall("dough", 34, 3)] == ["knead dough"]
+    assert [one.text for one in view.history.intentions.records(since=5)] == ["Bake bread"]
+    for kept in (*view.history, *view.guesses):
+        assert {name for name in dir(kept) if not name.startswith("_")} == {"of", "recall", "records"}
 
 
 def _labelled(candidate: str, yes: bool) -> Example:

@@ -202,12 +202,13 @@ def test_repair_wants_a_store_that_nobody_uses_and_the_right_embeddings(store: P
 
 @pytest.mark.slow
 def test_the_bundled_embeddings_are_found_by_their_name(tmp_path: Path) -> None:
-    with MemoryStream.open(tmp_path / "m", "x", bundled(tmp_path / "cache.sqlite")) as stream:
+    cache = tmp_path / "cache.sqlite"
+    with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         stream.add(["make tea", "read"], 0)
         expected = stream.recall("drink", 1, 2)
     sql("UPDATE embedding_metadata SET int_value = 1 WHERE key = 'vector_sum' AND id = 1")(tmp_path / "m")
     assert repair(tmp_path / "m") == [Repaired("x", 2, 0, 0)]
-    with MemoryStream.open(tmp_path / "m", "x", bundled(tmp_path / "cache.sqlite")) as stream:
+    with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         assert stream.recall("drink", 1, 2) == expected
 
 

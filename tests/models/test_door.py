@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import json
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -340,13 +341,19 @@ def test_calls_of_parallel_draws_come_out_in_the_order_of_the_draws() -> None:
     assert door.take_calls() == []
 
 
+@pytest.fixture
+def cache(tmp_path: Path) -> Iterator[ReplyCache]:
+    with closing(ReplyCache(tmp_path / "c")) as opened:
+        yield opened
+
+
 def test_the_cache_answers_what_was_asked_before(tmp_path: Path) -> None:
     path = tmp_path / "llm_cache.sqlite"
     usage = {"input_tokens": 10, "output_tokens": 2, "total_tokens": 12}
     door, _ = door_to("no", AIMessage(content=YES, usage_metadata=usage), cache=ReplyCache(path))
-    fresh = ask(door)
     again, model = door_to(cache=ReplyCache(path))
-    assert ask(again) == fresh
+    with closing(door), closing(again):
+        assert ask(door) == ask(again)
     assert model.asked == []
     (before,), (after,) = door.take_calls(), again.take_calls()
     assert (before.cached, after.cached) == (False, True)
@@ -354,10 +361,9 @@ def test_the_cache_answers_what_was_asked_before(tmp_path: Path) -> None:
     assert before.model_copy(update=same) == after.model_copy(update=same)
 
 
-def test_the_cache_tells_apart_what_decides_a_reply(tmp_path: Path) -> None:
+def test_the_cache_tells_apart_what_decides_a_reply(tmp_path: Path, cache: ReplyCache) -> None:
     picture = tmp_path / "a.png"
     picture.write_bytes(b"one")
-    cache = ReplyCache(tmp_path / "c")
     door, model = door_to(*[YES] * 7, cache=cache, sees=True)
     ask(door)
     ask(door, say="Judge again!")
@@ -372,8 +378,7 @@ def test_the_cache_tells_apart_what_decides_a_reply(tmp_path: Path) -> None:
     assert len(model.asked) == 6
 
 
-def test_a_call_that_failed_is_not_cached(tmp_path: Path) -> None:
-    cache = ReplyCache(tmp_path / "c")
+def test_a_call_that_failed_is_not_cached(cache: ReplyCache) -> None:
     door, _ = door_to("no", cache=cache, attempts=1)
     with pytest.raises(ModelOutputError):
         ask(door)
@@ -382,8 +387,8 @@ def test_a_call_that_failed_is_not_cached(tmp_path: Path) -> None:
     assert len(model.asked) == 1
 
 
-def test_the_offline_kind_is_never_cached(tmp_path: Path) -> None:
-    door, model = door_to(YES, YES, reads_variables=True, cache=ReplyCache(tmp_path / "c"))
+def test_the_offline_kind_is_never_cached(cache: ReplyCache) -> None:
+    door, model = door_to(YES, YES, reads_variables=True, cache=cache)
     ask(door)
     ask(door)
     assert len(model.asked) == 2

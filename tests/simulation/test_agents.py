@@ -254,7 +254,7 @@ def test_an_unknown_agent_is_one_sentence(home, ask, sentence) -> None:
         ([], "needs at least one agent"),
         ([PersonAgent(), PersonAgent()], "'human' is used more than once"),
         ([PersonAgent("Ana B.")], "not 'Ana B.'"),
-        ([RobotAgent("a", "tractor")], "There is no robot 'tractor'"),
+        ([RobotAgent("a", "tractor")], "there is no robot 'tractor'"),
     ],
 )
 def test_agents_that_cannot_live_in_a_home_are_refused_in_a_sentence(agents, sentence) -> None:

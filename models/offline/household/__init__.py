@@ -1,4 +1,4 @@
-"""What both sides of the offline model share: the household knowledge file, reading of variables, and similarity.
+"""The common sense of the offline person, robot and judge: the household file, the reading of variables, similarity.
 
 Nothing here is about a particular person.
 """

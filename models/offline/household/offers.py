@@ -1,4 +1,4 @@
-"""What is offered and what is needed, read from the words or the data of tasks. Shared common sense."""
+"""The things in task candidates and in tasks, read from their words or their data. Shared common sense."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Want(NamedTuple):
 
 
 def wants(items: Sequence[Any]) -> list[Want]:
-    """Read tasks or offers, from their act where it is given and else from their words."""
+    """Read tasks or task candidates, from their act where it is given and else from their words."""
     return [_want(item) for item in items]
 
 

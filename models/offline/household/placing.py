@@ -59,8 +59,8 @@ def makeshift_places(
 ) -> list[Placement]:
     """Return placements for a home that lacks the usual objects, the most fitting first.
 
-    First come the things that the activity knows, then those most like them; each goes where somebody puts it in some
-    activity rather than where nobody does, and sooner to a spot that the activity knows or that is like one.
+    The activity's own things come first, then the things most like them. For each thing, the usual spots of any
+    activity come before unusual ones. Among these, the spots most like the activity's own come first.
     """
     known = {thing for thing, _ in activity.places}
     things = _by_fit(sense, movable.pieces, [thing for thing, _ in activity.places])[:12]

@@ -84,7 +84,7 @@ def hour_of(label: str) -> int:
 
 
 def said(item: Any) -> str:
-    """Return the words of a memory, task, offer or guess, whether it is plain text or data."""
+    """Return the words of a memory, a task or a candidate, whether it is plain text or data."""
     if not isinstance(item, Mapping):
         return str(item)
     for field in ("text", "intention", "thought"):

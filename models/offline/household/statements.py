@@ -1,4 +1,4 @@
-"""Sentences of a self-description: which speak for a habit, which against one, and which of other people."""
+"""The sentences of a self-description, sorted: for a habit, against a habit, about other people."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ class Statements(NamedTuple):
 def statements(text: str) -> Statements:
     """Sort the sentences of a self-description.
 
-    This is done by a few words, not by understanding: "not", "hate" and the like make an aversion of the
-    whole sentence, and a sentence about a relative in which no "I" occurs is about that relative.
+    A few words decide, not understanding. "not", "hate" and the like make the whole sentence an aversion. A sentence
+    with a relative and without "I" is about the relative.
     """
     result = Statements([], [], [])
     for sentence in sentences(text):

@@ -1,4 +1,4 @@
-"""The offline model as the person: who they are, what they choose, how they do it, and what they answer in the evening.
+"""The offline model as the person: character, choices, tasks, reflection, and the evening's feedback.
 
-The robot's and the judge's side cannot reach this room; a test walks the imports to see that.
+The robot's and the judge's side cannot reach this room; a test walks the imports to prove it.
 """

@@ -1,8 +1,7 @@
 """What is private to a person: likings, own hours, favourite things. Only the person's side may import this.
 
-All of it is a deterministic function of the profile text, the Big Five and the person's id: the text and the
-traits say which activities draw the person; what no text says (a liking without reason, the hour that became a
-habit, the favourite mug) is drawn once, from the id.
+The profile text, the Big Five and the person's id determine all of it. The text and the traits say which activities
+attract the person. The id seeds the rest: a liking without reason, the habitual hour, the favourite mug.
 """
 
 from __future__ import annotations
@@ -85,8 +84,8 @@ class PrivateLife:
     def motion(self, activity: Activity, thing: str, spots: Collection[str], rng: np.random.Generator) -> str:
         """Choose the motion for a thing: the common one, or another of the activity's that looks like it.
 
-        It is one that people make with that thing, and that can be made at one of the classes of furniture, if there is
-        any. Which of them is a habit of this person's own; now and then it is another.
+        Only motions for this thing at these classes of furniture are in question; without any, the common one is taken.
+        Each person has a habitual motion, and now and then makes another.
         """
         household, common = self._sense.household, activity.things[thing]
         looks = household.looks_like

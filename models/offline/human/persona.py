@@ -1,4 +1,4 @@
-"""From a published persona to a fuller life: what the person said, and for what was left open something that fits."""
+"""From a published persona to a fuller profile: the person's own statements, and fitting ones for the open sides."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The person's evening: yes or no, or a grade, with a reason, to what the robot guessed and offered."""
+"""The person's feedback in the evening: yes or no, or a grade, with a reason, to each of the robot's candidates."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ HELPS = 0.6  # PAPER §4.3: similarity from which a thing serves as well as the 
 
 
 def feedback_intentions(sense: CommonSense, variables: Mapping[str, Any]) -> VerdictsReply:
-    """Answer human/feedback_intentions: was the guess what I was up to, in these words or others?"""
+    """Answer human/feedback_intentions: is the candidate my intention, in these words or others?"""
     return VerdictsReply(
         verdicts=[VerdictReply(yes=g.grade >= SERVES, reason=g.reason) for g in _guesses(sense, variables)]
     )
 
 
 def feedback_tasks(sense: CommonSense, variables: Mapping[str, Any]) -> VerdictsReply:
-    """Answer human/feedback_tasks: would the offer have helped with one of the tasks that were left?"""
+    """Answer human/feedback_tasks: would the candidate have helped with one of the remaining tasks?"""
     return VerdictsReply(
         verdicts=[VerdictReply(yes=g.grade >= SERVES, reason=g.reason) for g in _offers(sense, variables)]
     )
 
 
 def grade_intentions(sense: CommonSense, variables: Mapping[str, Any]) -> GradesReply:
-    """Answer human/grade_intentions: how near did the guess come to what I was up to?"""
+    """Answer human/grade_intentions: how near is the candidate to my intention?"""
     return GradesReply(grades=_guesses(sense, variables))
 
 
 def grade_tasks(sense: CommonSense, variables: Mapping[str, Any]) -> GradesReply:
-    """Answer human/grade_tasks: how much would the offer have helped?"""
+    """Answer human/grade_tasks: how much would the candidate have helped?"""
     return GradesReply(grades=_offers(sense, variables))
 
 

@@ -1,1 +1,4 @@
-"""The offline model as the robot: what it guesses from what it saw and was told, and what it believes of the person."""
+"""The offline model as the robot: candidates from percept, memories and belief, and the evening's inference of traits.
+
+It knows the household file, but no person: the room `human` is out of its reach.
+"""

@@ -25,8 +25,8 @@ _PARTS = (("morning", 0, 12), ("afternoon", 12, 18), ("evening", 18, 24))
 def infer(sense: CommonSense, variables: Mapping[str, Any]) -> TraitsReply:
     """Answer robot/traits: shrunk estimates, and a profile that revises the earlier one.
 
-    The profile says what the person does, when, and with which things; what an earlier profile named and
-    today agrees with stays first.
+    The profile names the person's activities, their hours and their things. The activities of the earlier profile stay
+    first if today confirms them.
     """
     lived = memories(variables["intentions"], 24)
     seen = [(memory, sense.index(memory.text)) for memory in lived]

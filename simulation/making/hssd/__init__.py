@@ -1,1 +1,4 @@
-"""Homes of the Habitat Synthetic Scenes Dataset (HSSD): its files, names and walls, read into a home of ours."""
+"""The import of homes from the Habitat Synthetic Scenes Dataset (HSSD).
+
+Its files, names and walls become a home of ours.
+"""

@@ -204,7 +204,7 @@ def change(path: Path, old: str, new: str) -> None:
 
 def test_a_run_keeps_how_the_person_was_simulated(runs: list[Path], tmp_path: Path) -> None:
     shot = shutil.copytree(runs[1], tmp_path / "shot")
-    change(shot / "config.yaml", "person: full", "person: single_shot")
+    change(shot / "config.yaml", "person_model: full", "person_model: single_shot")
     found = read_lives([runs[0], shot])
     assert list(found.variants) == ["full", "single_shot"]
-    assert RunDir.open(shot).config.person == "single_shot"
+    assert RunDir.open(shot).config.person_model == "single_shot"

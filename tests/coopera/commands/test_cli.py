@@ -38,10 +38,13 @@ def files_in(folder: Path) -> list[str]:
         (["run", "--scenes", "castle"], "scenes: there is no home 'castle'"),
         (["run", "--method", "magic"], "method: there is no method 'magic'"),
         (["run", "--setting", "3", "--humans", "amara,bruno"], "humans: setting 3 takes 3 or a multiple of it, not 2"),
-        (["run", "--classifier", "oracle"], "--classifier must be kernel, lora or lora-instruct, not 'oracle'."),
+        (
+            ["run", "--classifier", "oracle"],
+            "classifier: there is no classifier 'oracle' (did you mean lora? known are",
+        ),
         (["run", "--pictures", "film"], "--pictures must be sampled, none or video, not 'film'."),
         (["run", "--prompts", "missing"], "prompts: missing must be a folder of prompt files"),
-        (["run", "--model", "replay:missing"], "missing: this folder holds no run"),
+        (["run", "--model", "recorded:missing"], "missing: this folder holds no run"),
         (["run", "missing.yaml"], "missing.yaml: there is no such study file."),
         (["run", "misspelt.yaml"], "misspelt.yaml: there is no field 'dayz' (did you mean days?)."),
         (["run", "--out", "taken"], "out: taken already holds another run"),
@@ -73,7 +76,7 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     (tmp_path / "misspelt.yaml").write_text("dayz: 3\n")
     (tmp_path / "column.csv").write_text("user 1 personas,Best Generated Conversation\na,b\n")
     head = b"user 1 personas,user 2 personas,Best Generated Conversation\n"
-    (tmp_path / "bytes.csv").write_bytes(head + b"caf\xe9,b,c\n")
+    (tmp_path / "bytes.csv").write_bytes(head + b"na\xefve,b,c\n")
     (tmp_path / "rows.csv").write_bytes(head + b"\n")
     before = files_in(tmp_path)
     said = coopera(*args)
@@ -89,7 +92,7 @@ def test_wrong_input_is_one_sentence_exit_code_2_and_nothing_written(
     ("wrong", "sentence"),
     [
         (["--model", "gpt"], 'the model "gpt" is unknown'),
-        (["--lived", "missing"], "missing: this folder holds no run"),
+        (["--earlier-life", "missing"], "missing: this folder holds no run"),
     ],
 )
 def test_what_is_found_wrong_only_when_the_run_opens_leaves_no_run_behind(
@@ -100,6 +103,14 @@ def test_what_is_found_wrong_only_when_the_run_opens_leaves_no_run_behind(
         said = coopera("run", *wrong, "--out", out)
         assert (said.code, sentence in said.err) == (2, True)
     assert not files_in(tmp_path / "mine")
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_model_without_a_server_ends_the_run_at_once_and_leaves_nothing(coopera: Cli, tmp_path: Path) -> None:
+    said = coopera("run", "--model", "openai:x", "--base-url", "http://127.0.0.1:9/v1", "--out", "new/run")
+    assert said.code == 1
+    assert "no server listens there" in said.err
+    assert "coopera models check" in said.err
     assert not (tmp_path / "new").exists()
 
 

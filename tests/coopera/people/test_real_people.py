@@ -31,7 +31,7 @@ def write(path: Path, *rows: str) -> Path:
 
 def test_the_shipped_example_fills_two_days_of_five_hours() -> None:
     days = plans("joan", "joan", hours=5)
-    logs = open_logs(Config(human=f"log:{SHIPPED}"), days)
+    logs = open_logs(Config(played_by=f"log:{SHIPPED}"), days)
     assert logs is not None
     lived = [logs(plan, Clock(day=plan.episode_day, hour=hour)) for plan in days for hour in plan.hours]
     assert [hour.intention for hour in lived if hour][0] == "Have a slow breakfast with the radio on"
@@ -42,7 +42,7 @@ def test_recorded_days_are_lived_in_their_order_by_each_person(tmp_path: Path) -
     write(tmp_path / "amara.csv", "3,9,Bake", "7,9,Rest")
     write(tmp_path / "joan.csv", "0,9,Knit")
     days = plans("amara", "joan", "amara", hours=1)
-    logs = open_logs(Config(human=f"log:{tmp_path}"), days)
+    logs = open_logs(Config(played_by=f"log:{tmp_path}"), days)
     assert logs is not None
     said = [logs(plan, Clock(day=plan.episode_day, hour=9)) for plan in days]
     assert [hour.intention for hour in said if hour] == ["Bake", "Knit", "Rest"]
@@ -66,7 +66,7 @@ def test_a_log_that_does_not_fit_the_run_is_one_sentence(
 ) -> None:
     path = write(tmp_path / "log.csv", *rows)
     with pytest.raises(ConfigError) as err:
-        open_logs(Config(human=f"log:{path}"), plans(*people))
+        open_logs(Config(played_by=f"log:{path}"), plans(*people))
     assert sentence in str(err.value)
     assert "\n" not in str(err.value)
 
@@ -74,4 +74,4 @@ def test_a_log_that_does_not_fit_the_run_is_one_sentence(
 def test_a_folder_without_somebodys_log_is_said(tmp_path: Path) -> None:
     write(tmp_path / "amara.csv", "0,9,Bake")
     with pytest.raises(ConfigError, match=r"gus\.csv or \.jsonl is missing"):
-        open_logs(Config(human=f"log:{tmp_path}"), plans("amara", "gus", hours=1))
+        open_logs(Config(played_by=f"log:{tmp_path}"), plans("amara", "gus", hours=1))

@@ -10,20 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from coopera.core.errors import ConfigError
 from coopera.core.hour import Example
 from coopera.core.people import BigFive, PersonId
 from coopera.core.randomness import rng_at
-from coopera.models.classifiers import CLASSIFIERS, Inputs, make_classifier
+from coopera.models.classifiers import Inputs
 from coopera.models.classifiers.features import Similarity, centre_of, read
 from coopera.models.classifiers.kernel import _ridge
 from tests.models.classifiers.feedback import THINGS, WORDS, ask, days, kernel, tea_in_the_morning
-
-
-def test_an_unknown_classifier_is_refused_with_the_known_names() -> None:
-    with pytest.raises(ConfigError, match="'forest'.*kernel, lora"):
-        make_classifier("forest", kind="task", embeddings=WORDS)
-    assert set(CLASSIFIERS) == {"kernel", "lora", "lora-instruct"}
 
 
 def test_untrained_it_is_undecided_about_everything() -> None:

@@ -16,6 +16,7 @@ from coopera.core.people import PersonId
 from coopera.models.classifiers.adapters import Recipe
 from coopera.models.classifiers.lora import LoraClassifier
 from coopera.models.classifiers.text import Inputs
+from tests.tiny import SEED
 
 QUICK = Recipe(epochs=(8, 2), layers=1, learning_rate=3e-2, tokens=32)
 
@@ -28,7 +29,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> Path:
         hidden_size=16, num_hidden_layers=2, num_attention_heads=2, intermediate_size=32, max_position_embeddings=64
     )
     with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(0)
+        torch.manual_seed(SEED)
         save_file(BertModel(config, add_pooling_layer=False).state_dict(), folder / "model.safetensors")
     config.save_pretrained(folder)
     for name in ("tokenizer.json", "tokenizer_config.json", "vocab.txt", "special_tokens_map.json"):

@@ -20,6 +20,7 @@ from coopera.models.classifiers.instruction import SHIPPED, read_recipe
 from coopera.models.classifiers.lora_instruct import LoraInstructClassifier
 from coopera.prompts import PromptLibrary
 from tests.fakes import LetterEmbeddings
+from tests.tiny import SEED
 
 INSTRUCT = PromptLibrary().instruct
 
@@ -43,7 +44,7 @@ QUESTIONS = [ask("drink tea", 9), ask("lift weights", 9), ask("read books", 14),
 
 @pytest.fixture(scope="module")
 def base(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_model(tmp_path_factory.mktemp("tiny-mistral") / "base")
+    return make_model(tmp_path_factory.mktemp("tiny-mistral") / "base", seed=SEED)
 
 
 @pytest.fixture(scope="module")
@@ -175,7 +176,7 @@ def test_the_score_is_the_logit_of_yes_less_that_of_no_of_the_plain_model_with_t
 
 def test_an_adapter_of_another_base_is_refused(tmp_path: Path, recipe: Path, trained: LoraInstructClassifier) -> None:
     trained.save(tmp_path / "saved")
-    other = make_model(tmp_path / "base", seed=9)
+    other = make_model(tmp_path / "base", seed=SEED + 9)
     changed = make_recipe(tmp_path / "other.yaml", other, **read_recipe(recipe).model_dump(exclude={"base", "devices"}))
     with pytest.raises(CooperaError, match=r"the adapter belongs to the base 'base \w+', and this one is 'base \w+'"):
         classifier(changed).load(tmp_path / "saved")

@@ -11,13 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coopera.core.errors import ConfigError
-from coopera.simulation.bodies.robot import ROBOTS, RobotBody, load_robot
+from coopera.simulation.bodies.robot import RobotBody, known_robots, load_robot
 from coopera.simulation.sight.engine import load_urdf, pybullet
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, put
 
 TABLE = st.tuples(st.floats(0.45, 0.75), st.floats(-0.3, 0.3), st.floats(0.15, 1.2))
-every_robot = pytest.mark.parametrize("body", [load_robot(name) for name in ROBOTS], ids=ROBOTS)
+every_robot = pytest.mark.parametrize("body", [load_robot(name) for name in known_robots()], ids=known_robots())
 
 
 class Loaded:
@@ -123,7 +123,7 @@ def test_the_head_turns_so_that_the_camera_faces_a_point(body, target) -> None:
     assert math.degrees(angle) < 8
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", known_robots())
 def test_each_robot_carries_and_hands_over_and_is_seen(name, tmp_path) -> None:
     with World(flat(), robot=name, frame_size=(64, 48)) as world:
         assert world.perform("robot", put("book_1", "kitchen_counter_1"), record=True).ok
@@ -134,5 +134,5 @@ def test_each_robot_carries_and_hands_over_and_is_seen(name, tmp_path) -> None:
 
 
 def test_a_robot_that_does_not_exist_is_refused_with_those_that_do() -> None:
-    with pytest.raises(ConfigError, match="no robot 'tank'; known are fetch, husky_panda"):
+    with pytest.raises(ConfigError, match="robot: there is no robot 'tank' .known are fetch, husky_panda"):
         World(flat(), robot="tank")

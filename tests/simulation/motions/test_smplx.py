@@ -155,8 +155,8 @@ def test_a_folder_that_cannot_be_used_is_refused_with_the_file_and_the_reason(tm
 def test_an_upside_down_clip_names_its_file(tmp_path) -> None:
     rows = np.zeros((5, COLUMNS))
     rows[:, 0] = math.pi
-    np.save(tmp_path / "haa.npy", rows)
-    with pytest.raises(ConfigError, match=r"haa.npy cannot be used: the body is upside down"):
+    np.save(tmp_path / "upside_down.npy", rows)
+    with pytest.raises(ConfigError, match=r"upside_down.npy cannot be used: the body is upside down"):
         load_motions(tmp_path)
 
 

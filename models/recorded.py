@@ -1,4 +1,4 @@
-"""A run's recorded calls in place of its models: the same questions get the same answers, and the same record."""
+"""A run's recorded calls in place of its models: the same questions get the same answers, and the same trace."""
 
 from __future__ import annotations
 
@@ -17,7 +17,16 @@ from coopera.core.randomness import Address
 SCHEMA_FOLLOWS = "\n\nAnswer with one JSON object and nothing else. It must fit this JSON schema:"
 """What the door writes between a prompt and the schema of its reply."""
 
+PREFIXES = ("recorded", "replay")
+"""What a spec of this kind begins with; `replay` is the older word."""
+
 _Key = tuple[str, int, str, str, str]
+
+
+def recorded_run(spec: str) -> Path | None:
+    """The run that a model's spec names to answer from its record, if it names one."""
+    kind, _, folder = spec.partition(":")
+    return Path(folder) if kind in PREFIXES else None
 
 
 class Past:
@@ -34,14 +43,14 @@ class Past:
         self._seeing: set[Role] = set()
         files = sorted((run / "trace").glob("day-*/*.json"))
         if not files:
-            raise ConfigError(f"the model replay:{run} cannot be opened: this folder holds no run with a trace")
+            raise ConfigError(f"the model recorded:{run} cannot be opened: this folder holds no run with a trace")
         for path in files:
             try:
                 record = json.loads(path.read_text(encoding="utf-8"))
                 person, day = str(record["person"]), int(record["episode_day"])
                 calls = [ModelCall.model_validate(call) for call in record["calls"]]
             except (OSError, ValueError, LookupError, TypeError, ValidationError) as err:
-                raise ConfigError(f"the model replay:{run} cannot be opened: {path} is damaged") from err
+                raise ConfigError(f"the model recorded:{run} cannot be opened: {path} is damaged") from err
             for call in calls:
                 said = str(call.messages[0]["content"]).partition(SCHEMA_FOLLOWS)[0]
                 self._calls[person, day, call.node, call.prompt, said].append(call)
@@ -62,7 +71,7 @@ class Past:
         if not alike:
             raise ModelCallError(
                 f"{prompt}: the run {self._run} never asked this (day {at.day}, {at.hour}:00, {at.node}); it can only "
-                "be replayed with the same people, homes, prompts, seed and program"
+                "answer for the same people, homes, prompts, seed and program"
             )
         alike.rotate(-1)
         return alike[-1].model_copy(update={"seconds": 0.0})

@@ -1,0 +1,110 @@
+"""Who plays the person, and what they work with: a language model, the log of a real person, or one who is asked."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias
+
+from langchain_core.embeddings import Embeddings
+from typing_extensions import TypedDict
+
+from coopera.core.clock import Clock
+from coopera.core.hour import (
+    DayPlan,
+    Found,
+    HumanHour,
+    Intention,
+    Recalled,
+    Reflection,
+    RobotHour,
+    SearchSizes,
+    Task,
+)
+from coopera.core.household import Collab
+from coopera.core.people import Persona
+from coopera.core.protocols import Ask, Home
+from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.graphs.person import FULL, PersonModel
+from coopera.graphs.real_person import Verdict
+from coopera.graphs.robot_view import Memories
+from coopera.memory import Search
+
+Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
+
+
+class HumanInput(TypedDict):
+    """What starts a person's hour; `hours` are all hours of the day, in order."""
+
+    clock: Clock
+    hours: list[int]
+
+
+class HumanState(HumanInput, total=False):
+    """Working state of the person's hour; a key is absent until its node has run."""
+
+    recalled: list[Recalled]  # by recall; intentions first, best first
+    today: list[dict[str, Any]]  # by recall; this day's intentions so far, in order
+    intention: Intention  # by propose
+    found: Found  # by search
+    tasks: list[Task]  # by decompose, then revised by the reflections
+    stated: bool  # by decompose: a real person has said what the tasks are
+    reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
+    wrong: list[str]  # by reflect_scene: what code still finds wrong after it
+    repairs: list[str]  # by mend
+
+
+@dataclass(frozen=True, slots=True)
+class HumanContext:
+    """The person's services for a day in a home."""
+
+    ask: Ask
+    persona: Persona
+    plan: DayPlan
+    home: Home
+    memories: Memories
+    embeddings: Embeddings
+    player: Player
+    model: PersonModel = FULL
+    sizes: SearchSizes = SearchSizes()
+
+    @property
+    def collab(self) -> Collab:
+        """The collaboration type of the day."""
+        return self.plan.collab
+
+    def search(self, texts: Sequence[str]) -> Search:
+        """Search over a fixed list of texts (object names, motion captions)."""
+        return Search(self.embeddings, list(texts))
+
+
+class Decomposed(NamedTuple):
+    """An intention as tasks; `stated` where a real person has said what they are, so that no model revises them."""
+
+    drafts: Sequence[Draft]
+    stated: bool
+
+
+class Player(Protocol):
+    """Who decides for the person, and answers for them in the evening.
+
+    Raises:
+        ModelOutputError: From each method, if a language model's reply cannot be used.
+    """
+
+    def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
+        """What the person wants to do this hour. Reads `clock`, `recalled`, `today`."""
+        ...
+
+    def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
+        """What they will do for it, in order. Reads `intention`, `found` and `recalled`, too."""
+        ...
+
+    def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
+        """What they say in the evening of each intention, then of each task, that the robot imagined in an hour."""
+        ...
+
+    def present(self) -> Player:
+        """The player as the node that runs now reaches them; nothing is asked before."""
+        ...

@@ -1,0 +1,139 @@
+"""A language model plays the person: it decides, breaks down and answers for them (PAPER §3.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from coopera.core.clock import Clock, hour_label
+from coopera.core.errors import ModelOutputError
+from coopera.core.hour import HumanHour, Intention, Reasons, RobotHour
+from coopera.core.randomness import Address
+from coopera.core.replies import (
+    DayReply,
+    FreeMotionReply,
+    GradesReply,
+    IntentionReply,
+    PickPlaceReply,
+    VerdictsReply,
+)
+from coopera.graphs.method import Numbers
+from coopera.graphs.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.real_person import HELPFUL, Verdict
+from coopera.graphs.variables import as_tasks, known, when, who
+
+TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """A simulated person.
+
+    Attributes:
+        graded: Whether they answer with grades from 1 to 5 instead of yes or no.
+    """
+
+    graded: bool = False
+
+    def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
+        """Ask for the intention of this hour, or take it from the intentions of the whole day."""
+        reply = _of_the_hour(state, ctx) if ctx.model.hourly else _of_the_day(state, ctx)
+        reasons = Reasons(human=reply.reason_human, intentions=reply.reason_intentions, tasks=reply.reason_tasks)
+        return Intention(text=reply.intention, reasons=reasons)
+
+    def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
+        """Ask for as many tasks as the paper has."""
+        return Decomposed(ask_for_tasks(state, ctx), stated=False)
+
+    def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
+        """Ask about the intentions, and about the tasks."""
+        about = {**when(clock), **who(ctx), "intention": human.intention.text}
+        guesses = [candidate.text for candidate in robot.intentions]
+        offers = [{"thought": t.thought, "text": t.act.describe()} for t in robot.tasks]
+        asked = {**about, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
+        at = Address(ctx.persona.id, clock.day, clock.hour, "feedback")
+        return [
+            *self._ask_verdicts(ctx, "intentions", at, {**about, "guesses": guesses}, len(guesses)),
+            *self._ask_verdicts(ctx, "tasks", at, asked, len(offers)),
+        ]
+
+    def present(self) -> Player:
+        """The same: a model can always be asked."""
+        return self
+
+    def _ask_verdicts(
+        self,
+        ctx: HumanContext,
+        what: Literal["intentions", "tasks"],
+        at: Address,
+        variables: dict[str, Any],
+        count: int,
+    ) -> list[Verdict]:
+        """An answer that cannot be read, or of another length, is no verdict on anything."""
+        if count == 0:
+            return []
+        try:
+            if self.graded:
+                grades = ctx.ask(f"human/grade_{what}", GradesReply, at=at, variables=variables).grades
+                said = [Verdict(g.grade >= HELPFUL, g.reason, g.grade) for g in grades]
+            else:
+                verdicts = ctx.ask(f"human/feedback_{what}", VerdictsReply, at=at, variables=variables).verdicts
+                said = [Verdict(v.yes, v.reason) for v in verdicts]
+        except ModelOutputError as err:
+            return [Verdict(None, str(err))] * count
+        if len(said) != count:
+            return [Verdict(None, f"{len(said)} answers to {count} questions")] * count
+        return said
+
+
+def ask_for_tasks(state: HumanState, ctx: HumanContext, steps: Sequence[str] = ()) -> Sequence[Draft]:
+    """Ask the model to break the intention into tasks, or to read the steps that a person gave in their own words."""
+    found = state["found"]
+    things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
+    reply = ctx.ask(
+        f"human/tasks_type{ctx.collab}",
+        TASKS_REPLY[ctx.collab],
+        at=Address(ctx.persona.id, state["clock"].day, state["clock"].hour, "decompose"),
+        variables={
+            **known(state, ctx),
+            **things,
+            "intention": state["intention"].text,
+            "fixed": found.fixed,
+            "n_tasks": len(steps) or Numbers.HUMAN_TASKS[ctx.collab],
+            "steps": list(steps),
+        },
+    )
+    return reply.tasks
+
+
+def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
+    clock = state["clock"]
+    return ctx.ask(
+        "human/intention",
+        IntentionReply,
+        at=Address(ctx.persona.id, clock.day, clock.hour, "propose"),
+        variables={**known(state, ctx), "rooms": ctx.home.rooms, "today": state["today"]},
+    )
+
+
+def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:
+    """This hour's place in the intentions of the whole day: the same question each hour, so the same answer."""
+    clock, hours = state["clock"], state["hours"]
+    dawn = clock.model_copy(update={"hour": hours[0]})
+    reply = ctx.ask(
+        "human/day",
+        DayReply,
+        at=Address(ctx.persona.id, dawn.day, dawn.hour, "propose"),
+        variables={
+            "weekday": dawn.weekday,
+            "day": dawn.day,
+            **who(ctx),
+            "rooms": ctx.home.rooms,
+            "hours": [hour_label(hour) for hour in hours],
+        },
+    )
+    if len(reply.intentions) != len(hours):
+        wrong = f"it has {len(reply.intentions)} intentions for a day of {len(hours)} hours"
+        raise ModelOutputError("human/day", reply.model_dump_json(), wrong)
+    return reply.intentions[hours.index(clock.hour)]

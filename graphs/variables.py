@@ -1,0 +1,40 @@
+"""The variables of `coopera.core.asks` that many prompts share: when it is, who the person is, what their tasks are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from coopera.core.clock import Clock
+from coopera.core.hour import Task
+from coopera.graphs.player import HumanContext, HumanState
+from coopera.graphs.recall import as_variables
+
+
+def when(clock: Clock) -> dict[str, Any]:
+    """The time variables."""
+    return {"time": clock.label, "hour": clock.hour, "weekday": clock.weekday, "day": clock.day}
+
+
+def who(ctx: HumanContext) -> dict[str, Any]:
+    """The person variables; only the person's own prompts get them."""
+    persona = ctx.persona
+    return {
+        "person": persona.id,
+        "name": persona.name,
+        "big_five": persona.big_five.model_dump(),
+        "profile": ctx.model.profile(persona),
+    }
+
+
+def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
+    """The time, the person and what they recall."""
+    return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
+
+
+def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:
+    """Tasks as prompts read them."""
+    return [
+        {"id": t.id, "thought": t.thought, "text": t.act.describe(), "act": t.act.model_dump(exclude={"kind"})}
+        for t in tasks
+    ]
