@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, Agent, FreeMotion, HandOver, PickPlace
+from coopera.core.household import HUMAN, ROBOT, Act, AgentId, FreeMotion, HandOver, PickPlace
 from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.home_check import check
@@ -30,7 +30,7 @@ from coopera.simulation.acts.plans import Walk
 from coopera.simulation.bodies.robot import known_robots
 from coopera.simulation.homes.catalogue import blocks
 
-AGENTS: tuple[Agent, Agent] = ("human", "robot")
+AGENTS = (HUMAN, ROBOT)
 HOURS, TASKS = 13, 5
 BOX = ("mug", "book", "towel", "water bottle", "phone", "apple")
 
@@ -44,7 +44,7 @@ def random_pick_place(world: World, rng: np.random.Generator) -> tuple[PickPlace
     return act, bool(free_places(scene, world.state, thing, receptacle))
 
 
-def lowest_clearance(world: World, agent: Agent, act: Act) -> float:
+def lowest_clearance(world: World, agent: AgentId, act: Act) -> float:
     """The least distance from furniture and walls on all ways of a planned act, in metres."""
     scene = world.layout
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
@@ -57,7 +57,7 @@ def lowest_clearance(world: World, agent: Agent, act: Act) -> float:
     return lowest
 
 
-def commands(scene: str, agent: Agent, count: int, robot: str) -> None:
+def commands(scene: str, agent: AgentId, count: int, robot: str) -> None:
     """Give random commands in one home and print what came of them."""
     rng = np.random.default_rng([count, len(scene), AGENTS.index(agent)])
     reasons: Counter[str] = Counter()
@@ -75,7 +75,7 @@ def commands(scene: str, agent: Agent, count: int, robot: str) -> None:
                 continue
             done += world.perform(agent, act).ok
         problems = check(world.as_scene())
-    who = robot if agent == "robot" else "person"
+    who = robot if agent == ROBOT else "person"
     print(
         f"{scene:10} {who:11} {done}/{count} = {done / count:.1%} done; {impossible} without any place; "
         f"paths keep {lowest:.3f} m from furniture (body radius {RADIUS}); problems afterwards: {len(problems)}"
@@ -89,7 +89,7 @@ def live_a_day(world: World, rng: np.random.Generator, *, folder: Path | None = 
     for _ in range(HOURS):
         for number in range(TASKS):
             for agent in AGENTS:
-                watched = agent == "human" and number == 0
+                watched = agent == HUMAN and number == 0
                 world.perform(agent, random_act(world, agent, rng), record=watched)
                 if watched:
                     world.percept(rng)
@@ -97,11 +97,11 @@ def live_a_day(world: World, rng: np.random.Generator, *, folder: Path | None = 
                         world.frames(8, folder)
 
 
-def random_act(world: World, agent: Agent, rng: np.random.Generator) -> Act:
+def random_act(world: World, agent: AgentId, rng: np.random.Generator) -> Act:
     """Half pick-and-place, half of what the body does in type 2."""
     if rng.random() < 0.5:
         return random_pick_place(world, rng)[0]
-    if agent == "robot":
+    if agent == ROBOT:
         return HandOver(object=str(rng.choice(BOX)))
     target = world.layout.fixed[rng.integers(len(world.layout.fixed))]
     motion = str(rng.choice(world.motions))
@@ -150,9 +150,9 @@ def main() -> None:
     args = parser.parse_args()
     for scene in args.scenes.split(","):
         if args.commands:
-            commands(scene, "human", args.commands, known_robots()[0])
+            commands(scene, HUMAN, args.commands, known_robots()[0])
             for robot in known_robots():
-                commands(scene, "robot", args.commands, robot)
+                commands(scene, ROBOT, args.commands, robot)
     if args.days:
         days(args.scenes.split(",")[0], args.days)
 

@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from coopera.core.household import SceneId
+from coopera.core.household import HUMAN, SceneId
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState
-from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import Setting, pose_at
@@ -58,10 +57,8 @@ def pictures(motion: Motion) -> list[Image.Image]:
     """The motion at its moments, seen from the front left."""
     support, worktop = HEIGHTS[motion.posture]
     setting = Setting(support, worktop, motion.posture)
-    stage = Stage(studio(motion), load_robot("fetch"))
-    away = Placed(-50.0, 0.0, 0.0, load_robot("fetch").tucked)
-    person = PersonState(spot=(0.0, 0.0), place=(0.0, 0.0))
-    state = HomeState(scene="studio", person=person, robot=RobotState(spot=(-50.0, 0.0)))
+    stage = Stage(studio(motion), [HUMAN], {})
+    state = HomeState(scene="studio", agents={HUMAN: PersonState(spot=(0.0, 0.0), place=(0.0, 0.0))})
     low = motion.posture in ("lie", "floor")
     target = (0.1, 0.0, 0.55 if low else 0.8)
     distance = 2.7 if low else 2.4
@@ -70,7 +67,7 @@ def pictures(motion: Motion) -> list[Image.Image]:
     found = []
     for share in SHARES:
         body = Placed(0.0, 0.0, 0.0, pose_at(motion, share * motion.keys.period, setting))
-        stage.show(state, Moment(body, away, Held("water bottle", motion.keys.hold), None, {}))
+        stage.show(state, Moment({HUMAN: body}, {HUMAN: Held("water bottle", motion.keys.hold)}, {}))
         image, _ = stage.picture(Camera(eye, target, 44.0), (TILE[0] * 2, TILE[1] * 2))
         found.append(Image.fromarray(image).resize(TILE, Image.Resampling.LANCZOS))
     stage.close()

@@ -13,7 +13,7 @@ from collections import Counter
 
 import numpy as np
 
-from coopera.core.household import FreeMotion, PerceptErrors, PickPlace, SceneId
+from coopera.core.household import HUMAN, FreeMotion, PerceptErrors, PickPlace, SceneId
 from coopera.core.randomness import rng_at
 from coopera.models.offline.household.knowledge import shipped
 from coopera.simulation import World, load_scene
@@ -69,7 +69,7 @@ def main() -> None:
         with World(load_scene(SceneId(scene)), errors=errors) as world:
             rng = rng_at(0, "perception", scene)
             for act in acts(world, options.acts, rng):
-                if world.perform("human", act, record=True).ok:
+                if world.perform(HUMAN, act, record=True).ok:
                     begun = time.process_time()
                     found = world.percept(rng).motion
                     seconds.append(time.process_time() - begun)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import Annotated, Literal, NewType, TypeAlias
 
 from pydantic import Field
+from pydantic.json_schema import SkipJsonSchema
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
 
 SceneId = NewType("SceneId", str)
-Agent: TypeAlias = Literal["human", "robot"]
+AgentId = NewType("AgentId", str)
+HUMAN, ROBOT = AgentId("human"), AgentId("robot")
+"""The ids of the one person and the one robot that ship; a home may hold others, and more of them."""
 Collab: TypeAlias = Literal[1, 2]
 ObjectMap: TypeAlias = dict[str, tuple[int, str]]
 """{unique object name: (object id, room)}: the scene as language models read it (PAPER App. A)."""
@@ -51,10 +54,12 @@ class HandOver(Frozen):
 
     kind: Literal["hand_over"] = "hand_over"
     object: Name
+    receiver: SkipJsonSchema[AgentId | None] = Field(None, exclude_if=lambda receiver: receiver is None)
+    """Who gets it; None, which is neither asked of a model nor written, for the only person of the home."""
 
     def describe(self) -> str:
         """Say it as a sentence fragment."""
-        return f"bring the {plain(self.object)}"
+        return f"bring the {plain(self.object)}" + (f" to {self.receiver}" if self.receiver else "")
 
 
 Act = Annotated[PickPlace | FreeMotion | HandOver, Field(discriminator="kind")]
@@ -63,7 +68,7 @@ Act = Annotated[PickPlace | FreeMotion | HandOver, Field(discriminator="kind")]
 class Outcome(Frozen):
     """How an act ended in the world; a failure is data with a reason, not an exception."""
 
-    agent: Agent
+    agent: AgentId
     act: Act
     ok: bool
     reason: str = ""

@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol, TypeVar
 import numpy as np
 
 from coopera.core.hour import Evening, Example, HourRecord, ModelCall
-from coopera.core.household import Act, Agent, ObjectMap, Outcome, Percept, SceneId
+from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Frozen
 from coopera.core.randomness import Address
 
@@ -93,10 +93,11 @@ class Home(Protocol):
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
         ...
 
-    def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
+    def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
-        With `record`, the motion is kept for `percept` and `frames` (the newest recording counts).
+        With `record`, the motion is kept for `percept` and `frames` (the newest recording counts), as the robot
+        `watcher` sees it (None: the only one).
         Something impossible is a failed `Outcome` with its reason, and the world stays consistent.
         """
         ...

@@ -9,11 +9,11 @@ import tempfile
 from pathlib import Path
 
 from coopera.core.household import FreeMotion, HandOver, PickPlace
-from coopera.simulation import World, load_scene
+from coopera.simulation import PersonAgent, RobotAgent, World, load_scene
 
 
 def main() -> None:
-    """Let the two do a few things in a shipped home and print what came of each."""
+    """Let one person and one robot do a few things in a shipped home, then two of each; print what came of it."""
     with World(load_scene("maple")) as world, tempfile.TemporaryDirectory() as folder:
         print(world.scene, "has", ", ".join(world.rooms))
         mug, table = world.layout.object("mug_1"), world.layout.object("coffee_table_1")
@@ -31,6 +31,11 @@ def main() -> None:
         print(world.go_to("robot", "kitchen"), "->", world.room_of("robot"))
         world.restore(start)
         print("restored: the robot is in the", world.room_of("robot"))
+    agents = [PersonAgent("ana"), PersonAgent("ben"), RobotAgent("tall", "fetch"), RobotAgent("low", "husky_panda")]
+    with World(load_scene("maple"), agents=agents) as world:
+        for robot, person in (("tall", "ana"), ("low", "ben")):
+            print(world.perform(robot, HandOver(object="cup", receiver=person)))
+            print(f"near({person}, sofa):", world.holds(f"near({person}, sofa)"))
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from typing_extensions import TypedDict
 from coopera.core.clock import Clock
 from coopera.core.errors import HourError, ModelOutputError
 from coopera.core.hour import DayPlan, HourRecord, HumanHour, Intention, Observation, RobotHour, Success
-from coopera.core.household import Act, Agent, Outcome
+from coopera.core.household import Act, AgentId, Outcome
 from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
@@ -131,7 +131,7 @@ def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     helped = state["robot"].outcomes if "robot" in state else []
     done = {_effect(home, one.agent, one.act) for one in helped if one.ok}
     shown = 1 if "observation" in state else 0
-    left = [task for task in state["human"].tasks[shown:] if _effect(home, "human", task.act) not in done]
+    left = [task for task in state["human"].tasks[shown:] if _effect(home, services.human_agent, task.act) not in done]
     return {"outcomes": services.life.finish(services, plan, _clock(state), left)}
 
 
@@ -202,14 +202,15 @@ def robot_view(
 
 def _helped(services: Services, plan: DayPlan, view: RobotView, truth: Intention) -> RobotHour:
     """Run the graph of the method's robot; the truth reaches the method that declares it, and no other."""
-    home, method = services.home(plan.scene), services.method
+    home, method, who = services.home(plan.scene), services.method, services.robot_agent
     if services.own:
-        done = _own_robot().invoke(RobotInput(), context=OwnRobotContext(view, home, method, services.own.robot))
+        ours = OwnRobotContext(view, home, method, services.own.robot, agent=who)
+        done = _own_robot().invoke(RobotInput(), context=ours)
     elif method.intentions == "given":
         told = OracleInput(true_intention=truth.text)
-        done = _oracle().invoke(told, context=RobotContext(view, home, method, services.learner))
+        done = _oracle().invoke(told, context=RobotContext(view, home, method, services.learner, agent=who))
     else:
-        done = _robot().invoke(RobotInput(), context=RobotContext(view, home, method, services.learner))
+        done = _robot().invoke(RobotInput(), context=RobotContext(view, home, method, services.learner, agent=who))
     return robot_hour(cast(RobotState, done), view.observation)
 
 
@@ -259,7 +260,7 @@ def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: Robo
         )
 
 
-def _effect(home: Home, agent: Agent, act: Act) -> tuple[str, ...]:
+def _effect(home: Home, agent: AgentId, act: Act) -> tuple[str, ...]:
     if act.kind == "pick_place":
         return ("on", home.class_of(act.object), home.class_of(act.receptacle))
     return (agent, act.describe())

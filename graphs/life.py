@@ -34,7 +34,7 @@ class LivedNow:
         pictures, what a perception module reports.
         """
         home = services.home(plan.scene)
-        outcome = home.perform("human", first.act, record=True)
+        outcome = home.perform(services.human_agent, first.act, record=True, watcher=services.robot_agent)
         frames = []
         if services.frames:
             folder = services.recorder.frames_folder(plan.day, clock.hour)
@@ -49,7 +49,7 @@ class LivedNow:
     def finish(self, services: Services, plan: DayPlan, clock: Clock, left: Sequence[Task]) -> list[Outcome]:
         """Have the person do the rest."""
         home = services.home(plan.scene)
-        return [home.perform("human", task.act) for task in left]
+        return [home.perform(services.human_agent, task.act) for task in left]
 
     def end(self, services: Services, plan: DayPlan, clock: Clock, human: HumanHour | None) -> None:
         """Have the person remember the hour."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeVar
 
 from langgraph.graph import END, START, StateGraph
@@ -28,7 +28,7 @@ from coopera.core.hour import (
     RobotHour,
     TaskCandidate,
 )
-from coopera.core.household import Outcome
+from coopera.core.household import ROBOT, AgentId, Outcome
 from coopera.core.people import Belief
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
@@ -50,6 +50,8 @@ class Helping:
     view: RobotView
     home: Home
     method: Method
+    agent: AgentId = field(default=ROBOT, kw_only=True)
+    """Whose body in the home the robot has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -322,7 +324,7 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
 def act(state: RobotState, runtime: Runtime[Context]) -> dict[str, Any]:
     """Do the accepted tasks in the home, most probable first. Reads `tasks`; writes `outcomes`."""
     accepted = sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0))
-    return {"outcomes": [runtime.context.home.perform("robot", task.act) for task in accepted]}
+    return {"outcomes": [runtime.context.home.perform(runtime.context.agent, task.act) for task in accepted]}
 
 
 def _belief(ctx: RobotContext) -> dict[str, Any]:

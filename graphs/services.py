@@ -16,7 +16,7 @@ from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
 from coopera.core.hour import DayPlan, HumanHour, Intention, Observation, SearchSizes, Success, Task, TaskCandidate
-from coopera.core.household import Outcome, SceneId
+from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
@@ -105,6 +105,10 @@ class Services:
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
+    human_agent: AgentId = HUMAN
+    """Whose body in the homes the person has."""
+    robot_agent: AgentId = ROBOT
+    """Whose body in the homes the robot has."""
 
     def here(self) -> Services:
         """The services of the node that runs now, which may ask a real person."""

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING
 from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from coopera.simulation.acts.agents import PersonAgent, RobotAgent
     from coopera.simulation.homes.scene import Scene, list_scenes, load_scene
     from coopera.simulation.world import World
 
-__all__ = ["Scene", "World", "list_scenes", "load_scene"]
+__all__ = ["PersonAgent", "RobotAgent", "Scene", "World", "list_scenes", "load_scene"]
 
 _HOMES = {
+    "PersonAgent": "coopera.simulation.acts.agents",
+    "RobotAgent": "coopera.simulation.acts.agents",
     "Scene": "coopera.simulation.homes.scene",
     "list_scenes": "coopera.simulation.homes.scene",
     "load_scene": "coopera.simulation.homes.scene",

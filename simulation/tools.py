@@ -11,30 +11,27 @@ from collections.abc import Callable
 
 from langchain_core.tools import BaseTool, StructuredTool
 
-from coopera.core.household import Agent, FreeMotion, HandOver
+from coopera.core.household import ROBOT, AgentId, FreeMotion, HandOver
 from coopera.simulation.acts.primitives import Result
+from coopera.simulation.acts.state import PersonState
 from coopera.simulation.world import World
 
 
-def world_tools(world: World, agent: Agent = "robot") -> list[BaseTool]:
+def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     """The tools with which a model acts in a home.
 
     Args:
         world: The home; it is changed by the tools, and stays the caller's to close.
         agent: Whose body the model has.
+
+    Raises:
+        SimulationError: If there is no such agent.
     """
+    world.state.agent(agent)
 
     def look_around() -> str:
-        """See where you and the other one are, what you hold, and which objects are in your room."""
-        state, room = world.state, world.room_of(agent)
-        other: Agent = "human" if agent == "robot" else "robot"
-        seen = {
-            "you": {"room": room, "holding": _held(world, agent)},
-            other: {"room": world.room_of(other), "holding": _held(world, other), "motion": state.person.motion},
-            "furniture": [name for name, (_, where) in world.objects("fixed").items() if where == room],
-            "things": world.things_on(room),
-        }
-        return json.dumps(seen)
+        """See where you and the others are, what you hold, and which objects are in your room."""
+        return json.dumps(_seen_by(world, agent))
 
     def list_objects(room: str = "") -> str:
         """List all furniture and movable things by room.
@@ -77,14 +74,16 @@ def world_tools(world: World, agent: Agent = "robot") -> list[BaseTool]:
         """
         return _said(world.place(agent, receptacle), f"It is on {receptacle}.")
 
-    def hand_over(thing: str) -> str:
-        """Bring the person any small thing from the magic box.
+    def hand_over(thing: str, person: str = "") -> str:
+        """Bring a person any small thing from the magic box.
 
         Args:
             thing: What it is, in words, such as "toothbrush".
+            person: Who gets it; may be left out where there is only one person.
         """
-        done = world.perform("robot", HandOver(object=thing))
-        return _said(Result(done.ok, done.reason, done.metres), f"The person has the {thing}.")
+        receiver = AgentId(person) if person else None
+        done = world.perform(agent, HandOver(object=thing, receiver=receiver))
+        return _said(Result(done.ok, done.reason, done.metres), f"{person or 'The person'} has the {thing}.")
 
     def move(target: str, motion: str, in_hand: str) -> str:
         """Do a motion at a piece of furniture with a thing in hand.
@@ -96,16 +95,24 @@ def world_tools(world: World, agent: Agent = "robot") -> list[BaseTool]:
         """
         fixed = world.layout.object(target)
         act = FreeMotion(target_id=fixed.id if fixed else 0, target=target, in_hand=in_hand, motion=motion)
-        done = world.perform("human", act)
-        return _said(Result(done.ok, done.reason, done.metres), f"You {world.state.person.motion} at {target}.")
+        done = world.perform(agent, act)
+        return _said(Result(done.ok, done.reason, done.metres), f"You {world.state.person(agent).motion} at {target}.")
 
     functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place]
-    functions.append(hand_over if agent == "robot" else move)
+    functions.append(hand_over if agent in world.robots else move)
     return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
 
 
-def _held(world: World, agent: Agent) -> str | None:
-    return world.state.person.thing if agent == "human" else world.state.robot.thing
+def _seen_by(world: World, agent: AgentId) -> dict[str, object]:
+    room = world.room_of(agent)
+    seen: dict[str, object] = {"you": {"room": room, "holding": world.state.agent(agent).thing}}
+    for other, state in world.state.agents.items():
+        if other != agent:
+            doing = {"motion": state.motion} if isinstance(state, PersonState) else {}
+            seen[other] = {"room": world.room_of(other), "holding": state.thing, **doing}
+    seen["furniture"] = [name for name, (_, where) in world.objects("fixed").items() if where == room]
+    seen["things"] = world.things_on(room)
+    return seen
 
 
 def _said(result: Result, done: str) -> str:

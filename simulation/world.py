@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal, Self
@@ -13,14 +12,16 @@ from PIL import Image
 from pydantic import ValidationError
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, Agent, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
 from coopera.simulation.acts import predicates, primitives
 from coopera.simulation.acts.activity import free_motion, stay
+from coopera.simulation.acts.agents import Agent, PersonAgent, RobotAgent, check_agents
+from coopera.simulation.acts.first_places import first_states
 from coopera.simulation.acts.navigation import Navigator
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState, room_of_thing
+from coopera.simulation.acts.state import HomeState, room_of_thing
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.scene import Scene
@@ -29,22 +30,23 @@ from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
-from coopera.simulation.sight.watching import Watcher
+from coopera.simulation.sight.watching import Onlooker, Watcher
 
 _WEBP_QUALITY = 82
 
 
 class World:
-    """One home with one person and one robot: the `Home` of the graphs.
+    """One home with those who live in it, by default one person and one robot: the `Home` of the graphs.
 
     Truth is plain data (`state`); pybullet is started at the first recording and only shows and measures it.
     Use it as a context manager, or call `close`.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - one parameter for each thing that a home is made of
         self,
         scene: Scene,
         *,
+        agents: Sequence[Agent] | None = None,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
         renderer: Renderer = "tiny",
@@ -56,7 +58,9 @@ class World:
 
         Args:
             scene: The home.
-            robot: The robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
+            agents: Who lives there, in the order of their first places; by default one person, "human", and one robot,
+                "robot".
+            robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
@@ -64,17 +68,22 @@ class World:
             errors: How often and how far the percept errs.
 
         Raises:
-            SimulationError: If nobody can stand anywhere in the home.
-            ConfigError: If there is no such robot, or its files cannot be used.
+            SimulationError: If the home has no room for them to stand in.
+            ConfigError: If there is no such robot, its files cannot be used, or an agent's id cannot be used.
         """
+        agents = [PersonAgent(), RobotAgent(body=robot)] if agents is None else agents
+        check_agents(agents)
         self.scene = scene.id
         self.frame_size = frame_size
         self.renderer = renderer
         self.errors = errors or PerceptErrors()
         self.layout = scene
         self._library: Library = motions or load_library()
-        self._ground = Ground(scene, Navigator(scene), self._library, load_robot(robot), Elbowroom(scene), match)
-        self.state = self._start = self._initial()
+        people = tuple(agent.id for agent in agents if isinstance(agent, PersonAgent))
+        robots = {agent.id: load_robot(agent.body) for agent in agents if isinstance(agent, RobotAgent)}
+        room = Elbowroom(scene)
+        self._ground = Ground(scene, Navigator(scene), self._library, people, robots, room, match)
+        self.state = self._start = HomeState(scene=self.scene, agents=first_states(self._ground, agents))
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
 
@@ -91,18 +100,6 @@ class World:
         if self._watcher is not None:
             self._watcher.close()
             self._watcher = None
-
-    def _initial(self) -> HomeState:
-        """The person in the middle of the most spacious room, the robot of the next one."""
-        rooms = sorted(self.layout.rooms, key=lambda room: (-_area(room.bounds), room.name))
-        places = [place for room in rooms if (place := self._ground.navigator.middle_of(room.name)) is not None]
-        person = places[0]
-        robot = next((place for place in places[1:] if math.dist(place, person) > 1.0), None)
-        if robot is None:
-            cells = self._ground.navigator.cells_in(self.layout.room_at(*person).name)
-            x, y = cells[np.hypot(*(cells - np.array(person)).T).round(3).argmax()].tolist()
-            robot = x, y
-        return HomeState(scene=self.scene, person=PersonState(spot=person, place=person), robot=RobotState(spot=robot))
 
     @property
     def rooms(self) -> list[str]:
@@ -123,7 +120,7 @@ class World:
     def as_scene(self) -> Scene:
         """The home as things now stand, as a home of its own: to be checked, drawn or written to a file.
 
-        What the person and the robot hold comes from the magic box and is not in it.
+        What people and robots hold from the magic box is not in it.
         """
         things = []
         for thing in self.layout.objects:
@@ -140,48 +137,76 @@ class World:
         thing = self.layout.object(name)
         return thing.cls if thing is not None else name
 
-    def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
+    @property
+    def people(self) -> list[AgentId]:
+        """Ids of the people who live here."""
+        return self.state.ids("person")
+
+    @property
+    def robots(self) -> list[AgentId]:
+        """Ids of the robots that live here."""
+        return self.state.ids("robot")
+
+    def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
-        With `record`, the robot first drives to where it sees the person, and the act is kept for `percept` and
-        `frames`. Something impossible is a failed outcome with its reason, and the home stays as it was (but for the
-        robot's drive if it is recorded: then the recording shows the person as they are).
+        With `record`, a robot first drives to where it sees the person, and the act is kept for `percept` and
+        `frames`: the robot `watcher`, or else the one that acts, or the only one. A robot's own act shows the person
+        to whom it hands something, or else the first of the home. Something impossible is a failed outcome with its
+        reason, and the home stays as it was (but for the robot's drive if it is recorded: then the recording shows
+        the person as they are).
+
+        Raises:
+            SimulationError: If there is no such agent or watcher.
         """
-        before = self.state
-        watcher = self._watching() if record else None
+        self.state.agent(agent)
+        before, watch = self.state, self._onlooker(agent, act, watcher) if record else None
         try:
-            plan = self._plan(agent, act, watcher)
+            plan = self._plan(agent, act, watch)
         except UnableError as unable:
-            if watcher is not None:  # there is still the person to be seen, doing what they were doing
-                plan = stay(self._ground, before, watcher.watch)
-                self._record(plan, agent, plan.state.person.thing)
+            if watch is not None:  # there is still the person to be seen, doing what they were doing
+                plan = stay(self._ground, before, watch.person, watch)
+                self._record(plan, agent, watch, plan.state.person(watch.person).thing)
             return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
-        if watcher is not None:
-            self._record(plan, agent, act.object if isinstance(act, PickPlace) else plan.state.person.thing)
+        if watch is not None:
+            in_hand = act.object if isinstance(act, PickPlace) else plan.state.person(watch.person).thing
+            self._record(plan, agent, watch, in_hand)
         self.state = plan.state
         return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
 
-    def plan(self, agent: Agent, act: Act) -> Plan:
+    def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:
+        """Who watches whom while an agent acts."""
+        acts = agent if agent in self.robots else None
+        robot = self.state.the("robot", watcher or acts)
+        if acts is None:
+            return Onlooker(self._watching(), robot, agent)
+        named = act.receiver if isinstance(act, HandOver) and act.receiver in self.people else None
+        return Onlooker(self._watching(), robot, self.state.the("person", named or next(iter(self.people), None)))
+
+    def plan(self, agent: AgentId, act: Act) -> Plan:
         """What `perform` would do, step by step, without doing it.
 
         Raises:
             UnableError: With the reason why it cannot be done.
+            SimulationError: If there is no such agent.
         """
+        self.state.agent(agent)
         return self._plan(agent, act, None)
 
-    def go_to(self, agent: Agent, target: str) -> Result:
+    def go_to(self, agent: AgentId, target: str) -> Result:
         """Let an agent go to a room, a piece of furniture or a thing, by name."""
-        return self._step(lambda: primitives.go_to(self._ground, self.state, agent, target))
+        return self._step(agent, lambda: primitives.go_to(self._ground, self.state, agent, target))
 
-    def pick(self, agent: Agent, thing: str) -> Result:
+    def pick(self, agent: AgentId, thing: str) -> Result:
         """Let an agent go to a thing and take it into its hand."""
-        return self._step(lambda: primitives.pick(self._ground, self.state, agent, thing))
+        return self._step(agent, lambda: primitives.pick(self._ground, self.state, agent, thing))
 
-    def place(self, agent: Agent, receptacle: str) -> Result:
+    def place(self, agent: AgentId, receptacle: str) -> Result:
         """Let an agent carry what it took to a piece of furniture and put it down there."""
-        return self._step(lambda: primitives.place(self._ground, self.state, agent, receptacle))
+        return self._step(agent, lambda: primitives.place(self._ground, self.state, agent, receptacle))
 
-    def _step(self, plan: Callable[[], Plan]) -> Result:
+    def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
+        self.state.agent(agent)
         try:
             planned = plan()
         except UnableError as unable:
@@ -189,9 +214,9 @@ class World:
         self.state = planned.state
         return Result(ok=True, metres=round(planned.metres, 3))
 
-    def room_of(self, agent: Agent) -> str:
+    def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
-        return self.layout.room_at(*self.state.place(agent)).name
+        return self.layout.room_at(*self.state.agent(agent).place).name
 
     def things_on(self, room: str) -> dict[str, str]:
         """The movable things of a room, sorted: {thing: the furniture under it, or "floor"}."""
@@ -199,23 +224,23 @@ class World:
         things = (thing for thing in self.layout.movable if thing.name in there)
         return {thing.name: self.state.thing(thing).on or "floor" for thing in things}
 
-    def _record(self, plan: Plan, agent: Agent, in_hand: str | None) -> None:
-        recording = Filming(self._library, self._ground.robot, self.state).film(plan.steps, agent)
+    def _record(self, plan: Plan, agent: AgentId, watch: Onlooker, in_hand: str | None) -> None:
+        recording = Filming(self._ground, self.state, watch.robot, watch.person).film(plan.steps, agent)
         recording.near, recording.in_hand = plan.at, in_hand
         self._recording = recording
         self.state = plan.state
 
-    def _plan(self, agent: Agent, act: Act, watcher: Watcher | None) -> Plan:
-        watch = watcher.watch if watcher is not None and agent == "human" else None
+    def _plan(self, agent: AgentId, act: Act, watch: Onlooker | None) -> Plan:
+        seen = watch if agent in self._ground.people else None
         if isinstance(act, PickPlace):
-            return pick_place(self._ground, self.state, agent, act, watch)
+            return pick_place(self._ground, self.state, agent, act, seen)
         if isinstance(act, HandOver):
-            if agent != "robot":
+            if agent not in self._ground.robots:
                 raise UnableError("only the robot hands things over")
-            return hand_over(self._ground, self.state, act)
-        if agent != "human":
+            return hand_over(self._ground, self.state, agent, act)
+        if agent not in self._ground.people:
             raise UnableError("only the person moves freely")
-        return free_motion(self._ground, self.state, act, watch)
+        return free_motion(self._ground, self.state, agent, act, seen)
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
@@ -298,25 +323,30 @@ class World:
             raise SimulationError(f"The snapshot of the home cannot be used, field {where}: {first['msg']}.") from err
         if state.scene != self.scene:
             raise SimulationError(f"The snapshot is of the home {state.scene!r}, but this is {self.scene!r}.")
+        here, there = self._start.inhabitants, state.inhabitants
+        if here != there:
+            raise SimulationError(
+                f"The snapshot is of a home of {', '.join(there)}, but this is one of {', '.join(here)}."
+            )
         strange = sorted(set(state.moved) - {thing.name for thing in self.layout.movable})
         if strange:
             raise SimulationError(f"The snapshot moves {strange[0]!r}, which this home does not have.")
-        self.state = state
+        self.state = state.model_copy(update={"agents": {agent: state.agents[agent] for agent in self._start.agents}})
         self._recording = None
 
     def on(self, cls: str, receptacle_cls: str) -> bool:
         """Whether some thing of a class is on (or in) some furniture of a class."""
         return predicates.on(self.layout, self.state, cls, receptacle_cls)
 
-    def holding(self, agent: Agent, cls: str) -> bool:
+    def holding(self, agent: AgentId, cls: str) -> bool:
         """Whether an agent has a thing of a class in its hand."""
         return predicates.holding(self.layout, self.state, agent, cls)
 
-    def near(self, agent: Agent, cls: str, within: float = 1.0) -> bool:
+    def near(self, agent: AgentId, cls: str, within: float = 1.0) -> bool:
         """Whether an agent is within some metres of furniture of a class, in the same room."""
         return predicates.near(self.layout, self.state, agent, cls, within)
 
-    def at(self, agent: Agent, room: str) -> bool:
+    def at(self, agent: AgentId, room: str) -> bool:
         """Whether an agent is in a room."""
         return predicates.at(self.layout, self.state, agent, room)
 
@@ -327,7 +357,3 @@ class World:
             ConfigError: If it is no predicate.
         """
         return predicates.evaluate(self.layout, self.state, predicate)
-
-
-def _area(bounds: tuple[float, float, float, float]) -> float:
-    return round((bounds[2] - bounds[0]) * (bounds[3] - bounds[1]), 6)

@@ -11,7 +11,7 @@ from langchain_core.embeddings import Embeddings
 
 from coopera.core.asks import ASKS
 from coopera.core.hour import Evening, Example, HourRecord, ModelCall
-from coopera.core.household import Act, Agent, ObjectMap, Outcome, Percept, PickPlace, SceneId
+from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, PickPlace, SceneId
 from coopera.core.people import BigFive, Persona, PersonId
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
@@ -55,7 +55,7 @@ class FakeHome:
         self.fixed: ObjectMap = {"desk_1": (1, "study"), "sofa_1": (2, "study"), "stove_1": (3, "kitchen")}
         self.movable: ObjectMap = {"book_1": (4, "study"), "mug_1": (5, "kitchen"), "mug_2": (6, "kitchen")}
         self._built = dict(self.movable)
-        self.performed: list[tuple[Agent, Act, bool]] = []
+        self.performed: list[tuple[AgentId, Act, bool]] = []
         self.broken: set[str] = set()
 
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
@@ -64,7 +64,7 @@ class FakeHome:
     def class_of(self, name: str) -> str:
         return name.rsplit("_", 1)[0]
 
-    def perform(self, agent: Agent, act: Act, *, record: bool = False) -> Outcome:
+    def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         self.performed.append((agent, act, record))
         if act.describe() in self.broken:
             return Outcome(agent=agent, act=act, ok=False, reason="out of reach")

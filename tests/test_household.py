@@ -18,6 +18,7 @@ import pytest
 from coopera import Config, resume_study, run_study
 from coopera.cli import main
 from coopera.rundir.directory import RunDir
+from coopera.simulation.acts.state import digest
 from coopera.studies.replay import replay
 
 TRUTH = ("trace", "frames", "adapters", "config.yaml", "metrics.csv", "summary.json")
@@ -146,6 +147,21 @@ def test_the_acts_of_a_run_replayed_from_its_trace_end_in_the_same_worlds(lived:
     hours = list(replay(RunDir.open(lived)))
     assert len(hours) == len(RunDir.open(lived).hours())
     assert [hour.difference for hour in hours] == [""] * len(hours)
+
+
+def test_a_run_made_before_agents_had_ids_is_replayed_too(lived: Path, tmp_path: Path) -> None:
+    shutil.copytree(lived, tmp_path / "old")
+    for path in sorted((tmp_path / "old" / "trace").rglob("hour-*.json")):
+        hour = json.loads(path.read_text())
+        agents = hour["world"]["poses"].pop("agents")
+        poses = {**hour["world"]["poses"], "version": 1, "person": agents["human"], "robot": agents["robot"]}
+        for state in agents.values():
+            del state["kind"]
+        hour["world"] |= {"poses": poses, "sha256": digest(poses)}
+        path.write_text(json.dumps(hour))
+    hours = list(replay(RunDir.open(tmp_path / "old")))
+    assert hours
+    assert not any(hour.difference for hour in hours)
 
 
 def test_replay_says_where_a_trace_does_not_tell_what_happened(lived: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The place of the person's body for a motion at a piece of furniture: the seat, the spot and the heights."""
+"""The place of a person's body for a motion at a piece of furniture: the seat, the spot and the heights."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from coopera.core.household import FreeMotion, plain
-from coopera.simulation.acts.navigation import Stand, clearance, obstacle_boxes
+from coopera.core.household import AgentId, FreeMotion, plain
+from coopera.simulation.acts.agents import named
+from coopera.simulation.acts.navigation import Disc, Stand, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import (
     Ground,
     Placed,
@@ -17,7 +18,7 @@ from coopera.simulation.acts.plans import (
     Watch,
     all_clear_of,
     clear_of,
-    discs,
+    taken_by_others,
 )
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk_to_deed
@@ -41,9 +42,17 @@ _WORKTOP = (0.45, 1.3)
 _KEYS = 0.61  # a piano's keyboard, as a share of its height
 _ROOMY = ("exercise", "move around to music", "work near the floor")
 _LIE_ON_WIDTH = ("sofa", "bench")
+_OFF = 0.1
+"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
+_SITTING, _LYING = 0.5, 0.9
+"""Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
+_STANDS, _ANY = 12, 1000
+"""From how many places at a piece of furniture one chooses, and from how many where those are taken."""
+_ASIDE = 0.6
+"""How far beside the middle of a wide seat another one sits (metres)."""
 
 
-def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch | None = None) -> Plan:
+def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotion, watch: Watch | None = None) -> Plan:
     """Plan a free-form task: go to the furniture, take its place there (sit, lie, step on, stand) and do the motion.
 
     The thing in hand is kept if the person has it; else they take it from the magic box, and what they held from
@@ -55,27 +64,27 @@ def free_motion(ground: Ground, state: HomeState, act: FreeMotion, watch: Watch 
     plan = Plan(state)
     target = ground.fixed(act.target)
     motion = ground.motions.match(act.motion, ground.search)
-    person, used = _placed(ground, plan, target, motion)
+    person, used = _placed(ground, plan, agent, target, motion)
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
-    walk_to_deed(ground, plan, Placed(*person.place, person.yaw, pose), person.spot, watch, act.in_hand)
-    spot = plan.state.person.spot
+    walk_to_deed(ground, plan, agent, Placed(*person.place, person.yaw, pose), person.spot, watch, act.in_hand)
+    spot = plan.state.agents[agent].spot
     place = spot if person.place == person.spot else person.place
     person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": act.in_hand})
-    plan.steps.append(Play(person, motion))
-    plan.state = plan.state.model_copy(update={"person": person})
+    plan.steps.append(Play(agent, person, motion))
+    plan.state = plan.state.put(agent, person)
     hands = _hands(person, motion)
     things = [target] if used is target else [target, used]
     plan.at = [thing.name for thing in sorted(things, key=lambda thing: round(thing.bounds.distance(*hands), 3))]
     return plan
 
 
-def stay(ground: Ground, state: HomeState, watch: Watch) -> Plan:
-    """Plan that the person goes on with what they are doing, and the robot comes to see it."""
-    plan, person = Plan(state), state.person
+def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan:
+    """Plan that a person goes on with what they are doing, and a robot comes to see it."""
+    plan, person = Plan(state), state.person(agent)
     motion = ground.motions[person.motion]
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
-    plan.steps.append(Play(person, motion))
+    plan.steps.append(Play(agent, person, motion))
     plan.at = [person.at] if person.at is not None else []
     return plan
 
@@ -89,21 +98,24 @@ def _hands(person: PersonState, motion: Motion) -> Point:
     return person.place[0] + x * cos - y * sin, person.place[1] + x * sin + y * cos
 
 
-def _placed(ground: Ground, plan: Plan, target: SceneObject, motion: Motion) -> tuple[PersonState, SceneObject]:
+def _placed(
+    ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion
+) -> tuple[PersonState, SceneObject]:
     """Choose where the body goes, and the furniture that it uses for that."""
-    if motion.posture == "sit" and (found := _seat_for(ground, target)) is not None:
+    used = _used_by_others(plan.state, agent)
+    if motion.posture == "sit" and (found := _seat_for(ground, target, used)) is not None:
         chair, rest = found
         worktop = _worktop(target) if chair is not target and _gap(chair, target) <= _SEAT_NEAR else None
-        spot = _stand(ground, plan, chair, (rest.x, rest.y))
+        spot = _stand(ground, plan, agent, chair, (rest.x, rest.y))
         return _resting(rest, spot, target, worktop, "sit"), chair
-    if motion.posture == "lie" and (found := _bed_for(ground, target)) is not None:
+    if motion.posture == "lie" and (found := _bed_for(ground, target, used)) is not None:
         bed, rest = found
-        spot = _stand(ground, plan, bed, None)
+        spot = _stand(ground, plan, agent, bed, None)
         return _resting(rest, spot, target, None, "lie"), bed
     if motion.posture in ("floor", "lie"):
-        x, y, yaw = _open_floor(ground, plan, target)
+        x, y, yaw = _open_floor(ground, plan, agent, target)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, posture=motion.posture, at=target.name), target
-    return _upright(ground, plan, target, motion), target
+    return _upright(ground, plan, agent, target, motion), target
 
 
 def _resting(rest: Rest, spot: Stand, target: SceneObject, worktop: float | None, how: str) -> PersonState:
@@ -125,15 +137,39 @@ def _gap(one: SceneObject, two: SceneObject) -> float:
     return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
 
 
-def _seat_for(ground: Ground, target: SceneObject) -> tuple[SceneObject, Rest] | None:
+def _used_by_others(state: HomeState, agent: AgentId) -> list[Disc]:
+    """The furniture that other people are on: the places of their bodies, and how near to them nobody else fits."""
+    people = [state.person(one) for one in state.ids("person") if one != agent]
+    on_it = [person for person in people if math.dist(person.spot, person.place) > _OFF]
+    return [Disc(*person.place, _LYING if person.posture == "lie" else _SITTING) for person in on_it]
+
+
+def _fits(place: Point, used: list[Disc]) -> bool:
+    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius for disc in used)
+
+
+def _seat_on(thing: SceneObject, used: list[Disc]) -> Rest | None:
+    """Where one sits on a thing: in its middle, or beside who sits there; None where one does not, or it is taken."""
+    middle = seat(thing)
+    if middle is None:
+        return None
+    cos, sin = math.cos(thing.yaw), math.sin(thing.yaw)
+    for aside in (0.0, _ASIDE, -_ASIDE):
+        rest = middle._replace(x=middle.x + aside * cos, y=middle.y + aside * sin)
+        if (aside == 0.0 or thing.size[0] >= 2 * _ASIDE + _SITTING) and _fits((rest.x, rest.y), used):
+            return rest
+    return None
+
+
+def _seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     """The target itself where one sits on it; else the seat of its room that is near and looks at it best."""
-    own = seat(target)
+    own = _seat_on(target, used)
     if own is not None:
         return target, own
     far = _SEAT_FAR if target.cls in ("television", "tv_stand", "fireplace", "curtain", "rug") else _SEAT_NEAR
     found: list[tuple[float, str, SceneObject, Rest]] = []
     for thing in ground.scene.fixed:
-        rest = seat(thing)
+        rest = _seat_on(thing, used)
         if rest is None or thing.room != target.room or thing.cls in ("toilet", "bathtub"):
             continue
         gap = _gap(thing, target)
@@ -147,11 +183,13 @@ def _seat_for(ground: Ground, target: SceneObject) -> tuple[SceneObject, Rest] |
     return chair, rest
 
 
-def _bed_for(ground: Ground, target: SceneObject) -> tuple[SceneObject, Rest] | None:
+def _bed_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     """The target where one lies on it (along a sofa, too); else a bed of the same room."""
     beds = [thing for thing in ground.scene.fixed if thing.room == target.room and thing.cls == "bed"]
     sofas = [thing for thing in ground.scene.fixed if thing.room == target.room and thing.cls == "sofa"]
     for thing in (target, *beds, *sofas):
+        if any(thing.bounds.distance(disc.x, disc.y) <= 0 for disc in used):
+            continue
         rest = lying_place(thing)
         if rest is not None:
             return thing, rest
@@ -174,23 +212,30 @@ def _worktop(target: SceneObject) -> float | None:
     return None
 
 
-def _stand(ground: Ground, plan: Plan, target: SceneObject, near: Point | None) -> Stand:
-    """The best place to stand at a piece of furniture, the robot permitting."""
-    taken = discs(plan.state, "robot")
-    start = plan.state.person.spot
-    stands = ground.navigator.approach(target, start)
-    if near is not None:
-        stands.sort(key=lambda stand: round(math.dist((stand.x, stand.y), near), 3))
-    if not stands:
-        raise UnableError(f"the human finds no place to stand at the {plain(target.name)}")
-    return next((stand for stand in stands if clear_of((stand.x, stand.y), taken)), stands[0])
+def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near: Point | None) -> Stand:
+    """The best place to stand at a piece of furniture, the others permitting; where it is crowded, any place there."""
+    taken = taken_by_others(plan.state, agent)
+    start = plan.state.agents[agent].spot
+    crowded = len(plan.state.ids("person")) > 1
+    best: Stand | None = None
+    for most in (_STANDS, _ANY) if crowded else (_STANDS,):
+        stands = ground.navigator.approach(target, start, most=most)
+        if near is not None:
+            stands.sort(key=lambda stand: round(math.dist((stand.x, stand.y), near), 3))
+        best = best or next(iter(stands), None)
+        clear = next((stand for stand in stands if clear_of((stand.x, stand.y), taken)), None)
+        if clear is not None:
+            return clear
+    if best is None:
+        raise UnableError(f"{named(agent)} finds no place to stand at the {plain(target.name)}")
+    return best
 
 
-def _upright(ground: Ground, plan: Plan, target: SceneObject, motion: Motion) -> PersonState:
+def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
     """Standing at the target, on it where one steps on it, or near it with elbow room for large motions."""
     worktop = _worktop(target)
-    if target.cls in STEPPED_ON:
-        stand = _stand(ground, plan, target, target.xy)
+    if target.cls in STEPPED_ON and _fits(target.xy, _used_by_others(plan.state, agent)):
+        stand = _stand(ground, plan, agent, target, target.xy)
         yaw = target.facing + (math.pi if target.cls == "treadmill" else 0.0)
         height = target.position[2] + min(surfaces(target)[0].z, 0.2)
         spot = (stand.x, stand.y)
@@ -198,24 +243,24 @@ def _upright(ground: Ground, plan: Plan, target: SceneObject, motion: Motion) ->
         support = height if blocks(target) else 0.0
         return PersonState(spot=spot, place=place, yaw=wrapped(yaw), support=support, at=target.name)
     if motion.cls in _ROOMY:
-        x, y, yaw = _open_floor(ground, plan, target)
+        x, y, yaw = _open_floor(ground, plan, agent, target)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, worktop=worktop, at=target.name)
-    stand = _stand(ground, plan, target, None)
+    stand = _stand(ground, plan, agent, target, None)
     spot = (stand.x, stand.y)
     return PersonState(spot=spot, place=spot, yaw=stand.yaw, worktop=worktop, at=target.name)
 
 
-def _open_floor(ground: Ground, plan: Plan, target: SceneObject) -> tuple[float, float, float]:
+def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject) -> tuple[float, float, float]:
     """A place near the target with much free floor around it, and the heading with most room ahead and behind."""
     scene = ground.scene
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
     cells = ground.navigator.cells_in(target.room)
     if not len(cells):
-        raise UnableError(f"the human finds no place to stand near the {plain(target.name)}")
+        raise UnableError(f"{named(agent)} finds no place to stand near the {plain(target.name)}")
     gap = clearance(cells[:, 0], cells[:, 1], obstacle_boxes([target], []))
     room = np.minimum(ground.navigator.clearance_in(target.room), 0.9)
     score = room - 0.25 * np.maximum(gap - 0.5, 0.0)
-    taken = discs(plan.state, "robot")
+    taken = taken_by_others(plan.state, agent)
     best = int(np.where(all_clear_of(cells, taken), score, score - 5.0).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])
     headings = np.arange(16) * math.pi / 8

@@ -1,6 +1,6 @@
 """Where a body can stand and walk: a clearance grid of the home, shortest paths on it, and places to act from.
 
-Bodies are discs of radius 0.30 m. Small objects are no obstacles; the other agent may be given as one.
+Bodies are discs of radius 0.30 m. Small objects are no obstacles; other agents may be given as some.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,11 +58,14 @@ class Stand(NamedTuple):
 
 
 class Disc(NamedTuple):
-    """A round obstacle, such as the other agent."""
+    """A round obstacle, such as another agent."""
 
     x: float
     y: float
     radius: float = RADIUS
+
+
+Discs: TypeAlias = tuple[Disc, ...]
 
 
 def obstacle_boxes(things: Iterable[SceneObject], walls: Iterable[Wall]) -> Array:
@@ -127,18 +130,18 @@ class Navigator:
         self._field = lru_cache(maxsize=_REMEMBERED)(self._work_out_field)
         self._way = lru_cache(maxsize=_REMEMBERED)(self._work_out_way)
 
-    def path(self, start: Point, goal: Point, *, avoid: Disc | None = None) -> list[Point] | None:
+    def path(self, start: Point, goal: Point, *, avoid: Discs = ()) -> list[Point] | None:
         """Corner points from start to goal, or None; `route` also says why."""
         return self.route(start, goal, avoid=avoid).points
 
-    def route(self, start: Point, goal: Point, *, avoid: Disc | None = None) -> Route:
+    def route(self, start: Point, goal: Point, *, avoid: Discs = ()) -> Route:
         """Return the shortest comfortable way between two points, pulled straight where nothing is in the way.
 
         Start and goal are moved to the nearest place where one can stand, at most 0.6 m away.
         """
         return self._way(start, goal, avoid)
 
-    def _work_out_way(self, start: Point, goal: Point, avoid: Disc | None) -> Route:
+    def _work_out_way(self, start: Point, goal: Point, avoid: Discs) -> Route:
         first, last = self._nearest(start, avoid), self._nearest(goal, avoid)
         if first is None or last is None:
             what = "start" if first is None else "goal"
@@ -146,8 +149,7 @@ class Navigator:
             return Route(None, reason=f"there is no room to stand at the {what} ({place[0]:.2f}, {place[1]:.2f})")
         cost, before = self._field(first, avoid)
         if not math.isfinite(cost[last]):
-            reason = "the way is blocked" if avoid is None else "the other one stands in the way"
-            return Route(None, reason=reason)
+            return Route(None, reason="somebody stands in the way" if avoid else "the way is blocked")
         chain = [last]
         while chain[-1] != first:
             chain.append(int(before[chain[-1]]))
@@ -167,7 +169,6 @@ class Navigator:
         *,
         point: Point | None = None,
         reach: float = REACH,
-        avoid: Disc | None = None,
         most: int = 12,
     ) -> list[Stand]:
         """Places to act from, best first: a short walk, near the target, and in front of it.
@@ -178,17 +179,14 @@ class Navigator:
         """
         nodes, face = self._near(target, point, reach)
         places = self._centres[nodes]
-        if avoid is not None:
-            nodes = nodes[_outside(avoid, places)]
-            places = self._centres[nodes]
         if not len(nodes):
             return []
         walk = np.zeros(len(nodes))
         if start is not None:
-            first = self._nearest(start, avoid)
+            first = self._nearest(start, ())
             if first is None:
                 return []
-            walk = self._field(first, avoid)[0][nodes]
+            walk = self._field(first, ())[0][nodes]
         gap = self._gaps(target, places) if point is None else np.hypot(*(places - np.array(point)).T)
         cost = walk + 2 * gap + self._off_front(target, places)
         order = [int(i) for i in np.lexsort((nodes, cost)) if math.isfinite(cost[i])]
@@ -202,12 +200,14 @@ class Navigator:
                 break
         return stands
 
-    def give_way(self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS) -> Point | None:
-        """The nearest place (straight line) to step to so that a walker on `route` passes; None without one."""
+    def give_way(
+        self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS, taken: Iterable[Disc] = ()
+    ) -> Point | None:
+        """The nearest place (straight line), not taken, to step to so that a walker on `route` passes; or None."""
         away = np.full(len(self._centres), np.inf)
         for a, b in zip(route, route[1:], strict=False):
             away = np.minimum(away, to_segment(self._centres, a, b))
-        open_nodes = np.flatnonzero(away >= space + 0.05)
+        open_nodes = np.flatnonzero((away >= space + 0.05) & _outside(taken, self._centres))
         if not len(open_nodes):
             return None
         steps = np.hypot(*(self._centres[open_nodes] - np.array(here)).T)
@@ -215,7 +215,7 @@ class Navigator:
 
     def can_stand(self, x: float, y: float) -> bool:
         """Whether a body fits at a point and the rest of the home can be reached from there."""
-        node = self._nearest((x, y), None, within=CELL)
+        node = self._nearest((x, y), (), within=CELL)
         return node is not None and float(self._clear_at(np.array([x]), np.array([y]))[0]) >= RADIUS - 0.01
 
     def cells_in(self, room: str) -> Array:
@@ -306,10 +306,10 @@ class Navigator:
         both = (np.concatenate([head, tail]), np.concatenate([tail, head]))
         return csr_matrix((np.concatenate([weight, weight]), both), shape=(len(self._cells),) * 2)
 
-    def _work_out_field(self, first: int, avoid: Disc | None) -> tuple[Array, NDArray[np.int32]]:
+    def _work_out_field(self, first: int, avoid: Discs) -> tuple[Array, NDArray[np.int32]]:
         """Cost of the way from one node to each, and the node before each on that way."""
         graph = self._graph
-        if avoid is not None:  # what leads out of a closed cell leads nowhere
+        if avoid:  # what leads out of a closed cell leads nowhere
             closed = np.flatnonzero(~_outside(avoid, self._centres))
             graph = csr_matrix((graph.data.copy(), graph.indices, graph.indptr), shape=graph.shape)
             for node in closed:
@@ -317,10 +317,10 @@ class Navigator:
         cost, before = dijkstra(graph, indices=first, return_predecessors=True)
         return cost, before
 
-    def _nearest(self, place: Point, avoid: Disc | None, within: float = 0.6) -> int | None:
+    def _nearest(self, place: Point, avoid: Discs, within: float = 0.6) -> int | None:
         room = next((i for i, known in enumerate(self.scene.rooms) if known.contains(*place)), None)
         i, j = round((place[0] - self._x0) / CELL), round((place[1] - self._y0) / CELL)
-        if avoid is None and 0 <= i < len(self._xs) and 0 <= j < len(self._ys):
+        if not avoid and 0 <= i < len(self._xs) and 0 <= j < len(self._ys):
             node = int(self._number[i, j])
             if node >= 0 and room in (None, self._room[i, j]):
                 return node
@@ -328,7 +328,7 @@ class Navigator:
         if room is not None:  # not through a wall, unless this side has no room at all
             away += 0.3
             away[self._in_room[room]] -= 0.3
-        if avoid is not None:
+        if avoid:
             away = np.where(_outside(avoid, self._centres), away, np.inf)
         best = int(away.argmin())
         return best if away[best] <= within else None
@@ -348,16 +348,16 @@ class Navigator:
         high = flat[corner + 1] * (1 - s) + flat[corner + columns + 1] * s
         return np.asarray(low * (1 - t) + high * t)
 
-    def _straight(self, a: Point, b: Point, avoid: Disc | None) -> bool:
+    def _straight(self, a: Point, b: Point, avoid: Discs) -> bool:
         dx, dy = b[0] - a[0], b[1] - a[1]
         steps = max(1, math.ceil(math.hypot(dx, dy) / (CELL / 2)))
         share = np.arange(steps + 1) / steps
         x, y = a[0] + dx * share, a[1] + dy * share
-        if avoid is not None and (np.hypot(x - avoid.x, y - avoid.y) < avoid.radius + RADIUS).any():
+        if any((np.hypot(x - disc.x, y - disc.y) < disc.radius + RADIUS).any() for disc in avoid):
             return False
         return float(self._clear_at(x, y).min()) >= RADIUS
 
-    def _pull(self, points: list[Point], avoid: Disc | None) -> list[Point]:
+    def _pull(self, points: list[Point], avoid: Discs) -> list[Point]:
         """Drop every corner that a straight walk can skip (greedy from the start, galloping ahead)."""
         pulled, here, last = [points[0]], 0, len(points) - 1
         while here < last:
@@ -385,8 +385,10 @@ def _facing_point(target: SceneObject, x: float, y: float) -> Point:
     return (cx + nearest_x) / 2, (cy + nearest_y) / 2
 
 
-def _outside(avoid: Disc, places: Array) -> Mask:
-    outside: Mask = np.hypot(*(places - np.array([avoid.x, avoid.y])).T) >= avoid.radius + RADIUS
+def _outside(avoid: Iterable[Disc], places: Array) -> Mask:
+    outside: Mask = np.ones(len(places), dtype=bool)
+    for disc in avoid:
+        outside &= np.hypot(*(places - np.array([disc.x, disc.y])).T) >= disc.radius + RADIUS
     return outside
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import Agent, plain
+from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, Stand
 from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.bodies.elbowroom import Elbowroom
@@ -34,15 +34,16 @@ class UnableError(SimulationError):
 class Walk:
     """An agent goes along corner points, perhaps with a thing in hand (a name, or a text from the magic box)."""
 
-    agent: Agent
+    agent: AgentId
     points: list[Point]
     carries: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """The robot turns on the spot to a heading."""
+    """A robot turns on the spot to a heading."""
 
+    agent: AgentId
     yaw: float
 
 
@@ -53,7 +54,7 @@ class Handle:
     `posture` is the body's pose, or the arm's posture, at the moment of the grasp.
     """
 
-    agent: Agent
+    agent: AgentId
     stand: Stand
     posture: Array
     name: str
@@ -62,8 +63,10 @@ class Handle:
 
 @dataclass(frozen=True, slots=True)
 class Give:
-    """The robot stands before the person and hands over a thing from the magic box at a point."""
+    """A robot stands before a person and hands over a thing from the magic box at a point."""
 
+    agent: AgentId
+    receiver: AgentId
     stand: Stand
     posture: Array
     point: tuple[float, float, float]
@@ -72,8 +75,9 @@ class Give:
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """The person does a motion at its place."""
+    """A person does a motion at its place."""
 
+    agent: AgentId
     person: PersonState
     motion: Motion
 
@@ -82,7 +86,12 @@ Step = Walk | Turn | Handle | Give | Play
 
 
 class Watch(Protocol):
-    """Called before each act of the person: lets the robot go where it will see it."""
+    """Called before each act of a person: lets a robot go where it will see it."""
+
+    @property
+    def robot(self) -> AgentId:
+        """Who watches."""
+        ...
 
     def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
         """Add the robot's drive to the plan; `deed` is the person in the middle of the act."""
@@ -123,12 +132,13 @@ class Plan:
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """What never changes while a home is lived in."""
+    """What never changes while a home is lived in: who lives there is part of it, a robot with its body."""
 
     scene: Scene
     navigator: Navigator
     motions: Library
-    robot: RobotBody
+    people: tuple[AgentId, ...]
+    robots: Mapping[AgentId, RobotBody]
     room: Elbowroom
     search: Callable[[str], str] | None = None
 
@@ -151,20 +161,23 @@ class Ground:
         return found
 
 
-def other(agent: Agent) -> Agent:
-    """The one who is not acting."""
-    return "robot" if agent == "human" else "human"
-
-
-def discs(state: HomeState, agent: Agent) -> list[Disc]:
+def discs(state: HomeState, agent: AgentId) -> list[Disc]:
     """The floor taken up by an agent: its place, and for a sitting person also the place to get up to."""
-    if agent == "robot":
-        return [Disc(*state.robot.spot)]
-    person = state.person
-    found = [Disc(*person.spot)]
-    if math.dist(person.spot, person.place) > 0.1:
-        found.append(Disc(*person.place, _APART_SEATED - RADIUS))
+    body = state.agents[agent]
+    found = [Disc(*body.spot)]
+    if math.dist(body.spot, body.place) > 0.1:
+        found.append(Disc(*body.place, _APART_SEATED - RADIUS))
     return found
+
+
+def floor_of_others(state: HomeState, agent: AgentId, *but: AgentId) -> dict[AgentId, list[Disc]]:
+    """The floor that each of the others takes up, but for some."""
+    return {one: discs(state, one) for one in state.agents if one != agent and one not in but}
+
+
+def taken_by_others(state: HomeState, agent: AgentId) -> list[Disc]:
+    """The floor that all the others take up."""
+    return [disc for found in floor_of_others(state, agent).values() for disc in found]
 
 
 def clear_of(place: Point, taken: list[Disc]) -> bool:

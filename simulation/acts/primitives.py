@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from coopera.core.household import Agent, plain
-from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, discs, other
+from coopera.core.household import AgentId, plain
+from coopera.simulation.acts.agents import named
+from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, taken_by_others
 from coopera.simulation.acts.skills import put, take
 from coopera.simulation.acts.state import HomeState
 from coopera.simulation.acts.walking import walk
@@ -23,13 +24,13 @@ class Result(NamedTuple):
     metres: float = 0.0
 
 
-def go_to(ground: Ground, state: HomeState, agent: Agent, target: str) -> Plan:
+def go_to(ground: Ground, state: HomeState, agent: AgentId, target: str) -> Plan:
     """Plan a walk to a room, to a piece of furniture or to where a thing is.
 
     Raises:
         UnableError: If there is no such place, or no way to it.
     """
-    plan, start = Plan(state), state.spot(agent)
+    plan, start = Plan(state), state.agents[agent].spot
     room = ground.scene.room(target)
     if room is not None:
         middle = ground.navigator.middle_of(room.name)
@@ -43,7 +44,7 @@ def go_to(ground: Ground, state: HomeState, agent: Agent, target: str) -> Plan:
         stands = ground.navigator.approach(at, start, point=None if thing.fixed else where.position[:2])
         goals = [(stand.x, stand.y) for stand in stands]
         plan.at = [thing.name] if thing.fixed else []
-    taken = discs(state, other(agent))
+    taken = taken_by_others(state, agent)
     for goal in sorted(goals, key=lambda goal: not clear_of(goal, taken)):
         mark = plan.mark()
         try:
@@ -52,27 +53,25 @@ def go_to(ground: Ground, state: HomeState, agent: Agent, target: str) -> Plan:
             plan.rewind(mark)
             continue
         return plan
-    raise UnableError(f"the {agent} finds no way to the {plain(target)}")
+    raise UnableError(f"{named(agent)} finds no way to the {plain(target)}")
 
 
-def pick(ground: Ground, state: HomeState, agent: Agent, thing: str) -> Plan:
+def pick(ground: Ground, state: HomeState, agent: AgentId, thing: str) -> Plan:
     """Plan to go to a thing and take it; it is then in the agent's hand.
 
     Raises:
         UnableError: If the hand is full or the thing is out of reach.
     """
-    held = _held(state, agent)
+    held = state.agents[agent].thing
     if held is not None:
-        raise UnableError(f"the {agent} already holds the {plain(held)}")
+        raise UnableError(f"{named(agent)} already holds the {plain(held)}")
     plan, wanted = Plan(state), ground.movable(thing)
-    if _held(state, other(agent)) == wanted.name:
-        raise UnableError(f"the {other(agent)} holds the {plain(thing)}")
     take(ground, plan, agent, wanted)
-    plan.state = _with_held(plan.state, agent, wanted.name)
+    plan.state = plan.state.with_agent(agent, thing=wanted.name)
     return plan
 
 
-def place(ground: Ground, state: HomeState, agent: Agent, receptacle: str) -> Plan:
+def place(ground: Ground, state: HomeState, agent: AgentId, receptacle: str) -> Plan:
     """Plan to carry what is in the agent's hand to a piece of furniture and put it down there.
 
     Raises:
@@ -80,23 +79,15 @@ def place(ground: Ground, state: HomeState, agent: Agent, receptacle: str) -> Pl
     """
     plan, thing = Plan(state), _own(ground, state, agent)
     put(ground, plan, agent, thing, ground.fixed(receptacle))
-    plan.state = _with_held(plan.state, agent, None)
+    plan.state = plan.state.with_agent(agent, thing=None)
     return plan
 
 
-def _own(ground: Ground, state: HomeState, agent: Agent) -> SceneObject:
-    held = _held(state, agent)
+def _own(ground: Ground, state: HomeState, agent: AgentId) -> SceneObject:
+    held = state.agents[agent].thing
     if held is None:
-        raise UnableError(f"the {agent} holds nothing")
+        raise UnableError(f"{named(agent)} holds nothing")
     thing = ground.scene.object(held)
     if thing is None:
         raise UnableError(f"the {plain(held)} is from the magic box, and can only be used or handed over")
     return thing
-
-
-def _held(state: HomeState, agent: Agent) -> str | None:
-    return state.person.thing if agent == "human" else state.robot.thing
-
-
-def _with_held(state: HomeState, agent: Agent, name: str | None) -> HomeState:
-    return state.with_person(thing=name) if agent == "human" else state.with_robot(thing=name)

@@ -1,71 +1,94 @@
-"""Two bodies that share the floor: walking around each other, and giving way."""
+"""Bodies that share the floor: walking around each other, and giving way."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
-from coopera.core.household import Agent
+from coopera.core.household import AgentId
+from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.navigation import RADIUS, Disc, Route
-from coopera.simulation.acts.plans import Ground, Placed, Plan, UnableError, Walk, Watch, discs, other, stand_up
+from coopera.simulation.acts.plans import Ground, Placed, Plan, UnableError, Walk, Watch, floor_of_others, stand_up
+from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
 
 _THERE = 0.02
 _DETOUR = 4.0
-"""Longest way around the other one, in metres more than the straight way, before they are asked to step aside."""
+"""Longest way around the others, in metres more than the straight way, before they are asked to step aside."""
 
 
-def walk(ground: Ground, plan: Plan, agent: Agent, goal: Point, carries: str | None = None) -> None:
-    """Add a walk to a plan: around the other one, or past them once they have stepped aside.
+def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str | None = None) -> None:
+    """Add a walk to a plan: around the others, or past them once they have stepped aside.
 
     Raises:
         UnableError: If there is no way.
     """
-    start = plan.state.spot(agent)
+    start = plan.state.agents[agent].spot
     if math.dist(start, goal) < _THERE:
-        if agent == "human":
-            plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, start)})
+        if agent in ground.people:
+            plan.state = _arrived(plan.state, agent, start)
         return
-    route = ground.navigator.route(start, goal)
-    if route.points is None:
-        raise UnableError(f"the {agent} cannot get there: {route.reason}")
-    hit = _in_the_way(route, discs(plan.state, other(agent)))
-    if hit is not None:
-        around = ground.navigator.route(start, goal, avoid=hit)
-        if (
-            around.points is not None
-            and around.length <= route.length + _DETOUR
-            and math.dist(around.points[-1], goal) < 0.08
-            and _in_the_way(around, discs(plan.state, other(agent))) is None
-        ):
-            route = around
-        else:
-            _step_aside(ground, plan, other(agent), route)
+    straight = ground.navigator.route(start, goal)
+    if straight.points is None:
+        raise UnableError(f"{named(agent)} cannot get there: {straight.reason}")
+    floor = floor_of_others(plan.state, agent)
+    route = _around(ground, straight, start, goal, floor)
+    if route is None:
+        route = straight
+        for one in [one for one, found in floor.items() if _in_the_way(straight, found)]:
+            _step_aside(ground, plan, one, agent, straight)
     points = route.points or [start, goal]
     plan.steps.append(Walk(agent, points, carries))
     plan.metres += route.length
-    last = points[-1]
-    if agent == "human":
-        plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, last)})
-    else:
-        plan.state = plan.state.with_robot(spot=last)
+    plan.state = _arrived(plan.state, agent, points[-1])
 
 
 def walk_to_deed(
-    ground: Ground, plan: Plan, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
+    ground: Ground, plan: Plan, agent: AgentId, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
 ) -> None:
-    """Add the person's walk to an act; a robot that is to see it goes ahead, and comes back if it had to step aside.
+    """Add a person's walk to an act; a robot that is to see it goes ahead, and comes back if it had to step aside.
 
     Raises:
         UnableError: If there is no way.
     """
     if watch is None:
-        walk(ground, plan, "human", goal, carries)
+        walk(ground, plan, agent, goal, carries)
         return
     watch(plan, deed, goal)
-    place = plan.state.robot.spot
-    walk(ground, plan, "human", goal, carries)
-    if plan.state.robot.spot != place:
+    place = plan.state.agents[watch.robot].spot
+    walk(ground, plan, agent, goal, carries)
+    if plan.state.agents[watch.robot].spot != place:
         watch(plan, deed, goal)
+
+
+def _arrived(state: HomeState, agent: AgentId, spot: Point) -> HomeState:
+    """The home with an agent standing at a spot; a robot keeps its heading."""
+    body = state.agents[agent]
+    if isinstance(body, PersonState):
+        return state.put(agent, stand_up(body, spot))
+    return state.with_agent(agent, spot=spot)
+
+
+def _around(
+    ground: Ground, straight: Route, start: Point, goal: Point, floor: Mapping[AgentId, list[Disc]]
+) -> Route | None:
+    """The straight way if it is free, else one around everybody in it; None where that is too long or leads nowhere."""
+    route, avoid = straight, dict[AgentId, Disc]()
+    while (hit := _first_in_the_way(route, floor)) is not None:
+        if hit[0] in avoid:
+            return None
+        avoid[hit[0]] = hit[1]
+        route = ground.navigator.route(start, goal, avoid=tuple(avoid.values()))
+        if route.points is None or route.length > straight.length + _DETOUR:
+            return None
+        if math.dist(route.points[-1], goal) >= 0.08:
+            return None
+    return route
+
+
+def _first_in_the_way(route: Route, floor: Mapping[AgentId, list[Disc]]) -> tuple[AgentId, Disc] | None:
+    hits = ((one, _in_the_way(route, found)) for one, found in floor.items())
+    return next(((one, hit) for one, hit in hits if hit is not None), None)
 
 
 def _in_the_way(route: Route, taken: list[Disc]) -> Disc | None:
@@ -87,15 +110,16 @@ def _to_line(point: Point, a: Point, b: Point) -> float:
     return math.dist(point, (a[0] + share * dx, a[1] + share * dy))
 
 
-def _step_aside(ground: Ground, plan: Plan, agent: Agent, route: Route) -> None:
-    """Let the agent in the way go where the walker passes it."""
-    here = plan.state.spot(agent)
-    aside = ground.navigator.give_way(here, route.points or [])
+def _step_aside(ground: Ground, plan: Plan, agent: AgentId, walker: AgentId, route: Route) -> None:
+    """Let an agent in the way go where the walker passes it, and where nobody else stands."""
+    here = plan.state.agents[agent].spot
+    floor = floor_of_others(plan.state, agent, walker)
+    taken = [disc for found in floor.values() for disc in found]
+    aside = ground.navigator.give_way(here, route.points or [], taken=taken)
     way = ground.navigator.route(here, aside) if aside is not None else None
+    if aside is not None and way is not None and way.points is not None:
+        way = _around(ground, way, here, aside, floor)
     if way is None or way.points is None:
-        raise UnableError(f"the {agent} stands in the way and has nowhere to step aside")
+        raise UnableError(f"{named(agent)} stands in the way and has nowhere to step aside")
     plan.steps.append(Walk(agent, way.points))
-    if agent == "human":
-        plan.state = plan.state.model_copy(update={"person": stand_up(plan.state.person, way.points[-1])})
-    else:
-        plan.state = plan.state.with_robot(spot=way.points[-1])
+    plan.state = _arrived(plan.state, agent, way.points[-1])

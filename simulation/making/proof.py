@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import get_args
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import Agent
 from coopera.simulation.acts.home_check import check
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.world import World
@@ -29,7 +27,7 @@ def _not_taken(scene: Scene, seen: set[str]) -> Iterator[str]:
     with World(scene) as world:
         start = world.snapshot()
         for thing in scene.movable:
-            for agent in get_args(Agent):
+            for agent in world.state.agents:
                 result = world.pick(agent, thing.name)
                 world.restore(start)
                 if not result.ok and thing.name not in seen:

@@ -1,4 +1,4 @@
-"""Where to look from: the robot's standing place and the third-person camera, chosen so that the person is seen."""
+"""Where to look from: the robot's standing place and the third-person camera, chosen so that a person is seen."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from coopera.core.household import AgentId
 from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, to_segment
 from coopera.simulation.acts.plans import Placed, all_clear_of
 from coopera.simulation.bodies.humanoid import forward
@@ -38,11 +39,19 @@ _APART = 0.8
 
 
 class Focus(NamedTuple):
-    """The subject of a picture: the person in the act, the furniture under or around the body, and the room."""
+    """The subject of a picture: a person in the act, the furniture under or around the body, and the room."""
 
+    who: AgentId
     person: Placed
     ignore: tuple[str, ...]
     room: str
+
+
+class Eyes(NamedTuple):
+    """Who is to see it: the robot's body, and where it is; a short drive is preferred."""
+
+    body: RobotBody
+    start: Point
 
 
 def body_points(person: Placed) -> Array:
@@ -59,7 +68,7 @@ def around(scene: Scene, person: Placed) -> tuple[str, ...]:
 
 
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
-    """The camera in the robot's head."""
+    """The camera in a robot's head."""
     place, direction = body.camera(robot.pose)
     heading = about_z(robot.yaw)
     eye = heading @ place + np.array((robot.x, robot.y, 0.0))
@@ -83,12 +92,12 @@ def seen_share(stage: Stage, eyes: Array, points: Array) -> Array:
 def watching_place(
     stage: Stage,
     navigator: Navigator,
+    eyes: Eyes,
     focus: Focus,
-    start: Point,
     keep_clear: list[Point],
     taken: list[Disc],
 ) -> Point | None:
-    """Choose where the robot stands to watch: it sees most of the person, from the front, and is in nobody's way.
+    """Choose where a robot stands to watch: it sees most of the person, from the front, and is in nobody's way.
 
     Where the person's way leaves no such place (a narrow kitchen), it may stand beside the way, if the person can
     still get past.
@@ -96,10 +105,10 @@ def watching_place(
     Args:
         stage: Set to the home as it is, without anything in the way that is not there.
         navigator: Of the same home.
+        eyes: Who is to see it.
         focus: What to see.
-        start: Where the robot is; a short drive is preferred.
         keep_clear: The person's way, as corner points from where they are to where they act.
-        taken: Floor that the person takes up.
+        taken: Floor that the others take up.
 
     Returns:
         The place, or None if the person is seen from nowhere; the robot then stays where it is.
@@ -115,22 +124,22 @@ def watching_place(
     apart = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
     if apart.sum() < 20:
         apart = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
-    place = _best_sight(stage, focus, start, cells[apart], taken, _anywhere)
+    place = _best_sight(stage, eyes, focus, cells[apart], taken, _anywhere)
     if place is not None:
         return place
     beside = (away >= 0.9) & (away <= 5.0) & (off < 0.65)
 
     def can_pass(place: Point) -> bool:
         past = Disc(*place, RADIUS)
-        return navigator.route(keep_clear[0], keep_clear[-1], avoid=past).points is not None
+        return navigator.route(keep_clear[0], keep_clear[-1], avoid=(past,)).points is not None
 
-    return _best_sight(stage, focus, start, cells[beside], taken, can_pass)
+    return _best_sight(stage, eyes, focus, cells[beside], taken, can_pass)
 
 
 def _best_sight(
     stage: Stage,
+    robot: Eyes,
     focus: Focus,
-    start: Point,
     cells: Array,
     taken: list[Disc],
     allowed: Callable[[Point], bool],
@@ -143,12 +152,12 @@ def _best_sight(
         return None
     away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
     towards = np.arctan2(person.y - cells[:, 1], person.x - cells[:, 0])
-    ahead, _, high = stage.body.camera(stage.body.tucked)[0].tolist()
+    ahead, _, high = robot.body.camera(robot.body.tucked)[0].tolist()
     eyes = np.stack(
         (cells[:, 0] + ahead * np.cos(towards), cells[:, 1] + ahead * np.sin(towards), high + 0 * away), axis=1
     )
     side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
-    drive = np.hypot(cells[:, 0] - start[0], cells[:, 1] - start[1])
+    drive = np.hypot(cells[:, 0] - robot.start[0], cells[:, 1] - robot.start[1])
     convenience = -0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
     points, share, score = body_points(person), np.zeros(len(cells)), convenience
     best: list[int] = []
@@ -258,12 +267,12 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     if not focus.ignore:
         return cameras[_clearest(stage, cameras, score[best])]
     cameras.append(Camera((target[0] + 0.3, target[1] + 0.3, _OVERHEAD), target, VIEW_FOV))
-    return max(cameras, key=lambda camera: _shown(stage, camera))
+    return max(cameras, key=lambda camera: _shown(stage, camera, focus.who))
 
 
-def _shown(stage: Stage, camera: Camera) -> float:
+def _shown(stage: Stage, camera: Camera, who: AgentId) -> float:
     """How much of a small picture the person fills, up to `_LARGE`: what they are in may hide them, unlike its hull."""
-    return min(round(float((stage.picture(camera, _SMALL)[1] == stage.person).mean()), 4), _LARGE)
+    return min(round(float((stage.picture(camera, _SMALL)[1] == stage.bodies[who]).mean()), 4), _LARGE)
 
 
 def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:

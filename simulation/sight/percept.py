@@ -43,6 +43,7 @@ def perceive(
     """
     shot = recording.shots[-1]
     moment = shot.at(shot.deed)
+    person = moment.bodies[recording.person]
     stage.show(recording.state, moment)
     confused, which, missed = rng.random(3)
     joints, seconds = seen_joints(stage, scene, recording, INSTANTS)
@@ -56,7 +57,7 @@ def perceive(
     hand_seen = bool(np.isfinite(joints[:, HANDS]).any())
     in_hand = recording.in_hand if hand_seen and missed >= errors.in_hand_missed else None
     return Percept(
-        room=scene.room_at(moment.person.x, moment.person.y).name,
+        room=scene.room_at(person.x, person.y).name,
         near=recording.near,
         motion=label,
         in_hand=class_of(in_hand) if in_hand else None,
@@ -65,7 +66,7 @@ def perceive(
 
 
 def seen_joints(stage: Stage, scene: Scene, recording: Recording, count: int) -> tuple[Array, Array]:
-    """The person's joints at uniformly sampled moments, as far as the robot's head camera sees them.
+    """The watched person's joints at uniformly sampled moments, as far as the robot's head camera sees them.
 
     A joint is seen if it lies within the picture and no furniture stands before it; what the person sits or lies on
     hides nothing.
@@ -77,16 +78,20 @@ def seen_joints(stage: Stage, scene: Scene, recording: Recording, count: int) ->
     joints = np.full((count, len(PARTS), 3), np.nan)
     found = [recording.find(int(tick)) for tick in ticks]
     for index, shot in enumerate(recording.shots):
-        ignore = around(scene, shot.at(shot.deed).person)
+        ignore = around(scene, shot.at(shot.deed).bodies[recording.person])
         stage.hide(ignore)
         for i, (there, within) in enumerate(found):
             if there == index:
                 moment = shot.at(within)
-                points = in_world(moment.person)
-                seen = _seen(stage, robot_camera(stage.body, moment.robot), points)
+                points = in_world(moment.bodies[recording.person])
+                seen = _seen(stage, _eyes(stage, recording, moment), points)
                 joints[i, seen] = points[seen]
         stage.unhide(ignore)
     return joints, ticks / TICKS
+
+
+def _eyes(stage: Stage, recording: Recording, moment: Moment) -> Camera:
+    return robot_camera(stage.robots[recording.robot], moment.bodies[recording.robot])
 
 
 def in_world(person: Placed) -> Array:
@@ -108,11 +113,12 @@ def visible_from_robot(stage: Stage, scene: Scene, recording: Recording, moment:
     An object is seen if it lies within the picture and a ray to its middle or to the middle of its top meets nothing
     else first. The stage must show the moment.
     """
-    camera = robot_camera(stage.body, moment.robot)
+    camera = _eyes(stage, recording, moment)
     eye, ahead = np.array(camera.eye), np.array(camera.target) - np.array(camera.eye)
+    in_hands = {moment.held[agent].name for agent in moment.held if agent not in stage.robots}
     names, points = [], []
     for thing in scene.objects:
-        if moment.in_hand is not None and moment.in_hand.name == thing.name:
+        if thing.name in in_hands:
             continue
         where = moment.moved.get(thing.name) or recording.state.thing(thing)
         x, y, z = thing.position if thing.fixed else where.position

@@ -1,34 +1,35 @@
-"""The look of a recorded act: for every tick the place and the pose of both bodies, and the things in their hands.
+"""The look of a recorded act: for every tick the place and the pose of all bodies, and the things in their hands.
 
-A recording is a list of shots. A shot is what the robot watches from one place: the end of a walk and then a reach,
+A recording is a list of shots. A shot is what a robot watches from one place: the end of a walk and then a reach,
 a motion or a hand-over. Longer walks are cut, as a film would. Poses are computed only for the ticks asked for.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from coopera.core.household import Agent
+from coopera.core.household import AgentId
 from coopera.simulation.acts.navigation import Stand
-from coopera.simulation.acts.plans import Give, Handle, Placed, Play, Step, Turn, Walk
+from coopera.simulation.acts.plans import Give, Ground, Handle, Placed, Play, Step, Turn, Walk
 from coopera.simulation.acts.skills import to_body
 from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.bodies.humanoid import SLICES, blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.floorplan import Point
-from coopera.simulation.motions.library import Hold, Library
+from coopera.simulation.motions.library import Hold
 from coopera.simulation.motions.poses import Setting, clip, pose_at
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 
 TICKS = 30
 """Ticks per second."""
-_SPEED = {"human": 1.1, "robot": 0.8}  # metres per second
+_PERSON_SPEED, _ROBOT_SPEED = 1.1, 0.8  # metres per second
 _SHOWN = 1.3
 """Seconds of a walk that a shot shows before the act."""
 _MOTION = 8.0
@@ -44,18 +45,16 @@ class Held(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """One tick."""
+    """One tick: everybody's body, what those hold who hold something, and the things that were moved by then."""
 
-    person: Placed
-    robot: Placed
-    in_hand: Held | None
-    in_gripper: Held | None
-    moved: dict[str, ThingState]
+    bodies: Mapping[AgentId, Placed]
+    held: Mapping[AgentId, Held]
+    moved: Mapping[str, ThingState]
 
 
 @dataclass(slots=True)
 class Shot:
-    """Ticks seen from one place of the robot; `at` gives the moment of a tick, `deed` is when the act is best seen."""
+    """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the act is best seen."""
 
     ticks: int
     at: Callable[[int], Moment]
@@ -64,9 +63,14 @@ class Shot:
 
 @dataclass(slots=True)
 class Recording:
-    """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done."""
+    """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
+
+    `robot` is who sees it, `person` who is looked at.
+    """
 
     state: HomeState
+    robot: AgentId
+    person: AgentId
     shots: list[Shot] = field(default_factory=list)
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
@@ -85,16 +89,14 @@ class Recording:
         raise IndexError("the recording is shorter than that")
 
 
-def person_still(library: Library, person: PersonState) -> Placed:
-    """The person between two acts."""
-    setting = Setting(person.support, person.worktop, person.posture)
-    return Placed(*person.place, person.yaw, pose_at(library[person.motion], 0.0, setting))
-
-
-def robot_still(body: RobotBody, state: HomeState) -> Placed:
-    """The robot between two acts."""
-    posture = body.tucked if state.robot.thing is None else body.carrying
-    return Placed(*state.robot.spot, state.robot.yaw, posture)
+def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
+    """An agent between two acts."""
+    body = state.agents[agent]
+    if isinstance(body, PersonState):
+        setting = Setting(body.support, body.worktop, body.posture)
+        return Placed(*body.place, body.yaw, pose_at(ground.motions[body.motion], 0.0, setting))
+    robot = ground.robots[agent]
+    return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
 
 
 class Track(NamedTuple):
@@ -144,26 +146,24 @@ def walking(gone: float, carries: bool) -> Array:
 class Filming:
     """Turns the steps of a plan into shots."""
 
-    def __init__(self, library: Library, body: RobotBody, start: HomeState) -> None:
-        self.motions = library
-        self.body = body
-        self.person = person_still(library, start.person)
-        self.robot = robot_still(body, start)
-        self.hand = Held(start.person.thing) if start.person.thing else None
-        self.gripper = Held(start.robot.thing) if start.robot.thing else None
-        self.moved: dict[str, ThingState] = {}
-        self.recording = Recording(start)
+    def __init__(self, ground: Ground, start: HomeState, robot: AgentId, person: AgentId) -> None:
+        """Begin with everybody as they are; `robot` will see it, and `person` is looked at."""
+        self.robots = ground.robots
+        self.bodies = {agent: still(ground, start, agent) for agent in start.agents}
+        self.held = {agent: Held(body.thing) for agent, body in start.agents.items() if body.thing}
+        self.moved: Mapping[str, ThingState] = {}
+        self.recording = Recording(start, robot, person)
         self._walk: Walk | None = None
-        self._actor: Agent = "human"
+        self._actor = person
 
-    def film(self, steps: list[Step], actor: Agent) -> Recording:
-        """Film all steps; walks of the one who is not acting happen between the shots."""
+    def film(self, steps: list[Step], actor: AgentId) -> Recording:
+        """Film all steps; walks of those who are not acting happen between the shots."""
         self._actor = actor
         for step in steps:
             if isinstance(step, Walk):
                 self._go(step)
             elif isinstance(step, Turn):
-                self.robot = self.robot._replace(yaw=step.yaw)
+                self.bodies[step.agent] = self.bodies[step.agent]._replace(yaw=step.yaw)
             elif isinstance(step, Handle):
                 self._handle(step)
             elif isinstance(step, Play):
@@ -174,32 +174,30 @@ class Filming:
 
     def _go(self, step: Walk) -> None:
         yaw = Track.along(step.points).heading(math.inf)
-        if step.agent == "robot":
-            self.robot = Placed(*step.points[-1], self.robot.yaw if yaw is None else yaw, self.body.tucked)
-        else:
-            self.person = Placed(*step.points[-1], self.person.yaw if yaw is None else yaw, standing())
+        before = self.bodies[step.agent]
+        pose = self._idle(step.agent, holds=False)
+        self.bodies[step.agent] = Placed(*step.points[-1], before.yaw if yaw is None else yaw, pose)
         if step.agent == self._actor:
             self._walk = step
-            if step.carries and step.agent == "human":
-                self.hand = Held(step.carries)
-            elif step.carries:
-                self.gripper = Held(step.carries)
+            if step.carries:
+                self.held[step.agent] = Held(step.carries)
 
-    def _approach(self, agent: Agent) -> tuple[int, Callable[[int], Placed]]:
+    def _approach(self, agent: AgentId) -> tuple[int, Callable[[int], Placed]]:
         """The last moments of the walk before an act."""
         walk, self._walk = self._walk, None
-        still = self.person if agent == "human" else self.robot
+        there = self.bodies[agent]
         if walk is None or len(walk.points) < 2:
-            return 0, lambda tick: still
-        track, speed = Track.along(walk.points), _SPEED[agent] / TICKS
+            return 0, lambda tick: there
+        drives = agent in self.robots
+        track, speed = Track.along(walk.points), (_ROBOT_SPEED if drives else _PERSON_SPEED) / TICKS
         ticks = min(math.ceil(track.marks[-1] / speed), round(_SHOWN * TICKS))
         carries = walk.carries is not None
 
         def at(tick: int) -> Placed:
             gone = max(track.marks[-1] - (ticks - tick) * speed, 0.0)
             yaw = track.heading(gone)
-            pose = walking(gone, carries) if agent == "human" else self._idle(agent, carries)
-            return Placed(*track.at(gone), still.yaw if yaw is None else yaw, pose)
+            pose = self._idle(agent, carries) if drives else walking(gone, carries)
+            return Placed(*track.at(gone), there.yaw if yaw is None else yaw, pose)
 
         return ticks, at
 
@@ -207,7 +205,7 @@ class Filming:
         """Walk up, turn, reach, take or put, and straighten up."""
         agent = step.agent
         walk_ticks, walk_at = self._approach(agent)
-        came = walk_at(walk_ticks)
+        came, between = walk_at(walk_ticks), self._blend(agent)
         here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(agent, step.put is not None))
         after = here._replace(pose=self._idle(agent, step.put is None))
         bent = here._replace(pose=step.posture)
@@ -223,11 +221,11 @@ class Filming:
             if tick < walk_ticks:
                 body = walk_at(tick)
             elif tick < turned:
-                body = _between(came, here, (tick - walk_ticks) / _TURN, agent)
+                body = between(came, here, (tick - walk_ticks) / _TURN)
             elif tick < reached:
-                body = _between(here, bent, (tick - turned) / _REACH, agent)
+                body = between(here, bent, (tick - turned) / _REACH)
             else:
-                body = _between(bent, after, (tick - done) / _BACK, agent)
+                body = between(bent, after, (tick - done) / _BACK)
             late = tick >= reached + _HOLD // 2
             return others(body, hand_after if late else hand_before, moved_after if late else moved_before)
 
@@ -236,15 +234,16 @@ class Filming:
 
     def _play(self, step: Play) -> None:
         """Walk up, get into the posture, and do the motion."""
-        walk_ticks, walk_at = self._approach("human")
-        came = walk_at(walk_ticks)
+        agent = step.agent
+        walk_ticks, walk_at = self._approach(agent)
+        came, between = walk_at(walk_ticks), self._blend(agent)
         person, motion = step.person, step.motion
         setting = Setting(person.support, person.worktop, person.posture)
         held = Held(person.thing, motion.keys.hold) if person.thing else None
         carried = Held(person.thing) if person.thing else None
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
-        others = self._frozen("human")
+        others = self._frozen(agent)
         moved = self.moved
 
         def at(tick: int) -> Moment:
@@ -253,64 +252,80 @@ class Filming:
             pose = pose_at(motion, max(tick - settled, 0) / TICKS, setting)
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
-                body = _between(came, body, (tick - walk_ticks) / _SETTLE, "human")
-                return others(body, carried, moved)
+                return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
             return others(body, held, moved)
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
-        self._finish("human", Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
+        self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
     def _give(self, step: Give) -> None:
         """Drive up, hold out the thing, and let the person take it."""
-        walk_ticks, walk_at = self._approach("robot")
-        came = walk_at(walk_ticks)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self.body.carrying)
-        out, empty = here._replace(pose=step.posture), here._replace(pose=self.body.tucked)
+        walk_ticks, walk_at = self._approach(step.agent)
+        came, body = walk_at(walk_ticks), self.robots[step.agent]
+        moves, bends = self._blend(step.agent), self._blend(step.receiver)
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, body.carrying)
+        out, empty = here._replace(pose=step.posture), here._replace(pose=body.tucked)
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + 2 * _HOLD
-        still, moved = self.person, self.moved
-        offer, before = Held(step.thing), self.hand
-        taking = _receiving(still, step) if self.recording.state.person.posture == "stand" else still
+        waiting, moved = self.bodies[step.receiver], self.moved
+        offer, before = Held(step.thing), self.held.get(step.receiver)
+        stands = self.recording.state.person(step.receiver).posture == "stand"
+        taking = _receiving(waiting, step) if stands else waiting
+        others = self._frozen(step.agent)
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
                 robot = walk_at(tick)
             elif tick < turned:
-                robot = _between(came, here, (tick - walk_ticks) / _TURN, "robot")
+                robot = moves(came, here, (tick - walk_ticks) / _TURN)
             elif tick < reached:
-                robot = _between(here, out, (tick - turned) / _REACH, "robot")
+                robot = moves(here, out, (tick - turned) / _REACH)
             else:
-                robot = _between(out, empty, (tick - done) / _BACK, "robot")
+                robot = moves(out, empty, (tick - done) / _BACK)
             share = (tick - turned) / _REACH if tick < done else 1 - (tick - done) / _BACK
             given = tick >= reached + _HOLD
-            person = _between(still, taking, share, "human")
-            return Moment(person, robot, offer if given else before, None if given else offer, moved)
+            person = bends(waiting, taking, share)
+            moment = others(robot, None if given else offer, moved)
+            held = _with(moment.held, step.receiver, offer if given else before)
+            return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
         self.recording.shots.append(Shot(done + _BACK, at, reached))
-        self.robot, self.hand, self.gripper = empty, offer, None
+        self._finish(step.agent, empty, None, moved)
+        self.held[step.receiver] = offer
 
-    def _frozen(self, agent: Agent) -> Callable[[Placed, Held | None, dict[str, ThingState]], Moment]:
-        """Moments in which only one agent moves; the robot keeps its head towards the person."""
-        person, robot, hand, gripper, turning = self.person, self.robot, self.hand, self.gripper, self.body
+    def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
+        """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
+        bodies, all_held = dict(self.bodies), dict(self.held)
+        robot, person = self.recording.robot, self.recording.person
 
-        def moment(body: Placed, held: Held | None, moved: dict[str, ThingState]) -> Moment:
-            if agent == "human":
-                return Moment(body, watching(turning, robot, body), held, gripper, moved)
-            return Moment(person, body, hand, held, moved)
+        def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
+            now = {**bodies, agent: body}
+            if agent != robot:
+                now[robot] = watching(self.robots[robot], now[robot], now[person])
+            return Moment(now, _with(all_held, agent, held), moved)
 
         return moment
 
-    def _idle(self, agent: Agent, holds: bool) -> Array:
-        if agent == "robot":
-            return self.body.carrying if holds else self.body.tucked
+    def _idle(self, agent: AgentId, holds: bool) -> Array:
+        robot = self.robots.get(agent)
+        if robot is not None:
+            return robot.carrying if holds else robot.tucked
         return carrying() if holds else standing()
 
-    def _finish(self, agent: Agent, body: Placed, held: Held | None, moved: dict[str, ThingState]) -> None:
+    def _blend(self, agent: AgentId) -> Callable[[Placed, Placed, float], Placed]:
+        """How an agent gets from one placed body to another."""
+        return partial(_between, mix=_mixed if agent in self.robots else blend)
+
+    def _finish(self, agent: AgentId, body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> None:
         self.moved = moved
-        if agent == "human":
-            self.person, self.hand = body, held
-        else:
-            self.robot, self.gripper = body, held
+        self.bodies[agent] = body
+        self.held = _with(self.held, agent, held)
+
+
+def _with(held: Mapping[AgentId, Held], agent: AgentId, thing: Held | None) -> dict[AgentId, Held]:
+    """What everybody holds, once an agent holds a thing, or nothing."""
+    others = {one: what for one, what in held.items() if one != agent}
+    return others if thing is None else {**others, agent: thing}
 
 
 def _receiving(person: Placed, step: Give) -> Placed:
@@ -327,13 +342,15 @@ def watching(body: RobotBody, robot: Placed, person: Placed) -> Placed:
     return robot._replace(pose=body.look_at(robot.pose, to_body(stand, (person.x, person.y, height))))
 
 
-def _between(first: Placed, second: Placed, share: float, agent: Agent) -> Placed:
+def _mixed(first: Array, second: Array, share: float) -> Array:
+    """A robot's posture between two others."""
+    return first + share * (second - first)
+
+
+def _between(first: Placed, second: Placed, share: float, mix: Callable[[Array, Array, float], Array]) -> Placed:
     """Ease from one placed body to another."""
     share = smooth(share)
     turn = wrapped(second.yaw - first.yaw)
-    if agent == "human":
-        pose = blend(first.pose, second.pose, share)
-    else:
-        pose = first.pose + share * (second.pose - first.pose)
+    pose = mix(first.pose, second.pose, share)
     x, y = (1 - share) * np.array(first[:2]) + share * np.array(second[:2])
     return Placed(float(x), float(y), first.yaw + share * turn, pose)

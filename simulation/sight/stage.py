@@ -6,7 +6,7 @@ Nothing here is truth: poses go in and are never read back. One stage is one pyb
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.core.household import Agent
+from coopera.core.household import AgentId
 from coopera.simulation.sight.engine import Renderer, load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
@@ -29,6 +29,7 @@ from coopera.simulation.sight.recording import Held, Moment
 
 BODIES = Path(__file__).parents[1] / "bodies"
 _FAR_BELOW = -50.0
+_KEPT = 8
 _THIN = 0.08
 _TOOL = 0.17
 _LONG = 0.7
@@ -49,17 +50,24 @@ class Camera(NamedTuple):
 class Stage:
     """All bodies of a home in one pybullet client; `close` it after use."""
 
-    def __init__(self, scene: Scene, body: RobotBody, renderer: Renderer | None = "tiny") -> None:
-        """Build the home, the person and the robot: about 0.3 s, or 0.05 s without a renderer, for rays alone."""
-        self.scene, self.body = scene, body
+    def __init__(
+        self,
+        scene: Scene,
+        people: Sequence[AgentId],
+        robots: Mapping[AgentId, RobotBody],
+        renderer: Renderer | None = "tiny",
+    ) -> None:
+        """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone."""
+        self.scene, self.robots = scene, robots
         self.client: int = pybullet.connect(pybullet.DIRECT)
         self.renderer = None if renderer is None else start_renderer(renderer, self.client)
         drawn = renderer is not None
         self.home = build(scene, self.client, drawn=drawn)
-        self.person = load_urdf(BODIES / "person.urdf", self.client, drawn=drawn)
-        self.robot = load_urdf(body.urdf, self.client, drawn=drawn)
-        self._person_joints = self._joints(self.person, tuple(name for name, _ in JOINTS))
-        self._robot_joints = self._joints(self.robot, body.joints)
+        self.bodies = {agent: load_urdf(BODIES / "person.urdf", self.client, drawn=drawn) for agent in people}
+        self.bodies |= {agent: load_urdf(body.urdf, self.client, drawn=drawn) for agent, body in robots.items()}
+        names = dict.fromkeys(people, [name for name, _ in JOINTS])
+        names |= {agent: list(body.joints) for agent, body in robots.items()}
+        self._joints = {agent: self._joints_of(body, names[agent]) for agent, body in self.bodies.items()}
         self._shown: dict[str, ThingState] = {
             thing.name: ThingState(position=thing.position, yaw=thing.yaw, on=thing.on) for thing in scene.movable
         }
@@ -73,7 +81,7 @@ class Stage:
                 pybullet.disconnect(self.client)
             self.client = -1
 
-    def _joints(self, body: int, names: Sequence[str]) -> list[int]:
+    def _joints_of(self, body: int, names: Sequence[str]) -> list[int]:
         count = pybullet.getNumJoints(body, physicsClientId=self.client)
         known = {pybullet.getJointInfo(body, i, physicsClientId=self.client)[1].decode(): i for i in range(count)}
         return [known[name] for name in names]
@@ -81,15 +89,17 @@ class Stage:
     def show(self, state: HomeState, moment: Moment) -> None:
         """Put everything where it is at a moment."""
         self._things(state, moment)
-        self._put_person(moment.person)
-        self._put_robot(moment.robot)
+        for agent, placed in moment.bodies.items():
+            if agent in self.robots:
+                self._put_robot(agent, placed)
+            else:
+                self._put_person(agent, placed)
         for name in sorted(self._carried):
             self.home.move(name, (0.0, 0.0, _FAR_BELOW), 0.0)
         self._carried.clear()
-        if moment.in_hand is not None:
-            self._carry("human", moment.in_hand, moment.person)
-        if moment.in_gripper is not None:
-            self._carry("robot", moment.in_gripper, moment.robot)
+        for agent, placed in moment.bodies.items():
+            if agent in moment.held:
+                self._carry(agent, moment.held[agent], placed)
 
     def _things(self, state: HomeState, moment: Moment) -> None:
         for thing in self.scene.movable:
@@ -98,26 +108,28 @@ class Stage:
                 self.home.move(thing.name, where.position, where.yaw)
                 self._shown[thing.name] = where
 
-    def _put_person(self, person: Placed) -> None:
+    def _put_person(self, agent: AgentId, person: Placed) -> None:
         heading = about_z(person.yaw)
         place = heading @ person.pose[SLICES["place"]] + np.array((person.x, person.y, 0.0))
         turn = quaternion(heading @ matrix(person.pose[SLICES["turn"]]))
-        pybullet.resetBasePositionAndOrientation(self.person, place.tolist(), turn, physicsClientId=self.client)
+        body = self.bodies[agent]
+        pybullet.resetBasePositionAndOrientation(body, place.tolist(), turn, physicsClientId=self.client)
         pybullet.resetJointStatesMultiDof(
-            self.person,
-            self._person_joints,
+            body,
+            self._joints[agent],
             [person.pose[SLICES[name]].tolist() for name, _ in JOINTS],
             physicsClientId=self.client,
         )
 
-    def _put_robot(self, robot: Placed) -> None:
+    def _put_robot(self, agent: AgentId, robot: Placed) -> None:
         turn = (0.0, 0.0, math.sin(robot.yaw / 2), math.cos(robot.yaw / 2))
-        pybullet.resetBasePositionAndOrientation(self.robot, (robot.x, robot.y, 0.0), turn, physicsClientId=self.client)
+        body = self.bodies[agent]
+        pybullet.resetBasePositionAndOrientation(body, (robot.x, robot.y, 0.0), turn, physicsClientId=self.client)
         pybullet.resetJointStatesMultiDof(
-            self.robot, self._robot_joints, [[float(v)] for v in robot.pose], physicsClientId=self.client
+            body, self._joints[agent], [[float(v)] for v in robot.pose], physicsClientId=self.client
         )
 
-    def _carry(self, agent: Agent, held: Held, placed: Placed) -> None:
+    def _carry(self, agent: AgentId, held: Held, placed: Placed) -> None:
         """Attach a thing to a hand or the gripper: it just follows."""
         initial = self.scene.object(held.name)
         if initial is not None and not initial.fixed:
@@ -126,25 +138,27 @@ class Stage:
         else:
             name, size = self._from_box(held.name)
             self._carried.add(name)
-        place, turn = _in_hand(placed, held, size) if agent == "human" else self._in_gripper(placed, size)
+        place, turn = self._in_gripper(agent, placed, size) if agent in self.robots else _in_hand(placed, held, size)
         heading = about_z(placed.yaw)
         at = heading @ place + np.array((placed.x, placed.y, 0.0))
         self.home.move_to(name, (float(at[0]), float(at[1]), float(at[2])), quaternion(heading @ turn))
 
-    def _in_gripper(self, robot: Placed, size: Point3) -> tuple[Array, Array]:
-        place = self.body.gripper(robot.pose).place
+    def _in_gripper(self, agent: AgentId, robot: Placed, size: Point3) -> tuple[Array, Array]:
+        place = self.robots[agent].gripper(robot.pose).place
         return place - np.array((0.0, 0.0, min(0.6 * size[2], 0.5 * size[2] + 0.03))), np.eye(3)
 
     def _from_box(self, text: str) -> tuple[str, Point3]:
-        """The body of a thing from the magic box; the newest few are kept."""
+        """A body of a thing from the magic box that nobody holds yet; the newest few are kept."""
         shape = shape_of(text)
-        name = f"box:{shape.cls}"
+        name, number = f"box:{shape.cls}", 1
+        while name in self._carried:
+            number += 1
+            name = f"box:{shape.cls}:{number}"
         if name not in self._box:
-            if len(self._box) >= 8:
-                oldest = next(iter(self._box))
-                del self._box[oldest]
-                self.home.remove(oldest)
-                self._carried.discard(oldest)
+            unused = [known for known in self._box if known not in self._carried]
+            if len(self._box) >= _KEPT and unused:
+                del self._box[unused[0]]
+                self.home.remove(unused[0])
             self.home.add(name, shape.cls, shape.size, shape.rgb)
             self._box[name] = shape
         return name, self._box[name].size

@@ -1,18 +1,20 @@
-"""The robot as an onlooker: where it goes to see the person, and the pictures of a recording."""
+"""A robot as an onlooker: where it goes to see a person, and the pictures of a recording."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
-from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, discs
+from coopera.core.household import AgentId
+from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.homes.floorplan import Point
-from coopera.simulation.sight.cameras import Focus, around, robot_camera, view_camera, watching_place
+from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
 from coopera.simulation.sight.engine import Renderer
-from coopera.simulation.sight.recording import Moment, Recording, robot_still
+from coopera.simulation.sight.recording import Moment, Recording, still
 from coopera.simulation.sight.stage import Camera, Image, Stage
 
 
@@ -22,7 +24,7 @@ class Watcher:
     def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
         """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
         self.ground = ground
-        self.stage = Stage(ground.scene, ground.robot, renderer=None)
+        self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
         self._renderer = renderer
         self._drawn: Stage | None = None
 
@@ -36,44 +38,45 @@ class Watcher:
     def drawn(self) -> Stage:
         """The stage that pictures are taken of."""
         if self._drawn is None:
-            self._drawn = Stage(self.ground.scene, self.ground.robot, self._renderer)
+            self._drawn = Stage(self.ground.scene, self.ground.people, self.ground.robots, self._renderer)
         return self._drawn
 
-    def watch(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add to a plan: the robot drives to where it will see an act of the person, out of their way.
+    def watch(self, plan: Plan, robot: AgentId, who: AgentId, deed: Placed, spot: Point) -> None:
+        """Add to a plan: a robot drives to where it will see an act of a person, out of their way.
 
         Args:
             plan: The plan so far; the robot's drive is added.
-            deed: The person in the middle of the deed.
+            robot: Who is to see it.
+            who: The person.
+            deed: The person in the middle of the act.
             spot: The floor from which they do it.
         """
-        person = plan.state.person
+        person = plan.state.person(who)
         route = self.ground.navigator.route(person.spot, spot)
-        # It must not see itself in the way.
-        elsewhere = robot_still(self.ground.robot, plan.state)._replace(x=-100.0, y=-100.0)
-        self.stage.show(plan.state, Moment(deed, elsewhere, None, None, {}))
-        focus = self._focus(deed)
+        bodies = {agent: still(self.ground, plan.state, agent) for agent in plan.state.agents if agent != who}
+        elsewhere = bodies[robot]._replace(x=-100.0, y=-100.0)  # it must not see itself in the way
+        self.stage.show(plan.state, Moment({**bodies, who: deed, robot: elsewhere}, {}, {}))
         place = watching_place(
             self.stage,
             self.ground.navigator,
-            focus,
-            plan.state.robot.spot,
+            Eyes(self.ground.robots[robot], plan.state.agents[robot].spot),
+            self._focus(who, deed),
             [*(route.points or []), spot, (deed.x, deed.y)],
-            discs(plan.state, "human"),
+            taken_by_others(plan.state, robot),
         )
-        if place is not None and math.dist(place, plan.state.robot.spot) > 0.3:
+        if place is not None and math.dist(place, plan.state.agents[robot].spot) > 0.3:
             metres, steps, state = plan.metres, list(plan.steps), plan.state
             try:
-                walk(self.ground, plan, "robot", place)
+                walk(self.ground, plan, robot, place)
             except UnableError:  # it cannot get there: it watches from where it is
                 plan.steps, plan.state = steps, state
-            if math.dist(person.spot, spot) < 0.05 and plan.state.person.spot != person.spot:
-                plan.steps, plan.state = steps, state  # who is at the deed already is not sent away
+            if math.dist(person.spot, spot) < 0.05 and plan.state.agents[who].spot != person.spot:
+                plan.steps, plan.state = steps, state  # who is at the place already is not sent away
             plan.metres = metres
-        x, y = plan.state.robot.spot
+        x, y = plan.state.agents[robot].spot
         yaw = math.atan2(deed.y - y, deed.x - x)
-        plan.steps.append(Turn(yaw))
-        plan.state = plan.state.with_robot(yaw=yaw)
+        plan.steps.append(Turn(robot, yaw))
+        plan.state = plan.state.with_agent(robot, yaw=yaw)
 
     def film(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, list[Image]]:
         """Render uniformly sampled moments: pictures by view, "robot" and "human", in order of time."""
@@ -86,7 +89,7 @@ class Watcher:
                 views[index] = self._view(recording, shot.at(shot.deed))
             moment = shot.at(within)
             self.drawn.show(recording.state, moment)
-            pictures["robot"].append(self.drawn.picture(robot_camera(self.drawn.body, moment.robot), size)[0])
+            pictures["robot"].append(self.drawn.picture(self._eyes(recording, moment), size)[0])
             pictures["human"].append(self.drawn.picture(views[index], size)[0])
         return pictures
 
@@ -100,14 +103,31 @@ class Watcher:
                 views[index] = self._view(recording, shot.at(shot.deed))
             moment = shot.at(within)
             self.drawn.show(recording.state, moment)
-            eyes = (robot_camera(self.drawn.body, moment.robot), views[index])
+            eyes = (self._eyes(recording, moment), views[index])
             yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in eyes], axis=1)
+
+    def _eyes(self, recording: Recording, moment: Moment) -> Camera:
+        return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
 
     def _view(self, recording: Recording, moment: Moment) -> Camera:
         self.drawn.show(recording.state, moment)
-        return view_camera(self.drawn, self.ground.scene, self._focus(moment.person))
+        focus = self._focus(recording.person, moment.bodies[recording.person])
+        return view_camera(self.drawn, self.ground.scene, focus)
 
-    def _focus(self, person: Placed) -> Focus:
-        """The person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
+    def _focus(self, who: AgentId, person: Placed) -> Focus:
+        """A person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
         scene = self.ground.scene
-        return Focus(person, around(scene, person), scene.room_at(person.x, person.y).name)
+        return Focus(who, person, around(scene, person), scene.room_at(person.x, person.y).name)
+
+
+@dataclass(frozen=True, slots=True)
+class Onlooker:
+    """One robot that watches one person: a `Watch`."""
+
+    watcher: Watcher
+    robot: AgentId
+    person: AgentId
+
+    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
+        """Add to a plan the robot's drive to where it sees the person's act."""
+        self.watcher.watch(plan, self.robot, self.person, deed, spot)

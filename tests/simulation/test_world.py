@@ -112,7 +112,7 @@ def test_the_robot_brings_a_thing_that_the_person_then_uses(home) -> None:
     assert home.holding("human", "mug")
     assert not home.holding("robot", "mug")
     state = home.state
-    assert 0.6 <= math.dist(state.robot.spot, state.person.place) <= 1.25
+    assert 0.6 <= math.dist(state.robot().spot, state.person().place) <= 1.25
     assert home.perform("human", move("sofa_1", "mug", "drink from a cup")).ok
     assert home.holding("human", "mug")
     assert home.perform("robot", bring("magic wand")).ok
@@ -141,7 +141,7 @@ def test_the_person_takes_a_thing_from_the_magic_box_when_nobody_brought_it(home
 )
 def test_the_body_takes_the_posture_and_height_of_the_furniture(home, target, motion, posture, height) -> None:
     assert home.perform("human", move(target, "mug", motion)).ok
-    person = home.state.person
+    person = home.state.person()
     assert person.posture == posture
     assert person.support == pytest.approx(height, abs=0.02)
     assert person.motion == motion
@@ -150,7 +150,7 @@ def test_the_body_takes_the_posture_and_height_of_the_furniture(home, target, mo
 def test_a_given_search_decides_what_a_free_text_means() -> None:
     with World(flat(), match=lambda text: "do squats" if "gym" in text else "dance") as world:
         world.perform("human", move("sofa_1", "mug", "go through the gym routine"))
-        assert world.state.person.motion == "do squats"
+        assert world.state.person().motion == "do squats"
 
 
 def test_a_snapshot_is_small_plain_json_and_restores_exactly(home) -> None:
@@ -170,8 +170,9 @@ def test_a_snapshot_is_small_plain_json_and_restores_exactly(home) -> None:
     [
         ({"scene": "maple"}, "maple"),
         ({"moved": {"unicorn_1": {"position": [0, 0, 0], "yaw": 0, "on": None}}}, "unicorn_1"),
-        ({"person": {"spot": ["here", 0]}}, "person.spot"),
-        ({"version": 2}, "version"),
+        ({"agents": {"human": {"kind": "person", "spot": ["here", 0]}}}, "agents.human.person.spot"),
+        ({"agents": {"ana": {"kind": "robot", "spot": [1, 2]}}}, r"home of ana \(robot\), but .* robot \(robot\)"),
+        ({"version": 3}, "version"),
     ],
 )
 def test_a_damaged_or_foreign_snapshot_is_refused_and_changes_nothing(home, damage, complaint) -> None:
@@ -219,10 +220,10 @@ def test_another_process_continues_from_a_snapshot_byte_for_byte(home, tmp_path)
 
 def _assert_consistent(world: World) -> None:
     scene, state, ground = world.layout, world.state, world._ground
-    for spot in (state.person.spot, state.robot.spot):
+    for spot in (state.person().spot, state.robot().spot):
         assert ground.navigator.can_stand(*spot)
-    assert math.dist(state.person.spot, state.robot.spot) >= 0.55
-    assert math.dist(state.person.place, state.robot.spot) >= 0.49
+    assert math.dist(state.person().spot, state.robot().spot) >= 0.55
+    assert math.dist(state.person().place, state.robot().spot) >= 0.49
     spaces = {}
     for thing in scene.movable:
         where = state.thing(thing)
@@ -283,10 +284,10 @@ def test_nobody_teleports_and_nobody_walks_through_the_other(maple) -> None:
             plan = maple._plan(agent, _random_act(maple, agent, rng), None)
         except SimulationError:
             continue
-        spots = {"human": before.person.spot, "robot": before.robot.spot}
+        spots = {"human": before.person().spot, "robot": before.robot().spot}
         for step in plan.steps:
             if isinstance(step, Walk):
                 assert math.dist(step.points[0], spots[step.agent]) < 1e-9
                 spots[step.agent] = step.points[-1]
-        assert spots == {"human": plan.state.person.spot, "robot": plan.state.robot.spot}
+        assert spots == {"human": plan.state.person().spot, "robot": plan.state.robot().spot}
         maple.state = plan.state

@@ -157,7 +157,7 @@ def test_another_body_in_the_way_is_walked_around() -> None:
     room = {"name": "hall", "kind": "hallway", "x0": 0, "y0": 0, "x1": 6, "y1": 4}
     navigator = Navigator(Scene.model_validate({"id": "empty", "rooms": [room]}))
     direct = navigator.route((1.0, 2.0), (5.0, 2.0))
-    detour = navigator.route((1.0, 2.0), (5.0, 2.0), avoid=Disc(3.0, 2.0))
+    detour = navigator.route((1.0, 2.0), (5.0, 2.0), avoid=(Disc(3.0, 2.0),))
     assert detour.points is not None
     assert direct.length < detour.length < direct.length + 1.0
     assert np.hypot(*(along(detour.points) - np.array([3.0, 2.0])).T).min() >= 2 * RADIUS - 0.02
@@ -172,12 +172,12 @@ def test_a_body_in_the_only_door_blocks_the_way_and_can_give_way() -> None:
     navigator = Navigator(Scene.model_validate({"id": "two", "rooms": rooms, "doors": [door]}))
     route = navigator.route((1.0, 2.0), (7.0, 2.0))
     assert route.points is not None
-    blocked = navigator.route((1.0, 2.0), (7.0, 2.0), avoid=Disc(4.0, 2.0))
+    blocked = navigator.route((1.0, 2.0), (7.0, 2.0), avoid=(Disc(4.0, 2.0),))
     assert blocked.points is None
-    assert blocked.reason == "the other one stands in the way"
+    assert blocked.reason == "somebody stands in the way"
     aside = navigator.give_way((4.0, 2.0), route.points)
     assert aside is not None
-    assert navigator.route((1.0, 2.0), (7.0, 2.0), avoid=Disc(*aside)).points is not None
+    assert navigator.route((1.0, 2.0), (7.0, 2.0), avoid=(Disc(*aside),)).points is not None
 
 
 def test_the_same_question_gets_the_same_answer_from_a_new_navigator(maple: Scene, navigator: Navigator) -> None:

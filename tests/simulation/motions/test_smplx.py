@@ -127,7 +127,7 @@ def test_a_folder_of_clips_becomes_motions_that_a_text_finds_and_the_body_does(t
     assert motion.posture == "stand"
     with World(flat(), motions=library) as world:
         assert world.perform("human", move("sofa_1", "hat", "salute like a sailor"), record=True).ok
-        assert world.state.person.motion == "salute like a sailor"
+        assert world.state.person().motion == "salute like a sailor"
 
 
 @pytest.mark.parametrize(

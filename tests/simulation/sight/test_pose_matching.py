@@ -41,7 +41,7 @@ def test_what_is_recognised_depends_on_the_joints_and_their_times_alone() -> Non
         joints, times = seen_joints(world._watching().stage, world.layout, played, INSTANTS)
         before = world.percept(np.random.default_rng(0))
         world.perform("human", move("bed_1", "book", "take a nap"))
-        world.state = world.state.with_person(motion="dance wildly")
+        world.state = world.state.with_agent("human", motion="dance wildly")
         assert world.percept(np.random.default_rng(0)) == before
     assert matcher(LIBRARY).match(joints, times) is LIBRARY["sit and read"]
     assert not {"motion", "caption", "cls"} & {name for name in dir(played) if not name.startswith("_")}
@@ -121,7 +121,12 @@ def test_a_person_whom_the_robot_does_not_see_is_not_recognised() -> None:
         world.perform("human", move("sofa_1", "book", "sit and read"), record=True)
         shot = world._recording.shots[0]
         seeing = shot.at
-        shot.at = lambda tick: seeing(tick)._replace(robot=seeing(tick).robot._replace(x=8.0, y=1.0))
+
+        def from_the_kitchen(tick):
+            bodies = seeing(tick).bodies
+            return seeing(tick)._replace(bodies={**bodies, "robot": bodies["robot"]._replace(x=8.0, y=1.0)})
+
+        shot.at = from_the_kitchen
         said = world.percept(np.random.default_rng(0))
     assert (said.motion, said.in_hand) == ("", None)
     assert said.caption() == "In the living room, the person is at the sofa."
