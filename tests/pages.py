@@ -64,6 +64,10 @@ def furnish(folder: Path, base_url: str) -> None:
     shutil.copy(ROOT / "prompts" / "human" / "intention.md", folder / "my-prompts" / "human")
     grid = next(block for block in blocks("yaml") if block.page.name == "benchmark.md")
     (folder / "my-grid.yaml").write_text(grid.text.replace(SERVER, base_url), encoding="utf-8")
+    own = (ROOT / "coopera" / "personas" / "amara.yaml").read_text(encoding="utf-8")
+    (folder / "me.yaml").write_text(own.replace("id: amara", "id: me"), encoding="utf-8")
+    home = (ROOT / "simulation" / "scenes" / "maple.json").read_text(encoding="utf-8")
+    (folder / "flat.json").write_text(home.replace('"maple"', '"flat"'), encoding="utf-8")
     write_hssd(folder / "path" / "to" / "hssd-hab")
     for name in ("examples", "models", "docs", "benchmarks", "constraints.txt"):
         (folder / name).symlink_to(ROOT / name)

@@ -16,6 +16,13 @@ from tests.pages import ROOT, SERVER, Block, blocks, furnish
 from tests.serving import serving
 
 NOT_RUN, LONG = "not run: ", "long"
+# what a page's command does that would set up an environment within the test's, or run the tests within a test
+STANDS_FOR = {
+    "make run": "coopera run",
+    "make test": "true",
+    "pip install": "true",
+    "source .venv/bin/activate": "true",
+}
 SHORT = "days=1,hours=1,episodes=1,settings=2,methods=2,seeds=1"
 
 
@@ -47,6 +54,8 @@ def run_page(found: list[Block], folder: Path, data_dir: Path) -> None:
         }
         for language, text, place in [*texts, *([("python", python, found[0].place)] if python else [])]:
             said = text.replace(SERVER, base_url)
+            for command, instead in STANDS_FOR.items():
+                said = said.replace(command, instead)
             done = subprocess.run(
                 scripts[language](said), cwd=folder, env=environment, capture_output=True, text=True,
                 stdin=subprocess.DEVNULL, check=False,
