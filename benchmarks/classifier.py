@@ -28,7 +28,7 @@ from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Lived, Robot, draw_person, live_day
 from coopera.core.hour import CandidateKind, Example
 from coopera.core.protocols import Classifier
-from coopera.graphs.rehearsal import keep
+from coopera.graphs.robots.rehearsal import keep
 from coopera.memory.embeddings import bundled
 from coopera.models.classifiers import Inputs, known_classifiers, make_classifier
 from coopera.models.classifiers.calibration import score_at

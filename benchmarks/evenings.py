@@ -3,7 +3,7 @@
     python -m benchmarks.evenings --classifiers kernel lora lora-instruct --days 1 5 20 50
 
 An evening learns from a day of one person of the toy household and from the rehearsed examples of earlier days
-(`coopera.graphs.rehearsal`). So the evening after 50 days can be measured without simulating them. Seconds are
+(`coopera.graphs.robots.rehearsal`). So the evening after 50 days can be measured without simulating them. Seconds are
 processor time of one thread. Growth is the last evening's time divided by that after 5 days, or after the first number
 of days asked for later.
 `lora-instruct` runs on a random model of Mistral's architecture, and its seconds hold for this size only (--hidden,
@@ -25,7 +25,7 @@ from langchain_core.embeddings import Embeddings
 from benchmarks.tiny_mistral import tiny_recipe
 from benchmarks.toy_household import Robot, draw_person, live_day
 from coopera.core.hour import CandidateKind, Example
-from coopera.graphs.rehearsal import keep
+from coopera.graphs.robots.rehearsal import keep
 from coopera.memory.embeddings import bundled
 from coopera.models.classifiers import known_classifiers, make_classifier
 from coopera.models.classifiers.causal import open_base

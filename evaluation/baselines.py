@@ -13,7 +13,7 @@ from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import DayAccount, IntentionCandidate, Observation, Proposal, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver
 from coopera.core.people import PersonId
-from coopera.graphs.robot_view import RobotView
+from coopera.graphs.robots.robot_view import RobotView
 
 
 class Occasion(NamedTuple):

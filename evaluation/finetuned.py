@@ -14,7 +14,7 @@ from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCand
 from coopera.core.household import Collab, HandOver, PickPlace
 from coopera.core.people import Frozen, PersonId
 from coopera.evaluation.baselines import Occasion, occasions_of, offer, sight_of
-from coopera.graphs.robot_view import RobotView
+from coopera.graphs.robots.robot_view import RobotView
 from coopera.models.classifiers.state import replace_bytes
 from coopera.models.parsing import BadReplyError, read_reply
 from coopera.models.schemas import enforced_schema

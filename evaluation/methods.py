@@ -1,6 +1,6 @@
 """The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here.
 
-Methods of other packages join by an entry point in the group `coopera.methods`; see `coopera.graphs.own_robot`.
+Methods of other packages join by an entry point in the group `coopera.methods`; see `coopera.graphs.robots.own_robot`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import replace
 from coopera.core.registry import Registry
 from coopera.evaluation.baselines import Finetuned, Habit
 from coopera.evaluation.finetuned import FinetunedModel
-from coopera.graphs.method import Method
+from coopera.graphs.robots.method import Method
 
 OURS = Method(name="ours")
 

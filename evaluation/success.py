@@ -19,8 +19,8 @@ from coopera.core.hour import Intention, Success, Task, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.protocols import Ask, Home
 from coopera.core.randomness import Address
-from coopera.evaluation.measures.predicate import Predicate
 from coopera.evaluation.measuring import MeasuredHour, MeasureSpec, all_measures
+from coopera.evaluation.predicate import Predicate
 
 
 class Measure:

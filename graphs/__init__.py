@@ -12,11 +12,11 @@ from coopera.core.lazy import lazy_names
 if TYPE_CHECKING:
     from coopera.graphs.day import build_day_graph, first_day
     from coopera.graphs.human import build_human_graph
-    from coopera.graphs.method import Method
-    from coopera.graphs.own_robot import Robot
-    from coopera.graphs.player import HumanContext
+    from coopera.graphs.players.player import HumanContext
     from coopera.graphs.robot import RobotContext, build_robot_graph
-    from coopera.graphs.robot_view import RobotView
+    from coopera.graphs.robots.method import Method
+    from coopera.graphs.robots.own_robot import Robot
+    from coopera.graphs.robots.robot_view import RobotView
     from coopera.graphs.services import Services
     from coopera.graphs.study import STATE_TYPES, build_study_graph
 
@@ -37,11 +37,11 @@ __all__ = [
 
 _HOMES = {
     "STATE_TYPES": "coopera.graphs.study",
-    "HumanContext": "coopera.graphs.player",
-    "Method": "coopera.graphs.method",
-    "Robot": "coopera.graphs.own_robot",
+    "HumanContext": "coopera.graphs.players.player",
+    "Method": "coopera.graphs.robots.method",
+    "Robot": "coopera.graphs.robots.own_robot",
     "RobotContext": "coopera.graphs.robot",
-    "RobotView": "coopera.graphs.robot_view",
+    "RobotView": "coopera.graphs.robots.robot_view",
     "Services": "coopera.graphs.services",
     "build_day_graph": "coopera.graphs.day",
     "build_human_graph": "coopera.graphs.human",

@@ -22,11 +22,11 @@ from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
 from coopera.graphs.hour import HourInput, build_hour_graph
-from coopera.graphs.learning import account_of
-from coopera.graphs.player import HumanContext
-from coopera.graphs.real_person import Verdict
+from coopera.graphs.players.player import HumanContext
+from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.robots.learning import account_of
+from coopera.graphs.robots.traits import accounts, revise
 from coopera.graphs.services import Services
-from coopera.graphs.traits import accounts, revise
 
 _hour_graph = made_once()(build_hour_graph)
 

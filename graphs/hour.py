@@ -23,7 +23,6 @@ from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
-from coopera.graphs.identity import identify, sight
 from coopera.graphs.robot import (
     OracleInput,
     OwnRobotContext,
@@ -34,9 +33,10 @@ from coopera.graphs.robot import (
     build_robot_graph,
     robot_hour,
 )
-from coopera.graphs.robot_view import HomeView, RobotView, robots_door
+from coopera.graphs.robots.identity import identify, sight
+from coopera.graphs.robots.robot_view import HomeView, RobotView, robots_door
+from coopera.graphs.robots.traits import guesses, revise
 from coopera.graphs.services import Services
-from coopera.graphs.traits import guesses, revise
 from coopera.simulation.acts.state import digest
 
 

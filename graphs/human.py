@@ -18,11 +18,11 @@ from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskV
 from coopera.core.household import ObjectMap, plain
 from coopera.core.randomness import Address
 from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
-from coopera.graphs.checks import findings, repair
-from coopera.graphs.method import Numbers
-from coopera.graphs.player import Draft, HumanContext, HumanInput, HumanState
-from coopera.graphs.recall import as_memory, recall_both
-from coopera.graphs.variables import as_tasks, known, when
+from coopera.graphs.players.checks import findings, repair
+from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
+from coopera.graphs.players.variables import as_tasks, known, when
+from coopera.graphs.robots.method import Numbers
+from coopera.graphs.robots.recall import as_memory, recall_both
 
 REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflectionReply]] = {
     1: PickPlaceReflectionReply,

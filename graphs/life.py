@@ -11,7 +11,7 @@ from coopera.core.household import Outcome
 from coopera.core.lazy import made_once
 from coopera.core.randomness import Address
 from coopera.graphs.human import build_human_graph, human_hour
-from coopera.graphs.player import HumanInput, HumanState
+from coopera.graphs.players.player import HumanInput, HumanState
 from coopera.graphs.services import Services
 
 _graph = made_once()(build_human_graph)

@@ -33,12 +33,12 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
-from coopera.graphs.learning import Known, Learner, example
-from coopera.graphs.method import Method, Numbers
-from coopera.graphs.own_robot import Robot, checked
-from coopera.graphs.recall import as_variables, best, recall_both
-from coopera.graphs.robot_view import RobotView
-from coopera.graphs.variables import when
+from coopera.graphs.players.variables import when
+from coopera.graphs.robots.learning import Known, Learner, example
+from coopera.graphs.robots.method import Method, Numbers
+from coopera.graphs.robots.own_robot import Robot, checked
+from coopera.graphs.robots.recall import as_variables, best, recall_both
+from coopera.graphs.robots.robot_view import RobotView
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
 
@@ -153,7 +153,7 @@ def propose(state: RobotInput, runtime: Runtime[OwnRobotContext]) -> dict[str, A
     """Ask a robot of one's own. Writes `recalled`, `intentions`, `tasks` and `fallbacks`.
 
     Raises:
-        RunError: If what it proposes breaks the rules of `coopera.graphs.own_robot`.
+        RunError: If what it proposes breaks the rules of `coopera.graphs.robots.own_robot`.
     """
     ctx = runtime.context
     said = checked(ctx.robot.help(ctx.view), ctx.view.collab, ctx.method.name)

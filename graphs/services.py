@@ -1,7 +1,7 @@
 """What the graphs' nodes work with: connections, processes and weights, passed as LangGraph's runtime context.
 
 Nothing here is ever stored in state. Each graph has a context of its own, so a node cannot reach another agent's
-secrets: a robot's holds neither the persona nor the person's memories (`coopera.graphs.robot_view`).
+secrets: a robot's holds neither the persona nor the person's memories (`coopera.graphs.robots.robot_view`).
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
-from coopera.graphs.learning import Learner
-from coopera.graphs.method import Method
-from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.person import FULL, PersonModel
-from coopera.graphs.player import HumanContext, Player
-from coopera.graphs.robot_view import Memories
+from coopera.graphs.players.person_models import FULL, PersonModel
+from coopera.graphs.players.player import HumanContext, Player
+from coopera.graphs.robots.learning import Learner
+from coopera.graphs.robots.method import Method
+from coopera.graphs.robots.own_robot import OwnRobot
+from coopera.graphs.robots.robot_view import Memories
 from coopera.memory import MemoryStream
 
 
@@ -100,7 +100,7 @@ class Services:
     sizes: SearchSizes = SearchSizes()
     """How much Search finds for an intention."""
     identity_known: bool = True
-    """Whether the robot is told whom it is with, or infers it (`coopera.graphs.identity`)."""
+    """Whether the robot is told whom it is with, or infers it (`coopera.graphs.robots.identity`)."""
     hourly_traits: bool = False
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
     own: OwnRobot | None = None

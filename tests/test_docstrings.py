@@ -7,7 +7,12 @@ import re
 
 from tests.names import PACKAGE, ROOT, leads_somewhere, modules, names_in, pages, paths_in, prose
 
-_NO_MODULES = {"coopera.methods"}  # the group of entry points under which other packages name their methods
+# the groups of entry points under which other packages name their values
+_NO_MODULES = {"coopera.methods", "coopera.measures", "coopera.classifiers"}
+
+
+# files that a page tells its reader to write
+_TO_WRITE = {"models/classifiers/shipped/one_sided.py", "evaluation/measures/boldness.py"}
 
 
 def test_every_name_of_ours_in_prose_leads_somewhere() -> None:
@@ -26,7 +31,7 @@ def test_every_file_of_ours_in_prose_is_there() -> None:
         f"{path.relative_to(ROOT)}:{line} names {file}"
         for path in (*modules(), *pages())
         for line, text in prose(path)
-        for file in paths_in(text)
+        for file in paths_in(text) - _TO_WRITE
         if not (ROOT / file).exists()
     ]
     assert lost == []

@@ -123,7 +123,7 @@ def random_bert(folder: Path, words: Sequence[str]) -> Path:
             num_hidden_layers=1,
             num_attention_heads=2,
             intermediate_size=32,
-            initializer_range=0.3,
+            initializer_range=0.1,
             hidden_dropout_prob=0.0,
             attention_probs_dropout_prob=0.0,
         )

@@ -23,7 +23,7 @@ from coopera.core.randomness import Address
 from coopera.graphs import Robot, RobotView, Services, build_day_graph, first_day
 from coopera.graphs.day import DayInput
 from coopera.graphs.life import LivedNow
-from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.robots.own_robot import OwnRobot
 
 Hours = Mapping[tuple[int, int], HumanHour]
 """What a person does, by day of the run and hour."""

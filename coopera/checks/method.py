@@ -22,7 +22,7 @@ from coopera.core.people import Belief
 from coopera.evaluation.methods import METHODS, register
 from coopera.graphs import Method, Services, build_day_graph, first_day
 from coopera.graphs.day import DayInput
-from coopera.graphs.learning import account_of
+from coopera.graphs.robots.learning import account_of
 from coopera.rundir.directory import RunDir
 from coopera.studies.assemble import open_services
 from coopera.studies.catalogues import resolve

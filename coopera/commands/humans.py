@@ -8,8 +8,9 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.listing import rows_of, show_rows
+from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
+from coopera.commands.rows import rows_of
 
 app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 

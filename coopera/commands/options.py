@@ -26,7 +26,7 @@ def _completer(one: Declared) -> Callable[[str], list[str]]:
         before, comma, last = incomplete.rpartition(",") if get_origin(one.type) is list else ("", "", incomplete)
         names = [str(value) for value in one.values]
         if one.words.listed:
-            from coopera.commands.listing import rows_of
+            from coopera.commands.rows import rows_of
 
             names = [row["id"] for row in rows_of(one.words.listed)]
         return [f"{before}{comma}{name}" for name in names if name.startswith(last)]

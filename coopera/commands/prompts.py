@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
-from coopera.commands.listing import prompt_rows, show_rows
+from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, PromptFolder
+from coopera.commands.rows import prompt_rows
 
 app = typer.Typer(help="The prompts that language models are asked with.", no_args_is_help=True)
 

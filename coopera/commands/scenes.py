@@ -9,8 +9,9 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.listing import rows_of, show_rows
+from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, DataFolder
+from coopera.commands.rows import rows_of
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
 Home = Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")]

@@ -19,7 +19,7 @@ from coopera.core.hour import SearchSizes
 from coopera.core.household import Collab, PerceptErrors
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
-from coopera.graphs.person import PERSON_MODELS
+from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.settings import Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR

@@ -10,7 +10,7 @@ from coopera.core.clock import hour_label
 from coopera.core.errors import ConfigError
 from coopera.core.hour import DayPlan, LoggedHour
 from coopera.core.people import PersonId
-from coopera.graphs.stated import Logs
+from coopera.graphs.players.stated import Logs
 from coopera.people.log_file import read_log
 
 _LOG = "log:"

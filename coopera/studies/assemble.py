@@ -20,13 +20,13 @@ from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
 from coopera.graphs.earlier_life import EarlierLife
-from coopera.graphs.learning import KINDS, Learner
 from coopera.graphs.life import LivedNow
-from coopera.graphs.own_robot import MakeRobot, OwnRobot
-from coopera.graphs.person import PERSON_MODELS
-from coopera.graphs.player import Player
-from coopera.graphs.simulated import Simulated
-from coopera.graphs.stated import Interviewed, Logged, Logs
+from coopera.graphs.players.person_models import PERSON_MODELS
+from coopera.graphs.players.player import Player
+from coopera.graphs.players.simulated import Simulated
+from coopera.graphs.players.stated import Interviewed, Logged, Logs
+from coopera.graphs.robots.learning import KINDS, Learner
+from coopera.graphs.robots.own_robot import MakeRobot, OwnRobot
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
 from coopera.models.budget import Meter

@@ -11,7 +11,7 @@ from coopera.config.at_most import cut
 from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
-from coopera.graphs.person import PERSON_MODELS
+from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.backends import household_file
 from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe

@@ -25,7 +25,7 @@ from coopera.core.interview import Answer, Question
 from coopera.core.people import PersonId
 from coopera.evaluation import SETTINGS, episode, pool, schedule
 from coopera.graphs import STATE_TYPES, Services, build_study_graph
-from coopera.graphs.real_person import Interview
+from coopera.graphs.players.real_person import Interview
 from coopera.graphs.study import Waiting, waiting
 from coopera.models.backends import household_file
 from coopera.models.settings import Budget

@@ -1,1 +1,1 @@
-"""The measures that ship: each file here is one, found by its name (see `coopera.evaluation.measuring`)."""
+"""The measures of success that ship. Each file here is one, found by its name (`coopera.evaluation.measuring`)."""

@@ -1,65 +1,8 @@
-"""Success by the predicate: a rule says which candidates help (PAPER §4.3, App. C.3)."""
+"""Success by the predicate: a rule says which candidates help (`coopera.evaluation.predicate`)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
-
-from coopera.core.hour import Task, TaskCandidate
-from coopera.core.household import Act, FreeMotion, HandOver, PickPlace, plain
-from coopera.core.protocols import Home
 from coopera.evaluation.measuring import by_counts
-
-if TYPE_CHECKING:
-    from langchain_core.embeddings import Embeddings
-
-Floats = NDArray[np.float64]
-
-SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
-
-
-@dataclass(frozen=True, slots=True)
-class Predicate:
-    """The rule."""
-
-    embeddings: Embeddings
-    _vectors: dict[str, Floats] = field(init=False, default_factory=dict, repr=False, compare=False)
-
-    def matches(self, home: Home, candidate: TaskCandidate, remaining: Sequence[Task]) -> bool:
-        """Whether this candidate helps with one of the remaining tasks."""
-        return any(self.helps(home, candidate.act, task.act) for task in remaining)
-
-    def helps(self, home: Home, act: Act, wanted: Act) -> bool:
-        """Whether an act of the robot helps with an act that the person has before them.
-
-        PAPER App. C.3: in type 1 the classes of object and receptacle are the same, whichever instances; in type 2
-        the offered thing is similar (cosine of at least 0.6) to the one that the person will hold.
-        """
-        if isinstance(act, PickPlace) and isinstance(wanted, PickPlace):
-            return _classes(home, act) == _classes(home, wanted)
-        if isinstance(act, HandOver) and isinstance(wanted, FreeMotion):
-            return self._similarity(act.object, wanted.in_hand) >= SIMILAR
-        return False
-
-    def _similarity(self, one: str, other: str) -> float:
-        if plain(one).lower() == plain(other).lower():
-            return 1.0
-        return float(self._vector(plain(one)) @ self._vector(plain(other)))
-
-    def _vector(self, text: str) -> Floats:
-        """A text's vector in float64; the names of a home's things come again every hour."""
-        if text not in self._vectors:
-            self._vectors[text] = np.asarray(self.embeddings.embed_query(text), dtype=np.float64)
-        return self._vectors[text]
-
-
-def _classes(home: Home, act: PickPlace) -> tuple[str, str]:
-    return home.class_of(act.object), home.class_of(act.receptacle)
-
 
 MEASURE = by_counts(
     "predicate",

@@ -11,7 +11,7 @@ from coopera.core.hour import Counts, Help, Intention, Task, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver, Outcome, PickPlace
 from coopera.core.randomness import Address
 from coopera.evaluation import Measure, count, pool
-from coopera.evaluation.measures.predicate import Predicate
+from coopera.evaluation.predicate import Predicate
 from tests.fakes import FakeHome, LetterEmbeddings, ScriptedAsk
 
 AT = Address("mara", 0, 9, "score")

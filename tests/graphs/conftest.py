@@ -8,11 +8,11 @@ import pytest
 
 from coopera.evaluation import METHODS, Measure
 from coopera.graphs import Services
-from coopera.graphs.learning import KINDS, Learner
 from coopera.graphs.life import LivedNow
-from coopera.graphs.own_robot import OwnRobot
-from coopera.graphs.person import PERSON_MODELS
-from coopera.graphs.simulated import Simulated
+from coopera.graphs.players.person_models import PERSON_MODELS
+from coopera.graphs.players.simulated import Simulated
+from coopera.graphs.robots.learning import KINDS, Learner
+from coopera.graphs.robots.own_robot import OwnRobot
 from coopera.memory import MemoryStream
 from tests.fakes import MARA, FakeHome, FolderRecorder, LetterEmbeddings, ScriptedAsk, TableClassifier, type2_answers
 

@@ -18,8 +18,8 @@ from coopera.core.household import SceneId
 from coopera.core.randomness import Address
 from coopera.core.replies import REPLIES
 from coopera.graphs import build_human_graph
-from coopera.graphs.checks import findings
 from coopera.graphs.human import human_hour
+from coopera.graphs.players.checks import findings
 from coopera.models.parsing import BadReplyError, read_reply
 from tests.fakes import MARA, FakeHome, moving, placing
 from tests.graphs.conftest import MakeServices

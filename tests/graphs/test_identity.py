@@ -10,8 +10,8 @@ from coopera.core.hour import DayPlan, Observation
 from coopera.core.household import Percept, SceneId
 from coopera.core.people import PersonId
 from coopera.graphs import Services, build_study_graph
-from coopera.graphs.identity import identify, sight
-from coopera.graphs.robot_view import Memories
+from coopera.graphs.robots.identity import identify, sight
+from coopera.graphs.robots.robot_view import Memories
 from coopera.memory import MemoryStream
 from tests.fakes import MARA, FakeHome, LetterEmbeddings
 from tests.graphs.conftest import MakeServices

@@ -33,7 +33,7 @@ from coopera.core.household import Collab, FreeMotion, HandOver, Outcome, PickPl
 from coopera.core.people import BigFive
 from coopera.evaluation import METHODS
 from coopera.graphs import Method, RobotView, Services
-from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.robots.own_robot import OwnRobot
 from coopera.memory import MemoryStream
 from coopera.memory.ram import RamClient
 from tests.fakes import MARA, LetterEmbeddings, ScriptedAsk, TableClassifier, placing, type2_answers
@@ -297,7 +297,7 @@ def test_nothing_of_the_hour_hangs_on_a_view(make_services: MakeServices, tmp_pa
     live(make_services, tmp_path, poet(), method=Method(name="walker", own=Walker))
     ours = {module for module in held if module.startswith(("coopera", "tests"))}
     assert ours == {"coopera.core.clock", "coopera.core.hour", "coopera.core.household", "coopera.core.people"} | {
-        "coopera.graphs.robot_view"
+        "coopera.graphs.robots.robot_view"
     }
 
 

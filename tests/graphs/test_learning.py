@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from coopera.core.errors import CooperaError, LearningError, RunError
 from coopera.core.hour import DayAccount, Example, FeedbackItem, HourAccount, IntentionCandidate, Observation, RobotHour
 from coopera.core.people import Belief, PersonId
-from coopera.graphs.learning import KINDS, Learner, Mode
-from coopera.graphs.rehearsal import keep
+from coopera.graphs.robots.learning import KINDS, Learner, Mode
+from coopera.graphs.robots.rehearsal import keep
 from tests.fakes import FolderRecorder, TableClassifier
 
 ANN, BO = PersonId("ann"), PersonId("bo")

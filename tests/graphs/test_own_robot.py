@@ -10,7 +10,7 @@ from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import HandOver, PickPlace
 from coopera.graphs import Method, RobotView, Services
-from coopera.graphs.own_robot import OwnRobot
+from coopera.graphs.robots.own_robot import OwnRobot
 from tests.graphs.conftest import MakeServices
 from tests.graphs.test_day import run_study
 

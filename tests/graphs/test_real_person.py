@@ -18,9 +18,9 @@ from coopera.core.hour import DayPlan, LoggedHour
 from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
 from coopera.graphs import STATE_TYPES, Services, build_study_graph
-from coopera.graphs.real_person import Verdict, read_choice, read_intention, read_steps, read_verdicts
-from coopera.graphs.simulated import Simulated
-from coopera.graphs.stated import Interviewed, Logged
+from coopera.graphs.players.real_person import Verdict, read_choice, read_intention, read_steps, read_verdicts
+from coopera.graphs.players.simulated import Simulated
+from coopera.graphs.players.stated import Interviewed, Logged
 from coopera.graphs.study import waiting
 from tests.fakes import MARA, FakeHome, ScriptedAsk, moving, type2_answers
 from tests.graphs.conftest import MakeServices

@@ -17,7 +17,7 @@ from coopera.core.replies import IntentionReply
 from coopera.graphs import RobotContext, RobotView, build_robot_graph
 from coopera.graphs.hour import robot_view
 from coopera.graphs.robot import robot_hour
-from coopera.graphs.robot_view import HomeView
+from coopera.graphs.robots.robot_view import HomeView
 from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 

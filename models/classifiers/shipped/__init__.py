@@ -1,1 +1,1 @@
-"""The classifiers that ship: each file here is one, found by its name (`coopera.models.classifiers.registry`)."""
+"""The classifiers that ship. Each file here is one, found by its name (`coopera.models.classifiers.registry`)."""

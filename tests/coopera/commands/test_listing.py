@@ -11,11 +11,11 @@ from typing import get_args
 
 import pytest
 
-from coopera.commands.listing import Kind
+from coopera.commands.rows import Kind
 from coopera.core.version import __version__
 from coopera.evaluation import METHODS, known_methods
 from coopera.graphs import Method
-from coopera.graphs.person import PERSON_MODELS
+from coopera.graphs.players.person_models import PERSON_MODELS
 from tests.coopera.conftest import Said
 
 Cli = Callable[..., Said]

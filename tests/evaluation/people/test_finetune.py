@@ -11,7 +11,7 @@ from coopera.evaluation.people.learners import Step
 from tests.tiny import random_bert
 
 WORDS = ["tea", "soup", "rest", "read", "run", "sing"]
-FAST = Recipe(epochs=dict.fromkeys(("intentions", "tasks", "steps"), 20), learning_rate=1e-2, tokens=32)
+FAST = Recipe(epochs=dict.fromkeys(("intentions", "tasks", "steps"), 40), learning_rate=3e-3, tokens=32)
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +25,7 @@ def test_a_finetuned_encoder_learns_who_is_who_whatever_the_labels(tiny_bert: st
     test = [["tea", "sing"], ["soup", "sing"]]
     answers = learner.people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
     assert answers == [4, 7]
+    assert learner.people(train, [7, 7, 4, 4] * 3, test, kind="intentions") == [7, 4]
     assert answers == FinetunedEncoder(tiny_bert, recipe=FAST).people(train, [4, 4, 7, 7] * 3, test, kind="intentions")
 
 

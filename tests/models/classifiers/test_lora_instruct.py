@@ -49,7 +49,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def recipe(base: Path) -> Path:
-    return make_recipe(base.parent / "recipe.yaml", base, learning_rate=0.02, batch=4, accumulation=1, epochs=6)
+    return make_recipe(base.parent / "recipe.yaml", base, learning_rate=0.005, batch=4, accumulation=1, epochs=12)
 
 
 def classifier(recipe: Path, kind: str = "intention") -> LoraInstructClassifier:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from coopera.core.hour import CandidateKind
     from coopera.core.protocols import Classifier
-    from coopera.graphs.own_robot import MakeRobot, Robot
+    from coopera.graphs.robots.own_robot import MakeRobot, Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +34,7 @@ class Method:
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
         other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
-        own: The class of a robot of one's own, which then takes the place of our graph (`coopera.graphs.own_robot`).
+        own: The class of a robot of one's own, which takes the place of our graph (`graphs.robots.own_robot`).
             Of the other fields it meets `traits` (whether the evening infers a belief about the person) and `learns`.
         tunes: Makes the robot in place of `own` if the robot's model is one of Hugging Face. This robot finetunes the
             model of that name by a recipe (None: the shipped one). Models elsewhere are refused.

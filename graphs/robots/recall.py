@@ -7,8 +7,8 @@ from typing import Any
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
-from coopera.graphs.method import Numbers
-from coopera.graphs.robot_view import Memories, Readable, ReadMemories
+from coopera.graphs.robots.method import Numbers
+from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories
 from coopera.memory import MemoryStream
 
 

@@ -18,6 +18,7 @@ from coopera.core.replies import VerdictsReply
 from coopera.models.backends import open_backend
 from coopera.models.door import Door
 from coopera.models.settings import CallSettings
+from coopera.models.transport import NobodyThereError
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 from coopera.rundir.directory import RunDir
@@ -146,8 +147,18 @@ def test_a_server_is_asked_for_the_form_in_the_best_way_that_it_has(refused: lis
 
 def test_a_server_that_is_gone_is_given_up_after_all_the_retries() -> None:
     with serving() as url:
+        door = door_to(url, retries=2)
+        judge(door)
+    door.take_calls()
+    with pytest.raises(ModelCallError, match=f"openai:tiny at {url} cannot be asked: Connection error"):
+        judge(door, 1)
+    assert len(door.take_calls()[0].faults) == 3
+
+
+def test_a_server_that_never_was_is_not_waited_for() -> None:
+    with serving() as url:
         pass
     door = door_to(url, retries=2)
-    with pytest.raises(ModelCallError, match=f"openai:tiny at {url} cannot be asked: Connection error"):
+    with pytest.raises(NobodyThereError, match=f"openai:tiny at {url} cannot be asked: no server listens there"):
         judge(door)
-    assert len(door.take_calls()[0].faults) == 3
+    assert len(door.take_calls()[0].faults) == 1

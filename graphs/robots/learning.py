@@ -27,7 +27,7 @@ from coopera.core.hour import (
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Classifier, Recorder
 from coopera.core.randomness import seed_at
-from coopera.graphs.rehearsal import keep
+from coopera.graphs.robots.rehearsal import keep
 
 __all__ = ["EXAMPLES", "KEPT", "KINDS", "Known", "Learner", "Mode", "example", "labelled", "account_of"]
 

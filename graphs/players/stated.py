@@ -11,9 +11,8 @@ from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
 from coopera.core.household import Collab
 from coopera.core.interview import Question
-from coopera.graphs.method import Numbers
-from coopera.graphs.player import Decomposed, Draft, HumanContext, HumanState, Player
-from coopera.graphs.real_person import (
+from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.players.real_person import (
     Interview,
     Verdict,
     ask_here,
@@ -24,7 +23,8 @@ from coopera.graphs.real_person import (
     read_steps,
     read_verdicts,
 )
-from coopera.graphs.simulated import Simulated, ask_for_tasks
+from coopera.graphs.players.simulated import Simulated, ask_for_tasks
+from coopera.graphs.robots.method import Numbers
 
 Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour]
 """What a real person wrote down of an hour."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from coopera.core.clock import Clock
 from coopera.core.hour import Observation
 from coopera.core.people import PersonId
-from coopera.graphs.robot_view import Memories
+from coopera.graphs.robots.robot_view import Memories
 
 NEAREST = 10
 """Memories of each person that a sight is compared with."""

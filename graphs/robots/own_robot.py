@@ -36,7 +36,7 @@ from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCand
 from coopera.core.household import Collab
 from coopera.core.protocols import Recorder
 from coopera.core.randomness import seed_at
-from coopera.graphs.robot_view import RobotView
+from coopera.graphs.robots.robot_view import RobotView
 
 _LOG = logging.getLogger(__name__)
 ACCOUNT = "account.json"

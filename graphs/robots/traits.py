@@ -15,7 +15,7 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Ask
 from coopera.core.randomness import Address
 from coopera.core.replies import TraitsReply
-from coopera.graphs.recall import as_memory
+from coopera.graphs.robots.recall import as_memory
 
 
 class Past(NamedTuple):

@@ -26,9 +26,9 @@ from coopera.core.household import Collab
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
-from coopera.graphs.person import FULL, PersonModel
-from coopera.graphs.real_person import Verdict
-from coopera.graphs.robot_view import Memories
+from coopera.graphs.players.person_models import FULL, PersonModel
+from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.robots.robot_view import Memories
 from coopera.memory import Search
 
 Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft

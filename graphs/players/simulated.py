@@ -18,10 +18,10 @@ from coopera.core.replies import (
     PickPlaceReply,
     VerdictsReply,
 )
-from coopera.graphs.method import Numbers
-from coopera.graphs.player import Decomposed, Draft, HumanContext, HumanState, Player
-from coopera.graphs.real_person import HELPFUL, Verdict
-from coopera.graphs.variables import as_tasks, known, when, who
+from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.players.real_person import HELPFUL, Verdict
+from coopera.graphs.players.variables import as_tasks, known, when, who
+from coopera.graphs.robots.method import Numbers
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from coopera.core.clock import Clock
 from coopera.core.hour import Task
-from coopera.graphs.player import HumanContext, HumanState
-from coopera.graphs.recall import as_variables
+from coopera.graphs.players.player import HumanContext, HumanState
+from coopera.graphs.robots.recall import as_variables
 
 
 def when(clock: Clock) -> dict[str, Any]:
