@@ -151,10 +151,10 @@ class World:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
         With `record`, a robot first drives to where it sees the person, and the act is kept for `percept` and
-        `frames`: the robot `watcher`, or else the one that acts, or the only one. A robot's own act shows the person
-        to whom it hands something, or else the first of the home. Something impossible is a failed outcome with its
-        reason, and the home stays as it was (but for the robot's drive if it is recorded: then the recording shows
-        the person as they are).
+        `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
+        the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
+        outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded: then the
+        recording shows the person as they are).
 
         Raises:
             SimulationError: If there is no such agent or watcher.

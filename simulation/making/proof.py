@@ -19,8 +19,8 @@ def prove(scene: Scene) -> list[str]:
     seen = {problem.removeprefix("Nobody can reach ").partition(" in the ")[0] for problem in problems}
     try:
         return [*problems, *_not_taken(scene, seen)]
-    except SimulationError:  # nobody can stand anywhere: check has said so
-        return problems
+    except SimulationError as err:  # nobody can stand anywhere, as check has said, or there is no room for both
+        return problems if str(err) in problems else [*problems, str(err)]
 
 
 def _not_taken(scene: Scene, seen: set[str]) -> Iterator[str]:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations, pairwise
 
 import pytest
 
@@ -30,10 +31,7 @@ def test_a_walk_leads_around_the_other_one() -> None:
     walk(GROUND, plan, "human", (8.6, 1.0))
     (way,) = plan.steps
     assert isinstance(way, Walk)
-    for a, b in zip(way.points, way.points[1:], strict=False):
-        for k in range(21):
-            point = (a[0] + (b[0] - a[0]) * k / 20, a[1] + (b[1] - a[1]) * k / 20)
-            assert math.dist(point, (7.2, 1.2)) >= 0.59
+    assert min(math.dist(point, (7.2, 1.2)) for point in _along(way.points)) >= 0.59
 
 
 @pytest.mark.parametrize("agent", ["human", "robot"])
@@ -47,6 +45,31 @@ def test_who_stands_in_the_door_steps_aside_for_the_other(agent) -> None:
     assert (aside.agent, way.agent) == (("robot", "human") if agent == "human" else ("human", "robot"))
     assert clear_of((5.1, 2.2), [Disc(*aside.points[-1])])
     assert math.dist(plan.state.person().spot, plan.state.robot().spot) >= 0.6
+
+
+def test_all_who_stand_in_the_way_step_aside_and_not_onto_each_other() -> None:
+    ground = Ground(SCENE, Navigator(SCENE), load_library(), ("human", "ana"), WHO[1], Elbowroom(SCENE))
+    state = home(person=(4.5, 2.5), robot=(3.2, 2.9)).put("ana", PersonState(spot=(5.1, 2.2), place=(5.1, 2.2)))
+    plan = Plan(state)
+    walk(ground, plan, "robot", (5.1, 2.2))
+    assert [step.agent for step in plan.steps] == ["human", "ana", "robot"]
+    spots = [body.spot for body in plan.state.agents.values()]
+    assert min(math.dist(a, b) for a, b in combinations(spots, 2)) >= 0.6
+
+
+def test_a_walk_leads_around_two_others_at_once() -> None:
+    ground = Ground(SCENE, Navigator(SCENE), load_library(), ("human", "ana"), WHO[1], Elbowroom(SCENE))
+    ana = PersonState(spot=(7.2, 1.85), place=(7.2, 1.85))
+    plan = Plan(home(person=(7.2, 1.2), robot=(5.4, 1.2)).put("ana", ana))
+    walk(ground, plan, "robot", (8.6, 1.2))
+    (way,) = plan.steps
+    for taken in ((7.2, 1.2), (7.2, 1.85)):
+        assert min(math.dist(taken, point) for point in _along(way.points)) >= 0.59
+
+
+def _along(points):
+    for (ax, ay), (bx, by) in pairwise(points):
+        yield from ((ax + (bx - ax) * k / 20, ay + (by - ay) * k / 20) for k in range(21))
 
 
 def test_a_pick_and_place_goes_takes_goes_and_puts() -> None:
