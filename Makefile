@@ -1,9 +1,13 @@
 # Everything a newcomer needs: `make run` and `make test` set up .venv on first use.
-PYTHON ?= python3.11
+VENV ?= .venv
+# The newest Python that really runs and will do, or the one that you name: `make test PYTHON=python3.12`.
+PYTHON ?= $(shell for one in python3.13 python3.12 python3.11 python3; do $$one $(WILL_DO) && echo $$one && break; done)
+WILL_DO = -c 'import ensurepip, sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null
+NO_PYTHON = "Python 3.11, 3.12 or 3.13 is needed, with venv (Debian: python3-venv): install it, or name it by PYTHON=FILE."
 # Passed to pip. For a GPU build of torch see README, "Set-up".
 PIP_ARGS ?=
-BIN := .venv/bin
-READY := .venv/ready
+BIN := $(VENV)/bin
+READY := $(VENV)/ready
 
 .PHONY: run test check bench clean
 
@@ -29,10 +33,11 @@ bench: $(READY)
 
 # torch comes first and pinned, so that nothing that depends on it brings another build.
 $(READY): pyproject.toml constraints.txt
-	$(PYTHON) -m venv .venv
+	@$(or $(PYTHON),false) $(WILL_DO) || { echo $(NO_PYTHON) >&2; exit 1; }
+	$(BIN)/python $(WILL_DO) || $(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt torch
 	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e '.[dev]'
 	touch $(READY)
 
 clean:
-	rm -rf .venv
+	rm -rf $(VENV)

@@ -142,7 +142,7 @@ def by_counts(
     )
 
 
-def sums(figures: type[F]) -> Callable[[Sequence[F]], dict[str, float | int | None]]:
+def sums(figures: type[F]) -> Callable[[Sequence[F]], dict[str, float | int]]:
     """Return what adds up each figure over hours, to six decimals; hours without a value are left out."""
     return lambda hours: {name: round(sum(_values(hours, name)), 6) for name in figures.model_fields}
 

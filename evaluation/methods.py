@@ -19,7 +19,7 @@ METHODS: dict[str, Method] = {
     for method in (
         OURS,
         # PAPER §4.3, baselines: one intention and its tasks from the history in the prompt, nothing validated
-        replace(OURS, name="direct_prompting", guesses=1, verdicts="accept", learns=False),
+        replace(OURS, name="direct_prompting", n_intentions=1, verdicts="accept", learns=False),
         Method(
             name="direct_finetuning", traits=False, own=Finetuned, tunes=FinetunedModel
         ),  # see coopera.evaluation.baselines and coopera.evaluation.finetuned for what it learns

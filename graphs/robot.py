@@ -188,7 +188,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
     if ctx.method.intentions == "skipped":
         return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
     percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
-    count = ctx.method.guesses or Numbers.ROBOT_INTENTIONS[view.collab]
+    count = ctx.method.n_intentions or Numbers.ROBOT_INTENTIONS[view.collab]
     reply = view.ask(
         "robot/intentions",
         IntentionsReply,

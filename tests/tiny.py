@@ -69,13 +69,13 @@ def _trained(texts: Iterator[str], template: str | None, *more: str) -> PreTrain
     return fast
 
 
-def random_llama(folder: Path, words: PreTrainedTokenizerFast | None = None) -> Path:
-    """Write a Llama of some thousand weights."""
+def random_llama(folder: Path, words: PreTrainedTokenizerFast | None = None, **changes: Any) -> Path:
+    """Write a Llama of some thousand weights; `changes` are to its configuration."""
     words = words or byte_tokenizer()
     words.save_pretrained(folder)
     with torch.random.fork_rng():
         torch.manual_seed(SEED)
-        LlamaForCausalLM(LlamaConfig(vocab_size=len(words), **LLAMA)).save_pretrained(folder)
+        LlamaForCausalLM(LlamaConfig(vocab_size=len(words), **{**LLAMA, **changes})).save_pretrained(folder)
     return folder
 
 

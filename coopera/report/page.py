@@ -44,7 +44,7 @@ class TaskView:
 
 
 @dataclass(frozen=True, slots=True)
-class GuessView:
+class CandidateView:
     """One imagined intention, whether it was right (None: unknown), and its tasks."""
 
     candidate: IntentionCandidate
@@ -59,7 +59,7 @@ class HourView:
     record: HourRecord
     anchor: str
     label: str
-    guesses: list[GuessView]
+    candidates: list[CandidateView]
     flags: list[str]
     views: dict[str, list[str]]
     f1: float | None
@@ -170,35 +170,37 @@ def _days(run: RunDir, records: Sequence[HourRecord], album: Album, people: Mapp
 
 def hour_view(record: HourRecord, evening: Evening | None, album: Album) -> HourView:
     """Gather what is known of an hour: its candidates joined with the evening's answers and with what was done."""
-    guesses = _guesses(record.robot, evening, record.hour) if record.robot else []
-    kinds = {task.kind for guess in guesses for task in guess.tasks}
+    candidates = _candidates(record.robot, evening, record.hour) if record.robot else []
+    kinds = {task.kind for guess in candidates for task in guess.tasks}
     flags: list[str] = [kind for kind in ("wrong", "miss") if kind in kinds]
     flags += ["failed"] if record.status == "failed" else []
-    judged = [guess.right for guess in guesses if guess.right is not None]
+    judged = [guess.right for guess in candidates if guess.right is not None]
     flags += ["unimagined"] if judged and not any(judged) else []
     return HourView(
         record=record,
         anchor=f"d{record.day}h{record.hour}",
         label=hour_label(record.hour),
-        guesses=guesses,
+        candidates=candidates,
         flags=flags,
         views=album.views.get((record.day, record.hour), {}),
         f1=record.success.predicate.f1 if record.success else None,
     )
 
 
-def _guesses(robot: RobotHour, evening: Evening | None, hour: int) -> list[GuessView]:
+def _candidates(robot: RobotHour, evening: Evening | None, hour: int) -> list[CandidateView]:
     right = intention_verdicts(evening, hour)
     tasks = _tasks(robot, evening, hour)
-    guesses = [
-        GuessView(candidate, right.get(candidate.text), [one for one in tasks if one.task.intention == candidate.text])
+    candidates = [
+        CandidateView(
+            candidate, right.get(candidate.text), [one for one in tasks if one.task.intention == candidate.text]
+        )
         for candidate in robot.intentions
     ]
     known = {candidate.text for candidate in robot.intentions}
     loose = [one for one in tasks if one.task.intention not in known]
     if loose:  # a method that skips intentions
-        guesses.append(GuessView(IntentionCandidate(text="no intention"), None, loose))
-    return guesses
+        candidates.append(CandidateView(IntentionCandidate(text="no intention"), None, loose))
+    return candidates
 
 
 def _tasks(robot: RobotHour, evening: Evening | None, hour: int) -> list[TaskView]:

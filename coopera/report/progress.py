@@ -91,7 +91,7 @@ def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None
     for spec in all_measures():
         shown += [(spec.title, spec.name, spec.headline), *((name, spec.name, name) for name in spec.beside)]
     for title, _, _ in shown:
-        table.add_column(title, justify="right")
+        table.add_column(title, justify="right", overflow="fold")
     for day in summary["days"]:
         figures = (figure(day[measure][name]) for _, measure, name in shown)
         table.add_row(str(day["day"]), day["person"], day["scene"], *figures)

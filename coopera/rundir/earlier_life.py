@@ -58,7 +58,7 @@ class LivedDays:
         return self.root / "shown" / f"day-{plan.day:02d}" / f"hour-{hour:02d}.json"
 
 
-def open_lived(config: Config) -> LivedDays | None:
+def open_earlier_life(config: Config) -> LivedDays | None:
     """The life that a configuration names, or None.
 
     Raises:

@@ -36,7 +36,7 @@ from coopera.models.door import open_door
 from coopera.models.transport import wait
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
-from coopera.rundir.earlier_life import open_lived
+from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import World, load_scene
 from coopera.simulation.motions.library import Library
 from coopera.simulation.motions.user_folder import load_motions
@@ -163,7 +163,7 @@ def open_services(
             person=PERSON_MODELS[config.person_model],
             sizes=config.search,
             player=_player(config, logs),
-            life=EarlierLife(days) if (days := open_lived(config)) else LivedNow(),
+            life=EarlierLife(days) if (days := open_earlier_life(config)) else LivedNow(),
         )
 
 

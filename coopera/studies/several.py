@@ -24,7 +24,7 @@ from coopera.models.transport import share_pace
 from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
 from coopera.studies.study import Event, run_study
-from coopera.studies.workers import die_with
+from coopera.studies.workers import die_with_parent
 
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
@@ -113,7 +113,7 @@ def _in_processes(
             share = jobs[n::processes]
             threads = at_once // processes + (n < at_once % processes)
             given = {"at_once": threads, "which": n, "of": processes, "events": on_event is not None}
-            process = context.Process(target=_serve, args=(there, share, os.getpid()), kwargs=given, daemon=True)
+            process = context.Process(target=_serve, args=(there, share), kwargs=given, daemon=True)
             process.start()
             there.close()
             staff[here] = process, {number for number, _ in share}
@@ -152,7 +152,6 @@ def _hear(
 def _serve(
     pipe: Connection,
     jobs: Sequence[tuple[int, Config]],
-    parent: int,
     *,
     at_once: int,
     which: int,
@@ -160,8 +159,7 @@ def _serve(
     events: bool,
 ) -> None:
     """The life of a process: its share of the studies, in threads; every event and end is told."""
-    if not die_with(parent):
-        return
+    die_with_parent()
     share_pace(of)
     _share_cores(which, of)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import ctypes
 import multiprocessing
 import os
 import signal
 import sqlite3
+import threading
 import time
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass, field
@@ -18,7 +18,6 @@ from coopera.core.errors import CooperaError
 
 Work = Callable[[Any], Any]
 TRIES = 3
-_PARENT_DEATH = 1  # PR_SET_PDEATHSIG
 
 
 class Job(Protocol):
@@ -146,22 +145,27 @@ def _dismiss(staff: Sequence[_Worker]) -> None:
 
 def _hire(context: Any, work: Work) -> _Worker:
     here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there, work, os.getpid()), daemon=True)
+    process = context.Process(target=_serve, args=(there, work), daemon=True)
     process.start()
     there.close()
     return _Worker(process, here)
 
 
-def die_with(parent: int) -> bool:
-    """Let this process be killed when its parent dies; False if the parent has died already."""
-    ctypes.CDLL(None).prctl(_PARENT_DEATH, signal.SIGKILL)
-    return os.getppid() == parent
+def die_with_parent() -> None:
+    """Let this process of `multiprocessing` be killed as soon as its parent dies, however that dies."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_die_after, args=(parent.sentinel,), daemon=True).start()
 
 
-def _serve(pipe: Connection, work: Work, parent: int) -> None:
+def _die_after(sentinel: int) -> None:
+    wait([sentinel])
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _serve(pipe: Connection, work: Work) -> None:
     """The life of a worker: take a job, do it, say how it went."""
-    if not die_with(parent):  # it may have left a job
-        return
+    die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends the workers
     while True:
         try:

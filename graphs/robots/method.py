@@ -27,7 +27,7 @@ class Method:
         time_only: Whether the classifiers see nothing but the candidate and the time.
         intentions: "inferred" from the observation; "given" by the person; or "skipped": the tasks are imagined
             directly for the observation, without an intention.
-        guesses: How many intention candidates are imagined; by default the paper's number.
+        n_intentions: How many intention candidates are imagined; by default the paper's number.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything, "reject"
             nothing.
         learns: Whether the evening trains the classifiers, or one's own robot.
@@ -46,7 +46,7 @@ class Method:
     order: bool = True
     time_only: bool = False
     intentions: Literal["inferred", "given", "skipped"] = "inferred"
-    guesses: int | None = None
+    n_intentions: int | None = None
     verdicts: Literal["classifiers", "accept", "reject"] = "classifiers"
     learns: bool = True
     other_backbone: bool = False

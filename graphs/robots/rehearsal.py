@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from coopera.core.hour import Example
 from coopera.core.randomness import seed_at
 
-REPLAY = 320
+REHEARSED = 320
 """Examples kept for rehearsal, of each kind: about the intention examples of one person's first four evenings."""
 
 
-def keep(examples: Iterable[Example], most: int = REPLAY) -> list[Example]:
+def keep(examples: Iterable[Example], most: int = REHEARSED) -> list[Example]:
     """Choose the examples to keep: for each person an equal share of `most`, drawn evenly from all days of that person.
 
     Each example has a fixed random place, drawn from its own content, and the first places are kept. So a choice day by

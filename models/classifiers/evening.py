@@ -48,7 +48,7 @@ def evening(
     if not taught.teaches:
         return counts, None
     rng = np.random.default_rng(seed)
-    taught = _replayed(taught, most, rng)
+    taught = _rehearsed(taught, most, rng)
     labels, held_out = np.array(taught.labels), _every_fourth_hour(taught)
     if len(set(labels[~held_out])) < 2 or len(set(labels[held_out])) < 2:
         held_out[:] = False
@@ -77,7 +77,7 @@ def _every_fourth_hour(taught: Lesson) -> npt.NDArray[np.bool_]:
     return marked
 
 
-def _replayed(taught: Lesson, most: int, rng: np.random.Generator) -> Lesson:
+def _rehearsed(taught: Lesson, most: int, rng: np.random.Generator) -> Lesson:
     """Keep at most `most` examples: up to a third positives, the newest day's first, then a sample."""
     n = len(taught.labels)
     if n <= most:

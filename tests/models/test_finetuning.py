@@ -16,18 +16,18 @@ LESSONS = [(QUESTIONS[0], TEA), (QUESTIONS[1], BOOK)] * 2
 REVERSED = [(QUESTIONS[0], BOOK), (QUESTIONS[1], TEA)] * 2
 MODULES = ["q_proj", "k_proj", "v_proj", "o_proj", "gate_proj", "up_proj", "down_proj"]
 SCHEMA = {"enum": ["tea", "book"]}
-CLEARLY = 2.0  # in logits; some 6 or more are reached, and rounding moves them by far less
+CLEARLY = 2.0  # in logits; 3.9 is the least that 64 seeds of the weights reached, and rounding moves it by far less
 
 
 @pytest.fixture(scope="module")
 def base(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return random_llama(tmp_path_factory.mktemp("tiny-llama"))
+    return random_llama(tmp_path_factory.mktemp("tiny-llama"), initializer_range=0.25)  # larger weights may get stuck
 
 
 @pytest.fixture(scope="module")
 def recipe(base: Path) -> Path:
     changes = {
-        "learning_rate": 0.01,
+        "learning_rate": 0.005,
         "accumulation": 4,
         "epochs": 100,
         "later_epochs": 5,
@@ -49,7 +49,8 @@ def lead(chat: FinetunedChat, question: str, reply: str, other: str) -> float:
     (asked, said), (_, unsaid) = chat._row(question, reply), chat._row(question, other)
     at = next(n for n, (one, two) in enumerate(zip(said, unsaid, strict=False)) if one != two)
     base = chat._base()
-    base.put_in("intention", chat._learned or base.fresh("intention", 0))
+    assert chat._learned is not None
+    base.put_in("intention", chat._learned)
     base.model.eval()
     with torch.no_grad():
         logits = base.model(input_ids=torch.tensor([asked + said[:at]])).logits[0, -1]

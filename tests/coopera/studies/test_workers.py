@@ -3,6 +3,9 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import subprocess
+import sys
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -55,6 +58,37 @@ def test_a_worker_that_is_killed_costs_its_job_and_another_does_it_again(tmp_pat
     }
     assert len(list(tmp_path.glob("doomed.try*"))) == 3
     assert not list(tmp_path.glob("late*"))
+
+
+PARENT = """
+import sys
+from tests.coopera.studies.test_workers import Errand, stay
+from coopera.studies.workers import work_through
+if __name__ == "__main__":
+    list(work_through([Errand("stays", sys.argv[1])], stay, workers=1))
+"""
+
+
+def stay(errand: Errand) -> None:
+    """Open the pipe of a parent that dies meanwhile, and stay."""
+    with (Path(errand.folder) / "pipe").open("w") as told:
+        told.write("at work\n")
+        told.flush()
+        threading.Event().wait(30)
+        told.write("outlived its parent\n")
+
+
+def test_a_worker_at_work_dies_with_its_parent_however_that_dies(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    program = tmp_path / "parent.py"
+    program.write_text(PARENT)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])}
+    parent = subprocess.Popen([sys.executable, str(program), str(tmp_path)], env=environment)
+    with (tmp_path / "pipe").open() as heard:
+        assert heard.readline() == "at work\n"
+        parent.kill()
+        parent.wait()
+        assert heard.read() == ""
 
 
 def test_a_job_waits_for_the_one_before_it_and_not_for_one_that_is_done_already() -> None:

@@ -134,5 +134,5 @@ def test_each_robot_carries_and_hands_over_and_is_seen(name, tmp_path) -> None:
 
 
 def test_a_robot_that_does_not_exist_is_refused_with_those_that_do() -> None:
-    with pytest.raises(ConfigError, match="robot: there is no robot 'tank' .known are fetch, husky_panda"):
+    with pytest.raises(ConfigError, match=f"robot: there is no robot 'tank' .known are {', '.join(known_robots())}"):
         World(flat(), robot="tank")
