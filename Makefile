@@ -33,7 +33,7 @@ bench: $(READY)
 
 # torch comes first and pinned, so that nothing that depends on it brings another build.
 $(READY): pyproject.toml constraints.txt
-	@$(or $(PYTHON),false) $(WILL_DO) || { echo $(NO_PYTHON) >&2; exit 1; }
+	@$(BIN)/python $(WILL_DO) || $(or $(PYTHON),false) $(WILL_DO) || { echo $(NO_PYTHON) >&2; exit 1; }
 	$(BIN)/python $(WILL_DO) || $(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt torch
 	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e '.[dev]'

@@ -102,7 +102,8 @@ class ReplyCache:
 
     def close(self) -> None:
         """Close the file."""
-        self._db.close()
+        with self._lock:
+            self._db.close()
         if self._shared is not None:
             self._shared.close()
 
