@@ -89,7 +89,7 @@ def test_a_block_that_is_not_run_says_why() -> None:
 
 @pytest.mark.parametrize("example", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.name)
 def test_an_example_runs(example: Path, tmp_path: Path, data_dir: Path) -> None:
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "COOPERA_DATA_DIR": str(data_dir), "COOPERA_AT_MOST": SHORT}
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "COOPERA_DATA_DIR": str(data_dir)}
     done = subprocess.run(
         [sys.executable, example], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )

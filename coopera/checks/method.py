@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any, cast
 
 from coopera.checks.leaks import alike, check_no_leak, decided, reached
+from coopera.config.at_most import VARIABLE
 from coopera.config.schema import Config
-from coopera.core.errors import ConformanceError, CooperaError
+from coopera.core.errors import ConfigError, ConformanceError, CooperaError
 from coopera.core.hour import CandidateKind, DayAccount, DayPlan, FeedbackItem, HourAccount, HourRecord
 from coopera.core.household import Collab
 from coopera.core.people import Belief
@@ -64,6 +65,8 @@ def _check(config: Config) -> None:
     assert config.out is not None
     name = f"method {config.method}, collaboration type {config.collab}"
     days = plan_days(config)
+    if len(days) < 2:
+        raise ConfigError(f"{VARIABLE}: a method is checked on two days; leave days out of it, or give days=2.")
     with new_run(config) as (run, services):
         _live(services, days[0], then=days[1])
         whole = run.hours()

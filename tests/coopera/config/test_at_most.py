@@ -5,9 +5,11 @@ from pathlib import Path
 import pytest
 
 from coopera.benchmark.grid_runs import load_grid, plan, shared_config
+from coopera.checks.method import check_method
 from coopera.config.at_most import VARIABLE
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError
+from coopera.evaluation import METHODS
 from coopera.studies.catalogues import resolve
 
 
@@ -32,6 +34,12 @@ def test_the_environment_cuts_a_benchmark(monkeypatch: pytest.MonkeyPatch, tmp_p
     assert {job.labels["method"] for job in planned.jobs} == {"none", "ours"}
     assert {job.labels["setting"] for job in planned.jobs} == {"1", "2"}
     assert {(job.config.hours, len(job.config.schedule or [])) for job in planned.jobs} == {(1, 1)}
+
+
+def test_a_method_is_not_checked_on_less_than_it_takes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "days=1")
+    with pytest.raises(ConfigError, match="COOPERA_AT_MOST: a method is checked on two days"):
+        check_method(METHODS["random"], collabs=(2,))
 
 
 @pytest.mark.parametrize("said", ["days", "days=0", "days=many", "weeks=1"])
