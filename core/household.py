@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, NewType, TypeAlias
+from typing import Annotated, Any, Literal, NewType, TypeAlias
 
 from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
+
+from coopera.core.affordances import Relation
+from coopera.core.naming import plain as plain
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
@@ -18,6 +21,15 @@ Collab: TypeAlias = Literal[1, 2]
 ObjectMap: TypeAlias = dict[str, tuple[int, str]]
 """{unique object name: (object id, room)}: the scene as language models read it (PAPER App. A)."""
 
+
+def _is_none(value: Any) -> bool:
+    return value is None
+
+
+def _is_empty(value: Any) -> bool:
+    return not value
+
+
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 
 
@@ -29,10 +41,13 @@ class PickPlace(Frozen):
     object: Name
     receptacle_id: int
     receptacle: Name
+    relation: Relation = Field("on", exclude_if=lambda relation: relation == "on")
+    """Whether it goes on top, or inside what can be opened or is a container."""
 
     def describe(self) -> str:
         """Say it as a sentence fragment, without ids."""
-        return f"put the {plain(self.object)} on the {plain(self.receptacle)}"
+        where = "on" if self.relation == "on" else "in"
+        return f"put the {plain(self.object)} {where} the {plain(self.receptacle)}"
 
 
 class FreeMotion(Frozen):
@@ -74,6 +89,14 @@ class Outcome(Frozen):
     reason: str = ""
     metres: float = 0.0
     """Distance walked or driven."""
+    motion: str | None = Field(None, exclude_if=_is_none)
+    """The motion that was played for a free-form task, by its caption."""
+    cosine: float | None = Field(None, exclude_if=_is_none)
+    """How near that motion is to what was asked for; None where words were compared, not meanings."""
+    fetched: tuple[str, ...] = Field((), exclude_if=_is_empty)
+    """What the agent fetched for it before, by name."""
+    opened: tuple[str, ...] = Field((), exclude_if=_is_empty)
+    """What the agent opened for it; it was closed again."""
 
 
 class Percept(Frozen):
@@ -89,6 +112,8 @@ class Percept(Frozen):
     motion: str
     in_hand: str | None = None
     visible: list[str] = []
+    states: dict[str, str] = Field({}, exclude_if=_is_empty)
+    """{visible object: its states in words}, for those that are not as at first, such as "open" or "dirty"."""
 
     def caption(self) -> str:
         """The percept as one sentence for a model that cannot look at pictures."""
@@ -117,11 +142,3 @@ class PerceptErrors(Frozen):
         Field(ge=0, le=1),
         Setting("Standard deviation of each coordinate of a joint; 0.03 puts a joint 5 cm off on average.", _METRES),
     ] = 0.03
-
-
-def plain(name: str) -> str:
-    """Return an object's name as words: "kitchen_table_2" becomes "kitchen table"."""
-    words = name.replace("_", " ").split()
-    if len(words) > 1 and words[-1].isdigit():
-        words = words[:-1]
-    return " ".join(words)

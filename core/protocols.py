@@ -102,6 +102,21 @@ class Home(Protocol):
         """
         ...
 
+    def misfit(self, agent: AgentId, act: Act) -> str:
+        """What stands against an act in this home, as a sentence that says what would do; empty where it can be tried.
+
+        It asks what never changes while an hour is planned: objects and their ids, what can be done where and with
+        what. Whether somebody stands in the way, or the table is full, is found out by doing it.
+        """
+        ...
+
+    def states(self, room: str | None = None) -> dict[str, str]:
+        """{object: its states in words} of all that is not as at first and can be seen, in a room or everywhere.
+
+        Also what is inside something, where one can look in. Sorted by name.
+        """
+        ...
+
     def percept(self, rng: np.random.Generator) -> Percept:
         """What a perception module reports of the recording, with its errors drawn from `rng`."""
         ...

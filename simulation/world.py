@@ -21,7 +21,7 @@ from coopera.simulation.acts.navigation import Navigator
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place
-from coopera.simulation.acts.state import HomeState, room_of_thing
+from coopera.simulation.acts.state import HomeState, named_from_box, room_of_thing
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.scene import Scene
@@ -134,6 +134,9 @@ class World:
 
     def class_of(self, name: str) -> str:
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
+        known = self.state.box.get(name)
+        if known is not None:
+            return known.text
         thing = self.layout.object(name)
         return thing.cls if thing is not None else name
 
@@ -225,7 +228,8 @@ class World:
         return {thing.name: self.state.thing(thing).on or "floor" for thing in things}
 
     def _record(self, plan: Plan, agent: AgentId, watch: Onlooker, in_hand: str | None) -> None:
-        recording = Filming(self._ground, self.state, watch.robot, watch.person).film(plan.steps, agent)
+        before = self.state.model_copy(update={"box": {**plan.state.box, **self.state.box}})
+        recording = Filming(self._ground, before, watch.robot, watch.person).film(plan.steps, agent)
         recording.near, recording.in_hand = plan.at, in_hand
         self._recording = recording
         self.state = plan.state
@@ -328,7 +332,9 @@ class World:
             raise SimulationError(
                 f"The snapshot is of a home of {', '.join(there)}, but this is one of {', '.join(here)}."
             )
-        strange = sorted(set(state.moved) - {thing.name for thing in self.layout.movable})
+        if snapshot.get("version") != 3:
+            state = named_from_box(self.layout, state)
+        strange = sorted(set(state.moved) - {thing.name for thing in state.objects(self.layout)})
         if strange:
             raise SimulationError(f"The snapshot moves {strange[0]!r}, which this home does not have.")
         self.state = state.model_copy(update={"agents": {agent: state.agents[agent] for agent in self._start.agents}})

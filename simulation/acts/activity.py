@@ -20,6 +20,7 @@ from coopera.simulation.acts.plans import (
     clear_of,
     taken_by_others,
 )
+from coopera.simulation.acts.skills import emptied
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk_to_deed
 from coopera.simulation.bodies.humanoid import forward
@@ -69,7 +70,9 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     walk_to_deed(ground, plan, agent, Placed(*person.place, person.yaw, pose), person.spot, watch, act.in_hand)
     spot = plan.state.agents[agent].spot
     place = spot if person.place == person.spot else person.place
-    person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": act.in_hand})
+    plan.state = emptied(plan.state, agent).out_of_box(ground.scene, agent, act.in_hand)
+    held = plan.state.agents[agent].thing
+    person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": held})
     plan.steps.append(Play(agent, person, motion))
     plan.state = plan.state.put(agent, person)
     hands = _hands(person, motion)

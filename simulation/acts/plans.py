@@ -62,6 +62,17 @@ class Handle:
 
 
 @dataclass(frozen=True, slots=True)
+class Open:
+    """An agent stands at furniture (or a thing) with a lid, a door or a drawer, and opens or closes it."""
+
+    agent: AgentId
+    stand: Stand
+    posture: Array
+    name: str
+    opens: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Give:
     """A robot stands before a person and hands over a thing from the magic box at a point."""
 
@@ -82,7 +93,7 @@ class Play:
     motion: Motion
 
 
-Step = Walk | Turn | Handle | Give | Play
+Step = Walk | Turn | Handle | Open | Give | Play
 
 
 class Watch(Protocol):

@@ -67,7 +67,7 @@ def pick(ground: Ground, state: HomeState, agent: AgentId, thing: str) -> Plan:
         raise UnableError(f"{named(agent)} already holds the {plain(held)}")
     plan, wanted = Plan(state), ground.movable(thing)
     take(ground, plan, agent, wanted)
-    plan.state = plan.state.with_agent(agent, thing=wanted.name)
+    plan.state = plan.state.with_held(agent, wanted.name)
     return plan
 
 
@@ -79,7 +79,6 @@ def place(ground: Ground, state: HomeState, agent: AgentId, receptacle: str) -> 
     """
     plan, thing = Plan(state), _own(ground, state, agent)
     put(ground, plan, agent, thing, ground.fixed(receptacle))
-    plan.state = plan.state.with_agent(agent, thing=None)
     return plan
 
 

@@ -214,7 +214,7 @@ def pick_place(ground: Ground, state: HomeState, agent: AgentId, act: PickPlace,
     thing, receptacle = ground.movable(act.object), ground.fixed(act.receptacle)
     if agent in ground.robots:
         _refuse_full_gripper(ground, state, agent)
-    plan = Plan(state.with_agent(agent, thing=None))
+    plan = Plan(emptied(state, agent))
     take(ground, plan, agent, thing, watch)
     put(ground, plan, agent, thing, receptacle, watch)
     plan.at.reverse()
@@ -231,7 +231,8 @@ def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -
     """
     receiver = _receiver(state, act)
     _refuse_full_gripper(ground, state, agent)
-    plan = Plan(state.with_agent(agent, thing=act.object))
+    plan = Plan(emptied(state, agent).out_of_box(ground.scene, agent, act.object))
+    name = str(plan.state.agents[agent].thing)
     person, body = state.person(receiver), ground.robots[agent]
     for stand in _before_person(ground, state, agent, receiver):
         point = handing_point(person, stand)
@@ -240,15 +241,21 @@ def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -
             continue
         mark = plan.mark()
         try:
-            walk(ground, plan, agent, (stand.x, stand.y), carries=act.object)
+            walk(ground, plan, agent, (stand.x, stand.y), carries=name)
         except UnableError:
             plan.rewind(mark)
             continue
-        plan.steps.append(Give(agent, receiver, stand, posture, point, act.object))
-        plan.state = plan.state.with_agent(agent, thing=None, yaw=stand.yaw).with_agent(receiver, thing=act.object)
+        plan.steps.append(Give(agent, receiver, stand, posture, point, name))
+        plan.state = emptied(plan.state.with_agent(agent, yaw=stand.yaw), receiver).with_held(receiver, name)
         return plan
     whom = "the person" if receiver == HUMAN else receiver
     raise UnableError(f"{named(agent)} cannot get within handing distance of {whom}")
+
+
+def emptied(state: HomeState, agent: AgentId) -> HomeState:
+    """The home with what an agent held from the magic box back in it."""
+    held = state.agents[agent].thing
+    return state.into_box(held) if held in state.box else state
 
 
 def _receiver(state: HomeState, act: HandOver) -> AgentId:

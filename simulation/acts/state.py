@@ -7,15 +7,20 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, model_validator
 
+from coopera.core.affordances import Condition, affordances
 from coopera.core.errors import SimulationError
 from coopera.core.household import HUMAN, ROBOT, AgentId
 from coopera.core.people import Frozen
+from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import Posture
 
@@ -23,11 +28,16 @@ _CARRIED = 1.0
 Kind: TypeAlias = Literal["person", "robot"]
 
 
+def _empty(value: Any) -> bool:
+    return not value
+
+
 class PersonState(Frozen):
     """A person: `spot` is the place on the floor from which they walk off, `place` where the body is.
 
     The two differ where the person sits or lies on something. `support`, `worktop` and `posture` are those of
-    `coopera.simulation.motions.poses.Setting`. The person holds `thing` from the magic box and is `at` a furniture.
+    `coopera.simulation.motions.poses.Setting`. The person has `thing` in hand, wears what is `worn`, and is `at` a
+    furniture; what they `switched` on goes off when they move on.
     """
 
     kind: Literal["person"] = "person"
@@ -40,10 +50,12 @@ class PersonState(Frozen):
     motion: str = "stand and wait"
     thing: str | None = None
     at: str | None = None
+    worn: tuple[str, ...] = Field((), exclude_if=_empty)
+    switched: tuple[str, ...] = Field((), exclude_if=_empty)
 
 
 class RobotState(Frozen):
-    """A robot: its base on the floor, and what it holds from the magic box."""
+    """A robot: its base on the floor, and what it has in its gripper."""
 
     kind: Literal["robot"] = "robot"
     spot: Point
@@ -55,26 +67,54 @@ class RobotState(Frozen):
         """Where the body is on the floor plan: a robot is where it stands."""
         return self.spot
 
+    @property
+    def worn(self) -> tuple[str, ...]:
+        """A robot wears nothing."""
+        return ()
+
 
 AgentState = Annotated[PersonState | RobotState, Field(discriminator="kind")]
 
 
 class ThingState(Frozen):
-    """Where a movable thing is: the centre of its base, its turn, and the furniture it stands on (None: the floor)."""
+    """Where a movable thing is: the centre of its base, its turn, and what carries it.
+
+    It is `on` a piece of furniture, `inside` furniture or another thing, or, with neither, on the floor.
+    """
 
     position: tuple[float, float, float]
     yaw: float
     on: str | None
+    inside: str | None = Field(None, exclude_if=_empty)
+
+    @model_validator(mode="after")
+    def _has_one_place(self) -> ThingState:
+        if self.on is not None and self.inside is not None:
+            raise ValueError(f"a thing is on {self.on} or inside {self.inside}, not both")
+        return self
+
+
+class BoxThing(Frozen):
+    """A thing out of the magic box, as long as it is in the home: its object id, and the words that it was named by."""
+
+    id: int
+    text: str = Field(min_length=1, max_length=120)
 
 
 class HomeState(Frozen):
-    """The whole truth at a moment between two acts; `moved` holds only what is not in its initial place."""
+    """The whole truth at a moment between two acts.
 
-    version: Literal[2] = 2
+    Every thing has exactly one place: in a hand, worn, or where `moved` says; one of the scene that is in none of these
+    is where it was at first. `box` is what came out of the magic box, `conditions` the states that are not as at first.
+    """
+
+    version: Literal[3] = 3
     scene: str
     agents: dict[AgentId, AgentState]
     """Everybody in the home, in the order in which they were put into it."""
     moved: dict[str, ThingState] = Field(default_factory=dict)
+    box: dict[str, BoxThing] = Field(default_factory=dict, exclude_if=_empty)
+    conditions: dict[str, Condition] = Field(default_factory=dict, exclude_if=_empty)
 
     @model_validator(mode="before")
     @classmethod
@@ -129,20 +169,118 @@ class HomeState(Frozen):
         return found
 
     def holder(self, thing: str) -> AgentId | None:
-        """Who has a movable thing of the scene in their hand."""
+        """Who has a thing in their hand."""
         return next((agent for agent, state in self.agents.items() if state.thing == thing), None)
 
+    def wearer(self, thing: str) -> AgentId | None:
+        """Who wears a thing."""
+        return next((agent for agent, state in self.agents.items() if thing in state.worn), None)
+
     def thing(self, initial: SceneObject) -> ThingState:
-        """Where a movable thing of the scene is now; what somebody holds is with them, on nothing."""
-        holder = self.holder(initial.name)
-        if holder is not None:
-            return ThingState(position=(*self.agents[holder].place, _CARRIED), yaw=0.0, on=None)
-        return self.moved.get(initial.name) or ThingState(position=initial.position, yaw=initial.yaw, on=initial.on)
+        """Where a movable thing is now; what somebody holds or wears, or what is inside that, is with them."""
+        bearer = self.bearer(initial.name)
+        if bearer is not None:
+            return ThingState(position=(*self.agents[bearer].place, _CARRIED), yaw=0.0, on=None)
+        where = self.moved.get(initial.name) or at_first(initial)
+        if where.inside is not None and (within := self.bearer(where.inside)) is not None:
+            return where.model_copy(update={"position": (*self.agents[within].place, _CARRIED)})
+        return where
+
+    def bearer(self, thing: str) -> AgentId | None:
+        """Who holds or wears a thing."""
+        for agent, state in self.agents.items():
+            if state.thing == thing or thing in state.worn:
+                return agent
+        return None
+
+    def objects(self, scene: Scene) -> tuple[SceneObject, ...]:
+        """All movable things in the home: those of the scene by name, and those out of the magic box."""
+        if not self.box:
+            return scene.movable
+        return (*scene.movable, *(from_box(name, known) for name, known in sorted(self.box.items())))
+
+    def object(self, scene: Scene, name: str) -> SceneObject | None:
+        """The furniture or thing of that name, out of the magic box or not; None where there is none."""
+        known = self.box.get(name)
+        return scene.object(name) if known is None else from_box(name, known)
+
+    def contents(self, scene: Scene, container: str) -> list[SceneObject]:
+        """What is inside furniture or a thing, by name."""
+        return [thing for thing in self.objects(scene) if self._lies(thing).inside == container]
+
+    def carried_by(self, scene: Scene, furniture: str) -> list[SceneObject]:
+        """What stands on a piece of furniture, by name."""
+        return [thing for thing in self.objects(scene) if self._lies(thing).on == furniture]
+
+    def _lies(self, thing: SceneObject) -> ThingState:
+        if self.bearer(thing.name) is not None:
+            return ThingState(position=thing.position, yaw=0.0, on=None)
+        return self.moved.get(thing.name) or at_first(thing)
+
+    def condition(self, thing: SceneObject) -> Condition:
+        """All states that an object has, with their values now; empty for an object without any."""
+        return {**affordances().first(thing.cls), **self.conditions.get(thing.name, {})}
 
     def with_thing(self, name: str, where: ThingState) -> HomeState:
-        """The same home with one thing put elsewhere."""
+        """The same home with one thing put elsewhere, out of the hand or off the body that had it."""
         moved = {**self.moved, name: where}
-        return self.model_copy(update={"moved": {key: moved[key] for key in sorted(moved)}})
+        state = self.model_copy(update={"moved": {key: moved[key] for key in sorted(moved)}})
+        return state._without(name)
+
+    def with_held(self, agent: AgentId, name: str) -> HomeState:
+        """The same home with a thing in an agent's hand, and nowhere else."""
+        moved = {key: where for key, where in self.moved.items() if key != name}
+        return self.model_copy(update={"moved": moved})._without(name).with_agent(agent, thing=name)
+
+    def with_worn(self, agent: AgentId, name: str) -> HomeState:
+        """The same home with a thing worn by a person, and nowhere else."""
+        moved = {key: where for key, where in self.moved.items() if key != name}
+        state = self.model_copy(update={"moved": moved})._without(name)
+        return state.with_agent(agent, worn=(*state.person(agent).worn, name))
+
+    def _without(self, name: str) -> HomeState:
+        """Take a thing out of every hand and off every body; its place must be said at once."""
+        state = self
+        for agent, body in self.agents.items():
+            if body.thing == name:
+                state = state.with_agent(agent, thing=None)
+            if name in body.worn:
+                state = state.with_agent(agent, worn=tuple(one for one in body.worn if one != name))
+        return state
+
+    def out_of_box(self, scene: Scene, agent: AgentId, text: str) -> HomeState:
+        """The same home with a new thing from the magic box in an agent's hand."""
+        slug = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")[:70]
+        slug = slug if slug[:1].isalpha() else f"thing_{slug}".strip("_")
+        number = 1
+        while scene.object(f"{slug}_{number}") is not None or f"{slug}_{number}" in self.box:
+            number += 1
+        ids = [thing.id for thing in scene.objects] + [known.id for known in self.box.values()]
+        new = BoxThing(id=max(ids, default=0) + 1, text=text)
+        return self.model_copy(update={"box": {**self.box, f"{slug}_{number}": new}}).with_agent(
+            agent, thing=f"{slug}_{number}"
+        )
+
+    def into_box(self, name: str) -> HomeState:
+        """The same home without a thing that came out of the magic box."""
+        state = self._without(name)
+        return state.model_copy(
+            update={
+                "moved": {key: where for key, where in state.moved.items() if key != name},
+                "box": {key: known for key, known in state.box.items() if key != name},
+                "conditions": {key: said for key, said in state.conditions.items() if key != name},
+            }
+        )
+
+    def with_condition(self, thing: SceneObject, change: Condition) -> HomeState:
+        """The same home with states of an object changed; those that its class does not have are left out."""
+        first = affordances().first(thing.cls)
+        now = {**self.conditions.get(thing.name, {}), **{key: said for key, said in change.items() if key in first}}
+        kept = {key: now[key] for key in sorted(now) if now[key] != first[key]}
+        conditions = {key: said for key, said in self.conditions.items() if key != thing.name}
+        if kept:
+            conditions[thing.name] = kept
+        return self.model_copy(update={"conditions": {key: conditions[key] for key in sorted(conditions)}})
 
     def with_agent(self, agent: AgentId, **change: object) -> HomeState:
         """The same home with an agent changed."""
@@ -154,12 +292,60 @@ class HomeState(Frozen):
 
 
 def today(snapshot: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A snapshot in today's form: those of version 1 had just one person and one robot, and no ids."""
+    """A snapshot in today's form.
+
+    Those of version 1 had just one person and one robot, and no ids. Until version 2 a held thing of the scene kept the
+    place that it was taken from, and a thing out of the magic box was but a text in a hand.
+    """
     person, robot = snapshot.get("person"), snapshot.get("robot")
-    if not isinstance(person, Mapping) or not isinstance(robot, Mapping) or snapshot.get("version") != 1:
-        return snapshot
-    rest = {key: value for key, value in snapshot.items() if key not in ("version", "person", "robot")}
-    return {**rest, "version": 2, "agents": {HUMAN: {"kind": "person", **person}, ROBOT: {"kind": "robot", **robot}}}
+    if isinstance(person, Mapping) and isinstance(robot, Mapping) and snapshot.get("version") == 1:
+        rest = {key: value for key, value in snapshot.items() if key not in ("version", "person", "robot")}
+        agents = {HUMAN: {"kind": "person", **person}, ROBOT: {"kind": "robot", **robot}}
+        snapshot = {**rest, "version": 2, "agents": agents}
+    if snapshot.get("version") == 2 and isinstance(snapshot.get("agents"), Mapping):
+        return _each_once(snapshot)
+    return snapshot
+
+
+def _each_once(snapshot: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A snapshot of version 2 as one of version 3: what is held is nowhere else. `named_from_box` does the rest."""
+    bodies = [body for body in snapshot["agents"].values() if isinstance(body, Mapping)]
+    held = {body.get("thing") for body in bodies}
+    moved = {name: where for name, where in dict(snapshot.get("moved", {})).items() if name not in held}
+    return {**snapshot, "version": 3, "moved": moved}
+
+
+def named_from_box(scene: Scene, state: HomeState) -> HomeState:
+    """The state of a snapshot before version 3, whose things out of the magic box were but texts in a hand."""
+    for agent, body in state.agents.items():
+        if body.thing is not None and scene.object(body.thing) is None:
+            state = state.with_agent(agent, thing=None).out_of_box(scene, agent, body.thing)
+    return state
+
+
+@lru_cache(maxsize=4096)
+def from_box(name: str, known: BoxThing) -> SceneObject:
+    """A thing out of the magic box as an object like any other; its class is what it looks like."""
+    shape = shape_of(known.text)
+    cls = re.sub(r"[^a-z0-9]+", "_", shape.cls.lower()).strip("_")
+    cls = cls if cls[:1].isalpha() else f"thing_{cls}".strip("_")
+    red, green, blue = (round(255 * channel) for channel in shape.rgb)
+    return SceneObject(
+        id=known.id,
+        name=name,
+        cls=cls[:80],
+        category=catalogue().category(cls)[:60] or "thing",
+        fixed=False,
+        room="",
+        position=(0.0, 0.0, 0.0),
+        size=shape.size,
+        colour=f"#{red:02x}{green:02x}{blue:02x}",
+    )
+
+
+def at_first(initial: SceneObject) -> ThingState:
+    """Where a thing of the scene is as long as nobody has moved it."""
+    return ThingState(position=initial.position, yaw=initial.yaw, on=initial.on)
 
 
 def digest(snapshot: Mapping[str, Any]) -> str:

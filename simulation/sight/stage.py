@@ -99,7 +99,7 @@ class Stage:
         self._carried.clear()
         for agent, placed in moment.bodies.items():
             if agent in moment.held:
-                self._carry(agent, moment.held[agent], placed)
+                self._carry(state, agent, moment.held[agent], placed)
 
     def _things(self, state: HomeState, moment: Moment) -> None:
         for thing in self.scene.movable:
@@ -129,14 +129,15 @@ class Stage:
             body, self._joints[agent], [[float(v)] for v in robot.pose], physicsClientId=self.client
         )
 
-    def _carry(self, agent: AgentId, held: Held, placed: Placed) -> None:
+    def _carry(self, state: HomeState, agent: AgentId, held: Held, placed: Placed) -> None:
         """Attach a thing to a hand or the gripper: it just follows."""
-        initial = self.scene.object(held.name)
-        if initial is not None and not initial.fixed:
+        initial = state.object(self.scene, held.name)
+        if initial is not None and held.name not in state.box:
             name, size = held.name, initial.size
             self._shown.pop(name, None)
         else:
-            name, size = self._from_box(held.name)
+            known = state.box.get(held.name)
+            name, size = self._from_box(known.text if known else held.name)
             self._carried.add(name)
         place, turn = self._in_gripper(agent, placed, size) if agent in self.robots else _in_hand(placed, held, size)
         heading = about_z(placed.yaw)

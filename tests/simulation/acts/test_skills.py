@@ -130,7 +130,7 @@ def test_a_hand_over_happens_before_the_person_at_arms_length() -> None:
     give = plan.steps[-1]
     assert isinstance(give, Give)
     assert 0.6 <= math.dist((give.stand.x, give.stand.y), plan.state.person().place) <= 1.25
-    assert plan.state.person().thing == "banana"
+    assert plan.state.box["banana_1"].text == "banana"
     assert plan.state.robot().thing is None
 
 
