@@ -15,8 +15,8 @@ import yaml
 from pydantic import BeforeValidator, Field, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
-from coopera.core.naming import plain
 from coopera.core.lazy import made_once
+from coopera.core.naming import plain
 from coopera.core.people import Frozen
 
 FILE = Path(__file__).with_name("affordances.yaml")

@@ -9,7 +9,6 @@ from pydantic.json_schema import SkipJsonSchema
 
 from coopera.core.affordances import Relation
 from coopera.core.naming import plain as plain
-
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
 
