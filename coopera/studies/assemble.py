@@ -186,7 +186,7 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path)
     """Open one of a run's homes as it was built, the run's own copy if it has one; it is to be closed after use."""
     layout = load_scene(scene, [config.data_dir / "scenes", run / "scenes"])
     motions = load_motions(config.motions)
-    match = _nearest_motion(embeddings, motions)
+    match = _nearest_motions(embeddings, motions)
     return World(
         layout,
         robot=config.robot,
@@ -263,7 +263,7 @@ def _classifier(
     )
 
 
-def _nearest_motion(embeddings: Embeddings, motions: Library) -> Callable[[str], str]:
-    """The library motion whose caption is most similar to a free-form text."""
+def _nearest_motions(embeddings: Embeddings, motions: Library) -> Rank:
+    """Ranks the captions of the library by how similar they are to a free-form text."""
     search = Search(embeddings, motions.captions)
-    return lambda text: search.top(text, 1)[0][0]
+    return lambda text: search.top(text, len(motions.captions))

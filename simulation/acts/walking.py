@@ -26,7 +26,7 @@ def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str |
     start = plan.state.agents[agent].spot
     if math.dist(start, goal) < _THERE:
         if agent in ground.people:
-            plan.state = _arrived(plan.state, agent, start)
+            plan.state = _arrived(ground, plan.state, agent, start)
         return
     straight = ground.navigator.route(start, goal)
     if straight.points is None:
@@ -40,7 +40,7 @@ def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str |
     points = route.points or [start, goal]
     plan.steps.append(Walk(agent, points, carries))
     plan.metres += route.length
-    plan.state = _arrived(plan.state, agent, points[-1])
+    plan.state = _arrived(ground, plan.state, agent, points[-1])
 
 
 def walk_to_deed(
@@ -61,11 +61,11 @@ def walk_to_deed(
         watch(plan, deed, goal)
 
 
-def _arrived(state: HomeState, agent: AgentId, spot: Point) -> HomeState:
+def _arrived(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> HomeState:
     """The home with an agent standing at a spot; a robot keeps its heading."""
     body = state.agents[agent]
     if isinstance(body, PersonState):
-        return state.put(agent, stand_up(body, spot))
+        return stand_up(ground, state, agent, spot)
     return state.with_agent(agent, spot=spot)
 
 
@@ -122,4 +122,4 @@ def _step_aside(ground: Ground, plan: Plan, agent: AgentId, walker: AgentId, rou
     if way is None or way.points is None:
         raise UnableError(f"{named(agent)} stands in the way and has nowhere to step aside")
     plan.steps.append(Walk(agent, way.points))
-    plan.state = _arrived(plan.state, agent, way.points[-1])
+    plan.state = _arrived(ground, plan.state, agent, way.points[-1])
