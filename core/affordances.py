@@ -83,6 +83,7 @@ class Affordance(Frozen):
     uses: Classes = ()
     gathers: Gather | None = None
     switches: bool = False
+    undresses: bool = False
     roomy: bool = False
     lies: Classes = ()
     does: tuple[Effect, ...] = ()

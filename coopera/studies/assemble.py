@@ -38,7 +38,7 @@ from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import World, load_scene
-from coopera.simulation.motions.library import Library
+from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.studies.catalogues import tuned_model
 
