@@ -1,4 +1,4 @@
-"""Where a thing of a generated home can stand: free spots on the surfaces of furniture, and what fills them."""
+"""Where a thing of a generated home can stand: free spots on and in furniture, and what fills them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.homes.catalogue import surfaces
+from coopera.simulation.homes.catalogue import Surface, interiors, surfaces
 from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.kit import Size
@@ -69,21 +69,29 @@ def _outside(room: Bounds) -> list[Taken]:
     return [Taken(strip, 0.0, math.inf) for strip in strips]
 
 
-def spots(carrier: SceneObject, size: Size, taken: Iterable[Taken]) -> list[Spot]:
+def spots(carrier: SceneObject, size: Size, taken: Iterable[Taken], *, inside: bool = False) -> list[Spot]:
     """All free spots for a thing on a piece of furniture, on a 4 cm raster, the usual surface first.
 
     A thing that is larger than a surface may hang over its edge, centred. Two yaws are tried: the carrier's
     own and a quarter turn.
+
+    Args:
+        carrier: The furniture or, for what goes inside, perhaps a thing; it is where its position and yaw say.
+        size: Of the thing, in metres.
+        taken: What is filled already.
+        inside: Whether it goes within the carrier: then it must fit there as a whole.
     """
     filled = np.array([(*space.bounds, space.low, space.high) for space in taken]).reshape(-1, 6)
     found: list[Spot] = []
-    for surface in surfaces(carrier):
+    for surface in interiors(carrier) if inside else surfaces(carrier):
         if surface.clear < size[2]:
             continue
         z = round(carrier.position[2] + surface.z, 3)
         level = filled[(z < filled[:, 5] - 1e-3) & (filled[:, 4] < z + size[2] - 1e-3), :4]
         for turn in (0.0, math.pi / 2):
             half = _half_extents(size, turn)
+            if inside and not _within(surface, half):
+                continue
             xs, ys = _raster(surface.x0, surface.x1, half[0]), _raster(surface.y0, surface.y1, half[1])
             yaw = round(math.remainder(carrier.yaw + turn, math.tau), 4)
             places = _places(carrier, np.repeat(xs, len(ys)), np.tile(ys, len(xs)))
@@ -115,6 +123,10 @@ def _clear(places: Array, half: tuple[float, float], filled: Array) -> NDArray[n
     hits &= (y - half[1] < filled[:, 3] + APART) & (filled[:, 1] < y + half[1] + APART)
     clear: NDArray[np.bool_] = np.logical_not(hits.any(axis=1))
     return clear
+
+
+def _within(surface: Surface, half: tuple[float, float]) -> bool:
+    return 2 * half[0] <= surface.x1 - surface.x0 and 2 * half[1] <= surface.y1 - surface.y0
 
 
 def _half_extents(size: Size, yaw: float) -> tuple[float, float]:

@@ -98,3 +98,39 @@ def test_nothing_is_put_where_it_would_stick_into_a_wall() -> None:
     for x1, fits in ((4.0, {0.0, 1.5708}), (2.3, {1.5708})):
         home = Scene.model_validate({"id": "k", "rooms": [{**room, "x1": x1}], "objects": [stool]})
         assert {spot.yaw for spot in spots(stool, (1.0, 0.36, 0.1), furniture_on(home, stool))} == fits
+
+
+def test_what_goes_inside_fits_there_as_a_whole() -> None:
+    fridge = piece("fridge", yaw=math.pi / 2)
+    found = spots(fridge, (0.1, 0.1, 0.25), [], inside=True)
+    assert found
+    for spot in found:
+        space = taken_at(spot, (0.1, 0.1, 0.25))
+        assert fridge.bounds.grown(1e-3).overlaps(space.bounds)
+        assert fridge.bounds.x0 <= space.bounds.x0 < space.bounds.x1 <= fridge.bounds.x1
+        assert fridge.bounds.y0 <= space.bounds.y0 < space.bounds.y1 <= fridge.bounds.y1
+        assert 0.3 < space.low < space.high < fridge.top
+    assert spots(fridge, (0.7, 0.1, 0.1), [], inside=True) == []
+    assert spots(fridge, (0.1, 0.1, 0.5), [], inside=True) == []
+
+
+def test_there_is_room_beside_and_below_what_is_inside_already() -> None:
+    cabinet = piece("kitchen_cabinet")
+    size = (0.25, 0.25, 0.025)
+    first = spots(cabinet, size, [], inside=True)[0]
+    others = spots(cabinet, size, [taken_at(first, size)], inside=True)
+    assert first not in others
+    assert {spot.z for spot in others} == {spot.z for spot in spots(cabinet, size, [], inside=True)}
+
+
+def test_nothing_is_put_inside_a_table() -> None:
+    assert spots(piece("dining_table"), (0.1, 0.1, 0.1), [], inside=True) == []
+
+
+def test_a_thing_that_holds_others_takes_them_where_it_now_stands() -> None:
+    kind = catalogue().movable["laundry_basket"]
+    basket = piece("stool", x=5.0).model_copy(update={"cls": "laundry_basket", "size": kind.size, "fixed": False})
+    towel = catalogue().movable["towel"].size
+    found = spots(basket, towel, [], inside=True)
+    assert found
+    assert all(basket.bounds.x0 < spot.x < basket.bounds.x1 for spot in found)
