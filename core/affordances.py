@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import yaml
 from pydantic import BeforeValidator, Field, ValidationError, model_validator
@@ -62,8 +62,8 @@ class Effect(Frozen):
     @cached_property
     def changes(self) -> Condition:
         """The states that it sets."""
-        said: Condition = self.model_dump(include={"open", "powered", "clean", "filled", "form"}, exclude_none=True)
-        return said
+        said = {name: getattr(self, name) for name in get_args(StateName)}
+        return {name: value for name, value in said.items() if value is not None}
 
 
 class Gather(Frozen):

@@ -8,7 +8,6 @@ from types import TracebackType
 from typing import Any, Literal, Self
 
 import numpy as np
-from coopera.simulation.acts.truth import wrong
 from PIL import Image
 from pydantic import ValidationError
 
@@ -25,6 +24,7 @@ from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
 from coopera.simulation.acts.state import HomeState, named_from_box, room_of_thing
+from coopera.simulation.acts.truth import wrong
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.scene import Scene, SceneObject
@@ -214,7 +214,7 @@ class World:
         """
         found = {}
         for name, condition in self.state.conditions.items():
-            thing = self.state.object(self.layout, name)
+            thing = self.state.find(self.layout, name)
             if thing is None or not self.can_be_seen(thing):
                 continue
             where = thing.room if thing.fixed else room_of_thing(self.layout, self.state, thing)
@@ -225,7 +225,7 @@ class World:
     def can_be_seen(self, thing: SceneObject) -> bool:
         """Whether an object is not inside something closed."""
         within = None if thing.fixed else self.state.thing(thing).inside
-        container = None if within is None else self.state.object(self.layout, within)
+        container = None if within is None else self.state.find(self.layout, within)
         return container is None or self.state.condition(container).get("open") is not False
 
     def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:

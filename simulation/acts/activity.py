@@ -10,7 +10,7 @@ from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts import effects
 from coopera.simulation.acts.agents import named
-from coopera.simulation.acts.equipment import bring_tool, gather, take_in_hand, undress
+from coopera.simulation.acts.equipment import Workplace, bring_tool, gather, take_in_hand, undress
 from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, motion_meant
 from coopera.simulation.acts.navigation import Stand, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import (
@@ -64,9 +64,10 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
         undress(ground, plan, agent, watch)
     body, used_furniture = _placed(ground, plan, agent, target, motion)
     hands = _hands(body, motion)
+    at = Workplace(target, body, hands)
     if done.gathers is not None:
-        gather(ground, plan, agent, done.gathers, target, hands, watch)
-    tool = bring_tool(ground, plan, agent, act, done, target, body, hands, watch)
+        gather(ground, plan, agent, done.gathers, at, watch)
+    tool = bring_tool(ground, plan, agent, act, done, at, watch)
     take_in_hand(ground, plan, agent, act.in_hand, watch)
     held = plan.state.agents[agent].thing
     pose = pose_at(motion, 0.0, Setting(body.support, body.worktop, body.posture))
@@ -84,7 +85,7 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
 
 
 def stand_still(ground: Ground, state: HomeState, agent: AgentId) -> HomeState:
-    """The home as a person leaves off what they were doing, still where they are: what they had switched on goes off."""
+    """The home as a person leaves off, still where they are: what they had switched on for it goes off."""
     person = state.person(agent)
     off = stand_up(ground, state, agent, person.spot)
     return off.put(agent, person.model_copy(update={"switched": ()}))

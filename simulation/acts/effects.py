@@ -52,7 +52,7 @@ def _meant(
 ) -> Iterator[SceneObject]:
     """The objects that an effect is on."""
     held = state.agents[agent].thing
-    hand = state.object(ground.scene, held) if held is not None else None
+    hand = state.find(ground.scene, held) if held is not None else None
     parts: dict[str, list[SceneObject]] = {
         "hand": [hand] if hand is not None else [],
         "used": [used] if used is not None else [],
@@ -71,11 +71,11 @@ def _meant(
 def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) -> HomeState:
     """Put on what is in hand, if it is something to wear; what was worn of the same kind comes off for it."""
     held = state.agents[agent].thing
-    thing = state.object(ground.scene, held) if held is not None else None
+    thing = state.find(ground.scene, held) if held is not None else None
     if thing is None or not affordances().is_one_of(_class_or_words(state, thing), effect.of):
         return state
     for name in state.person(agent).worn:
-        other = state.object(ground.scene, name)
+        other = state.find(ground.scene, name)
         if other is None or other.cls != thing.cls:
             continue
         worn = tuple(one for one in state.person(agent).worn if one != name)

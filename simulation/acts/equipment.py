@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from typing import NamedTuple
 
-from coopera.core.affordances import Affordance, Classes, Gather, affordances
+from coopera.core.affordances import Affordance, Classes, Gather, Relation, affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts.fitting import in_hand_is
-from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch
-from coopera.simulation.acts.skills import empty_hand, put, put_away, take
+from coopera.simulation.acts.skills import There, empty_hand, put, put_away, take
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
@@ -18,6 +17,16 @@ from coopera.simulation.homes.scene import SceneObject
 _AT_HAND = 0.6
 """A tool that lies this near to the hands (metres, on the floor plan) need not be moved."""
 _TRIES = 2
+_OFF = 0.1
+"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
+
+
+class Workplace(NamedTuple):
+    """Where a motion will be done: the furniture, the body there, and its hands on the floor plan."""
+
+    target: SceneObject
+    body: PersonState
+    hands: Point
 
 
 def bring_tool(
@@ -26,9 +35,7 @@ def bring_tool(
     agent: AgentId,
     act: FreeMotion,
     done: Affordance,
-    target: SceneObject,
-    body: PersonState,
-    hands: Point,
+    at: Workplace,
     watch: Watch | None,
 ) -> SceneObject | None:
     """Add to a plan that the tool of a motion lies at the furniture near the hands; the nearest one is fetched.
@@ -42,13 +49,12 @@ def bring_tool(
     if not done.tools or in_hand_is(ground, plan.state, act.in_hand, done.tools):
         return None
     trouble = ""
-    found = list(_tools(ground, plan.state, agent, done.tools, target, hands))
-    for tool in found[:_TRIES]:
-        if _lies_ready(plan.state, tool, target, hands):
+    for tool in _tools(ground, plan.state, agent, done.tools, at)[:_TRIES]:
+        if _lies_ready(plan.state, tool, at):
             return tool
         mark = plan.mark()
         try:
-            _fetch(ground, plan, agent, tool, target, body, hands, watch)
+            _fetch(ground, plan, agent, tool, at, watch)
         except UnableError as unable:
             plan.rewind(mark)
             trouble = str(unable)
@@ -60,36 +66,38 @@ def bring_tool(
     return None
 
 
-def gather(
-    ground: Ground, plan: Plan, agent: AgentId, wanted: Gather, target: SceneObject, hands: Point, watch: Watch | None
-) -> None:
+def gather(ground: Ground, plan: Plan, agent: AgentId, wanted: Gather, at: Workplace, watch: Watch | None) -> None:
     """Add to a plan that what a chore is about is brought to the furniture, such as dirty dishes to the sink.
 
     What cannot be got there, or finds no place, is left where it is.
     """
-    relation = "inside" if wanted.inside and affordances().contains(target.cls) else "on"
+    relation: Relation = "inside" if wanted.inside and affordances().contains(at.target.cls) else "on"
     moved = 0
-    for thing in _by_distance(ground, plan.state, hands):
-        condition = plan.state.condition(thing)
+    for thing in _by_distance(ground, plan.state, at.hands):
         if moved == wanted.most:
             return
-        if not affordances().is_one_of(thing.cls, wanted.of) or condition.get("clean", wanted.clean) == (
-            not wanted.clean
-        ):
-            continue
-        where = plan.state.thing(thing)
-        if "clean" not in condition or target.name in (where.on, where.inside):
+        if not _is_wanted(plan.state, thing, wanted, at.target):
             continue
         mark = plan.mark()
         try:
             empty_hand(ground, plan, agent, watch)
             take(ground, plan, agent, thing, watch)
-            put(ground, plan, agent, thing, target, watch, relation=relation, near=hands)
+            put(ground, plan, agent, thing, There(at.target, relation, near=at.hands), watch)
         except UnableError:
             plan.rewind(mark)
             continue
         plan.fetched.append(thing.name)
         moved += 1
+
+
+def _is_wanted(state: HomeState, thing: SceneObject, wanted: Gather, target: SceneObject) -> bool:
+    """Whether a chore is about a thing: it is of the right kind and in the right state, and not there yet."""
+    where = state.thing(thing)
+    return (
+        affordances().is_one_of(thing.cls, wanted.of)
+        and state.condition(thing).get("clean") == wanted.clean
+        and target.name not in (where.on, where.inside)
+    )
 
 
 def take_in_hand(ground: Ground, plan: Plan, agent: AgentId, name: str, watch: Watch | None) -> None:
@@ -100,7 +108,7 @@ def take_in_hand(ground: Ground, plan: Plan, agent: AgentId, name: str, watch: W
     Raises:
         UnableError: If it cannot be reached or had, or there is no place to put away what is in hand.
     """
-    wanted = plan.state.object(ground.scene, name)
+    wanted = plan.state.find(ground.scene, name)
     held = plan.state.agents[agent].thing
     if wanted is None:
         if held is not None and held in plan.state.box and plan.state.box[held].text == name:
@@ -129,39 +137,23 @@ def undress(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None) -> 
             put_away(ground, plan, agent, watch)
 
 
-def _fetch(
-    ground: Ground,
-    plan: Plan,
-    agent: AgentId,
-    tool: SceneObject,
-    target: SceneObject,
-    body: PersonState,
-    hands: Point,
-    watch: Watch | None,
-) -> None:
+def _fetch(ground: Ground, plan: Plan, agent: AgentId, tool: SceneObject, at: Workplace, watch: Watch | None) -> None:
     empty_hand(ground, plan, agent, watch, keep=tool.name)
     take(ground, plan, agent, tool, watch)
-    resting = body.place if math.dist(body.spot, body.place) > 0.1 else None
-    put(ground, plan, agent, tool, target, watch, near=hands, clear_of_body=resting)
+    rests = at.body.place if math.dist(at.body.spot, at.body.place) > _OFF else None
+    put(ground, plan, agent, tool, There(at.target, near=at.hands, apart=rests), watch)
     plan.fetched.append(tool.name)
 
 
-def _tools(
-    ground: Ground, state: HomeState, agent: AgentId, wanted: Classes, target: SceneObject, hands: Point
-) -> Iterator[SceneObject]:
+def _tools(ground: Ground, state: HomeState, agent: AgentId, wanted: Classes, at: Workplace) -> list[SceneObject]:
     """Things of the home that would do and that nobody else has: clean ones first, then those near to the hands."""
     known = affordances()
-    things = [thing for thing in _by_distance(ground, state, hands) if known.is_one_of(thing.cls, wanted)]
-    things = [thing for thing in things if state.bearer(thing.name) in (None, agent)]
-    things = [thing for thing in things if thing.name not in state.agents[agent].worn]
-    yield from sorted(
-        (
-            thing
-            for thing in things
-            if _lies_ready(state, thing, target, hands) or free_places(ground.scene, state, thing, target)
-        ),
-        key=lambda thing: state.condition(thing).get("clean") is False,
-    )
+    found = [
+        thing
+        for thing in _by_distance(ground, state, at.hands)
+        if known.is_one_of(thing.cls, wanted) and state.bearer(thing.name) in (None, agent)
+    ]
+    return sorted(found, key=lambda thing: state.condition(thing).get("clean") is False)
 
 
 def _by_distance(ground: Ground, state: HomeState, hands: Point) -> list[SceneObject]:
@@ -172,6 +164,6 @@ def _by_distance(ground: Ground, state: HomeState, hands: Point) -> list[SceneOb
     return sorted(state.objects(ground.scene), key=away)
 
 
-def _lies_ready(state: HomeState, thing: SceneObject, target: SceneObject, hands: Point) -> bool:
+def _lies_ready(state: HomeState, thing: SceneObject, at: Workplace) -> bool:
     where = state.thing(thing)
-    return where.on == target.name and math.dist(where.position[:2], hands) <= _AT_HAND
+    return where.on == at.target.name and math.dist(where.position[:2], at.hands) <= _AT_HAND

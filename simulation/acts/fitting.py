@@ -51,7 +51,7 @@ def check_hands_over(ground: Ground, state: HomeState, agent: AgentId, name: str
     """
     if agent not in ground.robots:
         raise UnableError("only the robot hands things over")
-    wanted = state.object(ground.scene, name)
+    wanted = state.find(ground.scene, name)
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(name)} cannot be carried")
 
@@ -109,7 +109,7 @@ def check_in_hand(ground: Ground, state: HomeState, act: FreeMotion) -> None:
     Raises:
         UnableError: If it is furniture.
     """
-    wanted = state.object(ground.scene, act.in_hand)
+    wanted = state.find(ground.scene, act.in_hand)
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(act.in_hand)} cannot be held in a hand")
 
@@ -134,7 +134,7 @@ def check_tools(ground: Ground, state: HomeState, act: FreeMotion, caption: str)
 
 def in_hand_is(ground: Ground, state: HomeState, in_hand: str, classes: tuple[str, ...]) -> bool:
     """Whether a thing, named by its name or in words, is one of some classes or groups."""
-    thing = state.object(ground.scene, in_hand)
+    thing = state.find(ground.scene, in_hand)
     words = state.box[in_hand].text if in_hand in state.box else in_hand
     return affordances().is_one_of(words if thing is None or in_hand in state.box else thing.cls, classes)
 

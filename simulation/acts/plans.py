@@ -180,14 +180,14 @@ class Ground:
 
     def movable(self, state: HomeState, name: str, number: int | None = None) -> SceneObject:
         """The movable thing of that name, and of that id if one is said; it may be out of the magic box."""
-        found = _known(state.object(self.scene, name), name, number)
+        found = _known(state.find(self.scene, name), name, number)
         if found.fixed:
             raise UnableError(f"the {plain(name)} cannot be carried")
         return found
 
     def receptacle(self, state: HomeState, name: str, number: int | None = None) -> SceneObject:
         """The furniture, or the thing that holds others, of that name."""
-        found = _known(state.object(self.scene, name), name, number)
+        found = _known(state.find(self.scene, name), name, number)
         if not found.fixed and not affordances().contains(found.cls):
             raise UnableError(f"the {plain(name)} is no piece of furniture")
         return found
@@ -240,7 +240,7 @@ def stand_up(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> H
     """
     person = state.person(agent)
     for name in person.switched:
-        thing = state.object(ground.scene, name)
+        thing = state.find(ground.scene, name)
         if thing is not None:
             state = state.with_condition(thing, {"powered": False})
     risen = PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing, worn=person.worn)

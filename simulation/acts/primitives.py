@@ -12,7 +12,7 @@ from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.fitting import check_receptacle
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, taken_by_others
-from coopera.simulation.acts.skills import put, take
+from coopera.simulation.acts.skills import There, put, take
 from coopera.simulation.acts.state import HomeState
 from coopera.simulation.acts.walking import walk
 
@@ -37,7 +37,7 @@ def go_to(ground: Ground, state: HomeState, agent: AgentId, target: str) -> Plan
         middle = ground.navigator.middle_of(room.name)
         goals = [middle] if middle is not None else []
     else:
-        thing = state.object(ground.scene, target)
+        thing = state.find(ground.scene, target)
         if thing is None:
             raise UnableError(f"there is no room and no object {target!r} in this home")
         where = state.thing(thing)
@@ -83,5 +83,5 @@ def place(ground: Ground, state: HomeState, agent: AgentId, receptacle: str, rel
     plan, thing, there = Plan(state), ground.movable(state, held), ground.receptacle(state, receptacle)
     how: Relation = relation if there.fixed else "inside"
     check_receptacle(ground, thing, there, how)
-    put(ground, plan, agent, thing, there, relation=how)
+    put(ground, plan, agent, thing, There(there, how))
     return plan

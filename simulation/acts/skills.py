@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from coopera.core.affordances import Relation, affordances
 from coopera.core.household import AgentId, HandOver, PickPlace, plain
@@ -25,6 +26,7 @@ from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.homes.spots import Spot
 from coopera.simulation.shapes.rotations import Array
 
+_BESIDE = 0.35
 _PLACES = 8
 """How many of the free places are tried, spread over all of them."""
 _PUT_AWAY = 6
@@ -68,54 +70,48 @@ def take(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: 
         plan.at.append(carrier.name)
 
 
-def put(
-    ground: Ground,
-    plan: Plan,
-    agent: AgentId,
-    thing: SceneObject,
-    receptacle: SceneObject,
-    watch: Watch | None = None,
-    *,
-    relation: Relation = "on",
-    near: Point | None = None,
-    clear_of_body: Point | None = None,
-) -> None:
-    """Add to a plan: carry a thing in hand to a receptacle and put it down there, with `near` nearest to a point.
+class There(NamedTuple):
+    """Where a thing is to be put: on or inside a receptacle, furniture or a thing that holds others.
 
-    Args:
-        ground: The home.
-        plan: What is planned already; the thing is in the agent's hand by then.
-        agent: Who does it.
-        thing: What is put down.
-        receptacle: Furniture, or a thing that holds others.
-        watch: Lets a robot see it.
-        relation: On it, or inside; what is closed is opened for it and closed again.
-        near: Where on the floor plan it should come to lie, as nearly as there is a place.
-        clear_of_body: Where a body is about to sit or lie, so that nothing is put there.
+    `near` is a point on the floor plan to which it should come as near as there is a place; `apart` is where a body is
+    about to sit or lie, so that nothing is put there.
+    """
+
+    receptacle: SceneObject
+    relation: Relation = "on"
+    near: Point | None = None
+    apart: Point | None = None
+
+
+def put(
+    ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, there: There, watch: Watch | None = None
+) -> None:
+    """Add to a plan: carry a thing in hand somewhere and put it down; what is closed is opened and closed again.
 
     Raises:
         UnableError: If it is full or cannot be reached.
     """
-    taken = [clear_of_body] if clear_of_body is not None else []
+    receptacle, relation = there.receptacle, there.relation
     places = [
         place
         for place in free_places(ground.scene, plan.state, thing, receptacle, relation)
-        if not _sat_upon(plan.state, receptacle, place[:2]) and all(math.dist(place[:2], at) >= 0.35 for at in taken)
+        if not _sat_upon(plan.state, receptacle, place[:2])
+        and (there.apart is None or math.dist(place[:2], there.apart) >= _BESIDE)
     ]
     if not places:
         raise UnableError(full(receptacle, thing, relation))
     container = receptacle if relation == "inside" else None
     carrier = _carrier(ground, plan.state, receptacle)
-    for place, reach in _tried(places, near):
+    for place, reach in _tried(places, there.near):
         errand = Errand(grip(thing, place[:3]), carrier, thing.name, tries=8, reaches=(reach,))
         found = go_to_reach(ground, plan, agent, errand, watch)
         if found is not None:
-            there = _laid(plan.state, receptacle, place, relation)
+            lies = _laid(plan.state, receptacle, place, relation)
 
-            def release(found: tuple[Stand, Array] = found, place: Spot = place, there: ThingState = there) -> None:
-                seen = ThingState(position=place[:3], yaw=place.yaw, on=there.on, inside=there.inside)
+            def release(found: tuple[Stand, Array] = found, place: Spot = place, lies: ThingState = lies) -> None:
+                seen = ThingState(position=place[:3], yaw=place.yaw, on=lies.on, inside=lies.inside)
                 plan.steps.append(Handle(agent, *found, thing.name, seen))
-                plan.state = _known_place(plan.state, receptacle).with_thing(thing.name, there)
+                plan.state = _known_place(plan.state, receptacle).with_thing(thing.name, lies)
 
             _opening(plan, agent, container, found, release)
             plan.at.append(receptacle.name)
@@ -140,7 +136,7 @@ def pick_place(ground: Ground, state: HomeState, agent: AgentId, act: PickPlace,
     empty_hand(ground, plan, agent, watch, keep=thing.name)
     plan.in_hand = thing.name
     take(ground, plan, agent, thing, watch)
-    put(ground, plan, agent, thing, receptacle, watch, relation=relation)
+    put(ground, plan, agent, thing, There(receptacle, relation), watch)
     plan.at.reverse()
     return plan
 
@@ -155,7 +151,7 @@ def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -
         UnableError: If the thing or the person cannot be reached, it is not clear who that is, or a hand is full.
     """
     receiver = receiver_of(state, act)
-    wanted = state.object(ground.scene, act.object)
+    wanted = state.find(ground.scene, act.object)
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(act.object)} cannot be carried")
     has = state.agents[receiver].thing
@@ -243,7 +239,7 @@ def put_away(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = N
     for furniture in near[:_PUT_AWAY]:
         mark = plan.mark()
         try:
-            put(ground, plan, agent, thing, furniture, watch)
+            put(ground, plan, agent, thing, There(furniture), watch)
         except UnableError:
             plan.rewind(mark)
             continue
@@ -254,7 +250,7 @@ def put_away(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = N
 def _refuse_full_hand(ground: Ground, state: HomeState, agent: AgentId) -> None:
     held = state.agents[agent].thing
     if held is not None:
-        thing = state.object(ground.scene, held)
+        thing = state.find(ground.scene, held)
         raise UnableError(f"{named(agent)} already holds the {plain(thing.name if thing is not None else held)}")
 
 
@@ -279,7 +275,7 @@ def _carrier(ground: Ground, state: HomeState, thing: SceneObject) -> SceneObjec
 
 
 def _container(ground: Ground, state: HomeState, where: ThingState) -> SceneObject | None:
-    return None if where.inside is None else state.object(ground.scene, where.inside)
+    return None if where.inside is None else state.find(ground.scene, where.inside)
 
 
 def _opening(
@@ -301,7 +297,7 @@ def _swing(plan: Plan, agent: AgentId, thing: SceneObject, found: tuple[Stand, A
 
 
 def _with_state(ground: Ground, state: HomeState, name: str, which: str, how: str) -> SceneObject:
-    thing = state.object(ground.scene, name)
+    thing = state.find(ground.scene, name)
     if thing is None:
         raise UnableError(f"there is no {plain(name)} ({name}) in this home")
     if which not in affordances().first(thing.cls):

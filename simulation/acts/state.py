@@ -212,7 +212,7 @@ class HomeState(Frozen):
             return scene.movable
         return (*scene.movable, *(from_box(name, known) for name, known in sorted(self.box.items())))
 
-    def object(self, scene: Scene, name: str) -> SceneObject | None:
+    def find(self, scene: Scene, name: str) -> SceneObject | None:
         """The furniture or thing of that name, out of the magic box or not; None where there is none."""
         known = self.box.get(name)
         return scene.object(name) if known is None else from_box(name, known)

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.household import AgentId
+from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.navigation import Stand
 from coopera.simulation.acts.plans import Give, Ground, Handle, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.skills import to_body
 from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.bodies.humanoid import SLICES, blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
@@ -168,7 +168,7 @@ class Filming:
                 self._handle(step)
             elif isinstance(step, Play):
                 self._play(step)
-            else:
+            elif isinstance(step, Give):
                 self._give(step)
         return self.recording
 

@@ -131,7 +131,7 @@ class Stage:
 
     def _carry(self, state: HomeState, agent: AgentId, held: Held, placed: Placed) -> None:
         """Attach a thing to a hand or the gripper: it just follows."""
-        initial = state.object(self.scene, held.name)
+        initial = state.find(self.scene, held.name)
         if initial is not None and held.name not in state.box:
             name, size = held.name, initial.size
             self._shown.pop(name, None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from coopera.core.affordances import Relation
 from coopera.core.household import FreeMotion, HandOver, PickPlace
 from coopera.simulation.homes.scene import Doorway, Room, Scene, SceneObject
 
@@ -51,12 +52,23 @@ def flat() -> Scene:
     )
 
 
-def put(thing: str, receptacle: str) -> PickPlace:
-    return PickPlace(object_id=0, object=thing, receptacle_id=0, receptacle=receptacle)
+def number(name: str) -> int:
+    """The id of an object of the flat; one that it does not have gets none of theirs."""
+    return next((10 + i for i, row in enumerate(_ROWS) if row[0] == name), 0)
+
+
+def put(thing: str, receptacle: str, relation: Relation = "on") -> PickPlace:
+    return PickPlace(
+        object_id=number(thing),
+        object=thing,
+        receptacle_id=number(receptacle),
+        receptacle=receptacle,
+        relation=relation,
+    )
 
 
 def move(target: str, in_hand: str, motion: str) -> FreeMotion:
-    return FreeMotion(target_id=0, target=target, in_hand=in_hand, motion=motion)
+    return FreeMotion(target_id=number(target), target=target, in_hand=in_hand, motion=motion)
 
 
 def bring(thing: str) -> HandOver:

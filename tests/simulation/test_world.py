@@ -148,7 +148,7 @@ def test_the_body_takes_the_posture_and_height_of_the_furniture(home, target, mo
 
 
 def test_a_given_search_decides_what_a_free_text_means() -> None:
-    with World(flat(), match=lambda text: "do squats" if "gym" in text else "dance") as world:
+    with World(flat(), match=lambda text: [("do squats" if "gym" in text else "dance", 0.9)]) as world:
         world.perform("human", move("sofa_1", "mug", "go through the gym routine"))
         assert world.state.person().motion == "do squats"
 
