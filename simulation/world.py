@@ -178,10 +178,10 @@ class World:
         except UnableError as unable:
             if watch is not None:  # there is still the person to be seen, doing what they were doing
                 plan = stay(self._ground, before, watch.person, watch)
-                self._record(plan, agent, watch, plan.state.person(watch.person).thing)
+                self._record(plan, agent, watch)
             return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
         if watch is not None:
-            self._record(plan, agent, watch, plan.in_hand)
+            self._record(plan, agent, watch)
         self.state = plan.state
         meant = plan.meant
         return Outcome(
@@ -291,10 +291,11 @@ class World:
         where = self.state.thing(thing)
         return bearer or where.on or (f"inside {where.inside}" if where.inside is not None else "floor")
 
-    def _record(self, plan: Plan, agent: AgentId, watch: Onlooker, in_hand: str | None) -> None:
+    def _record(self, plan: Plan, agent: AgentId, watch: Onlooker) -> None:
         before = self.state.model_copy(update={"box": {**plan.state.box, **self.state.box}})
         recording = Filming(self._ground, before, watch.robot, watch.person).film(plan.steps, agent)
-        recording.near, recording.in_hand = plan.at, in_hand
+        known = before.box.get(plan.in_hand or "")
+        recording.near, recording.in_hand = plan.at, plan.in_hand if known is None else known.text
         self._recording = recording
         self.state = plan.state
 

@@ -98,7 +98,7 @@ def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(agent, person, motion))
-    plan.at = [person.at] if person.at is not None else []
+    plan.at, plan.in_hand = [person.at] if person.at is not None else [], person.thing
     return plan
 
 
