@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label
 from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import dijkstra
 
 from coopera.core.errors import SimulationError
+from coopera.simulation.acts.ways import Ways
 from coopera.simulation.homes.catalogue import blocks
 from coopera.simulation.homes.floorplan import Point, Wall
 from coopera.simulation.homes.scene import Scene, SceneObject
@@ -35,7 +35,7 @@ _DOORWAY = 0.45
 _COMFORT = 0.45
 _FAR = 2.0
 _DISLIKE = 1.5
-_REMEMBERED = 32
+_REMEMBERED = 256
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
 
 
@@ -126,8 +126,7 @@ class Navigator:
         self._centres = np.stack([self._xs[self._cells[:, 0]], self._ys[self._cells[:, 1]]], axis=1)
         of_cell = self._room[self._cells[:, 0], self._cells[:, 1]]
         self._in_room = [np.flatnonzero(of_cell == index) for index in range(len(scene.rooms))]
-        self._graph = self._build_graph()
-        self._field = lru_cache(maxsize=_REMEMBERED)(self._work_out_field)
+        self._ways = Ways(self._build_graph(), of_cell)
         self._way = lru_cache(maxsize=_REMEMBERED)(self._work_out_way)
 
     def path(self, start: Point, goal: Point, *, avoid: Discs = ()) -> list[Point] | None:
@@ -147,13 +146,14 @@ class Navigator:
             what = "start" if first is None else "goal"
             place = start if first is None else goal
             return Route(None, reason=f"there is no room to stand at the {what} ({place[0]:.2f}, {place[1]:.2f})")
-        cost, before = self._field(first, avoid)
-        if not math.isfinite(cost[last]):
+        chain = (
+            self._ways.chain_around(first, last, np.flatnonzero(~_outside(avoid, self._centres)))
+            if avoid
+            else self._ways.chain(first, last)
+        )
+        if chain is None:
             return Route(None, reason="somebody stands in the way" if avoid else "the way is blocked")
-        chain = [last]
-        while chain[-1] != first:
-            chain.append(int(before[chain[-1]]))
-        corners = self._pull([self._point(node) for node in reversed(chain)], avoid)
+        corners = self._pull([self._point(node) for node in chain], avoid)
         points = [start, *corners] if math.dist(start, corners[0]) > CELL else [start, *corners[1:]]
         points = points if len(points) > 1 else [start, corners[-1]]
         return Route(points, sum(math.dist(a, b) for a, b in zip(points, points[1:], strict=False)))
@@ -186,7 +186,7 @@ class Navigator:
             first = self._nearest(start, ())
             if first is None:
                 return []
-            walk = self._field(first, ())[0][nodes]
+            walk = self._ways.costs(first, nodes)
         gap = self._gaps(target, places) if point is None else np.hypot(*(places - np.array(point)).T)
         cost = walk + 2 * gap + self._off_front(target, places)
         order = [int(i) for i in np.lexsort((nodes, cost)) if math.isfinite(cost[i])]
@@ -305,17 +305,6 @@ class Navigator:
         head, tail, weight = np.concatenate(heads), np.concatenate(tails), np.concatenate(weights)
         both = (np.concatenate([head, tail]), np.concatenate([tail, head]))
         return csr_matrix((np.concatenate([weight, weight]), both), shape=(len(self._cells),) * 2)
-
-    def _work_out_field(self, first: int, avoid: Discs) -> tuple[Array, NDArray[np.int32]]:
-        """Cost of the way from one node to each, and the node before each on that way."""
-        graph = self._graph
-        if avoid:  # what leads out of a closed cell leads nowhere
-            closed = np.flatnonzero(~_outside(avoid, self._centres))
-            graph = csr_matrix((graph.data.copy(), graph.indices, graph.indptr), shape=graph.shape)
-            for node in closed:
-                graph.data[graph.indptr[node] : graph.indptr[node + 1]] = np.inf
-        cost, before = dijkstra(graph, indices=first, return_predecessors=True)
-        return cost, before
 
     def _nearest(self, place: Point, avoid: Discs, within: float = 0.6) -> int | None:
         room = next((i for i, known in enumerate(self.scene.rooms) if known.contains(*place)), None)
