@@ -11,8 +11,9 @@ import numpy as np
 from PIL import Image
 from pydantic import ValidationError
 
+from coopera.core.affordances import affordances, in_words
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace, plain
 from coopera.simulation.acts import predicates, primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.agents import Agent, PersonAgent, RobotAgent, check_agents
@@ -24,7 +25,7 @@ from coopera.simulation.acts.skills import hand_over, pick_place
 from coopera.simulation.acts.state import HomeState, named_from_box, room_of_thing
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.homes.scene import Scene
+from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import Library, load_library
 from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.percept import perceive
@@ -176,6 +177,45 @@ class World:
             self._record(plan, agent, watch, in_hand)
         self.state = plan.state
         return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
+
+    def misfit(self, agent: AgentId, act: Act) -> str:
+        """What stands against an act in this home, as a sentence that says what would do; empty where it can be tried."""
+        fixed, movable = self.objects("fixed"), self.objects("movable")
+        if isinstance(act, HandOver):
+            if agent in self.people:
+                return "Only the robot hands things over."
+            return f"The {act.object} is furniture." if act.object in fixed else ""
+        if isinstance(act, PickPlace):
+            inside = act.relation == "inside" and not affordances().contains(self.class_of(act.receptacle))
+            return (
+                _unknown(act.object, act.object_id, movable, "movable")
+                or _unknown(act.receptacle, act.receptacle_id, fixed, "fixed")
+                or (f"The {plain(act.receptacle)} holds nothing within it; put it on top." if inside else "")
+            )
+        caption = self._library.match(act.motion, self._ground.search).caption
+        if unknown := _unknown(act.target, act.target_id, fixed, "fixed"):
+            return unknown
+        if affordances().suits(caption, self.class_of(act.target)):
+            return ""
+        would = ", ".join(plain(cls) for cls in affordances().of(caption).at or ())
+        return f"Nobody can {caption} at the {plain(act.target)}; that is done at: {would}."
+
+    def states(self, room: str | None = None) -> dict[str, str]:
+        """{object: its states in words} of all that is not as at first and can be seen, in a room or everywhere."""
+        said = {}
+        for name in sorted(self.state.conditions):
+            thing = self.state.object(self.layout, name)
+            if thing is None or self._hidden(thing):
+                continue
+            where = thing.room if thing.fixed else room_of_thing(self.layout, self.state, thing)
+            if room in (None, where):
+                said[name] = in_words(self.state.conditions[name])
+        return said
+
+    def _hidden(self, thing: SceneObject) -> bool:
+        within = None if thing.fixed else self.state.thing(thing).inside
+        container = self.state.object(self.layout, within) if within else None
+        return container is not None and self.state.condition(container).get("open") is False
 
     def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:
         """Who watches whom while an agent acts."""
@@ -363,3 +403,9 @@ class World:
             ConfigError: If it is no predicate.
         """
         return predicates.evaluate(self.layout, self.state, predicate)
+
+
+def _unknown(name: str, number: int, objects: ObjectMap, kind: str) -> str:
+    if name not in objects:
+        return f'There is no {kind} object "{name}".'
+    return f'"{name}" has the id {objects[name][0]}, not {number}.' if objects[name][0] != number else ""
