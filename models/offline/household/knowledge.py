@@ -59,6 +59,7 @@ class Activity(Frozen):
     big_five: Loadings = {}
     source: Text
     assumed: tuple[str, ...] = ()
+    dirty: tuple[Text, ...] = ()
     repeatable: bool = False
     need: bool = False
     closes: bool = False
