@@ -20,7 +20,7 @@ from coopera.core.randomness import Address
 from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
 from coopera.graphs.players.checks import findings, repair
 from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
-from coopera.graphs.players.variables import as_tasks, known, when
+from coopera.graphs.players.variables import as_tasks, known, motions_here, when
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.recall import as_memory, recall_both
 
@@ -135,7 +135,7 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
     The model is told what code found wrong.
     """
     ctx, found = runtime.context, state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
+    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state, ctx)
     count = Numbers.HUMAN_TASKS[ctx.collab]
     reply = ctx.ask(
         f"human/reflect_scene_type{ctx.collab}",
@@ -146,13 +146,14 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
+            "states": ctx.home.states(),
             "tasks": as_tasks(state["tasks"]),
             "n_tasks": count,
-            "findings": findings(state["tasks"], ctx.home, count),
+            "findings": findings(state["tasks"], ctx.home, ctx.agent, count),
         },
     )
     revised = _revised(state, reply, "reflect_scene")
-    return {**revised, "wrong": findings(revised["tasks"], ctx.home, count)}
+    return {**revised, "wrong": findings(revised["tasks"], ctx.home, ctx.agent, count)}
 
 
 def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
@@ -161,7 +162,7 @@ def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
 
 
 def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Mend what is still wrong to the nearest valid object, so that each task can be tried in the home.
+    """Mend what is still wrong to what is nearest and fits, so that each task can be tried in the home.
 
     Reads and revises `tasks`; writes `repairs`, a sentence for each thing mended.
 
@@ -170,7 +171,7 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """
     ctx = runtime.context
     count = len(state["tasks"]) if state["stated"] else Numbers.HUMAN_TASKS[ctx.collab]
-    tasks, repairs = repair(state["tasks"], ctx.home, count, ctx.search)
+    tasks, repairs = repair(state["tasks"], ctx.home, ctx.agent, count, ctx.search)
     return {"tasks": tasks, "repairs": repairs}
 
 

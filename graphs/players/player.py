@@ -22,7 +22,7 @@ from coopera.core.hour import (
     SearchSizes,
     Task,
 )
-from coopera.core.household import Collab
+from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
@@ -68,6 +68,8 @@ class HumanContext:
     player: Player
     model: PersonModel = FULL
     sizes: SearchSizes = SearchSizes()
+    agent: AgentId = HUMAN
+    """Whose body in the home the person has."""
 
     @property
     def collab(self) -> Collab:

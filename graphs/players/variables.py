@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from coopera.core.affordances import affordances
 from coopera.core.clock import Clock
 from coopera.core.hour import Task
 from coopera.graphs.players.player import HumanContext, HumanState
 from coopera.graphs.robots.recall import as_variables
+
+_READABLE = 8
+"""How many motions a prompt names for one piece of furniture."""
 
 
 def when(clock: Clock) -> dict[str, Any]:
@@ -30,6 +34,21 @@ def who(ctx: HumanContext) -> dict[str, Any]:
 def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     """The time, the person and what they recall."""
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
+
+
+def motions_here(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
+    """The motions that were found, and what can be done at each of the furniture: the nearest to the intention first.
+
+    What can be done anywhere is not named at any.
+    """
+    found, motions = state["found"], ctx.home.motions
+    ranked = [caption for caption, _ in ctx.search(motions).top(state["intention"].text, len(motions))]
+    can: dict[str, list[str]] = {}
+    for name in found.fixed:
+        known_here = set(affordances().motions_at(ctx.home.class_of(name)))
+        if there := [caption for caption in ranked if caption in known_here][:_READABLE]:
+            can[name] = there
+    return {"motions": found.motions, "can": can}
 
 
 def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:

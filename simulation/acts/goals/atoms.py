@@ -66,7 +66,7 @@ class Moment:
         """What an object is inside of, from the innermost to the outermost."""
         found: list[SceneObject] = []
         while not thing.fixed:
-            within = self.state.object(self.scene, self.lies(thing).inside or "")
+            within = self.state.find(self.scene, self.lies(thing).inside or "")
             if within is None or within in found:
                 break
             found.append(within)
@@ -150,7 +150,7 @@ def wearing(scene: Scene, state: HomeState, agent: AgentId, cls: str) -> bool:
 
 
 def _has(scene: Scene, state: HomeState, cls: str, name: str | None) -> bool:
-    thing = state.object(scene, name or "")
+    thing = state.find(scene, name or "")
     return thing is not None and Moment(scene, state).means(cls, thing)
 
 
@@ -185,7 +185,7 @@ def performed(
 
 
 def _on(now: Moment, thing: SceneObject, furniture: str) -> bool:
-    carrier = None if thing.fixed else now.state.object(now.scene, now.lies(thing).on or "")
+    carrier = None if thing.fixed else now.state.find(now.scene, now.lies(thing).on or "")
     return carrier is not None and now.means(furniture, carrier)
 
 
