@@ -120,10 +120,14 @@ class Affordances(Frozen):
         """What is said of a motion's caption; nothing, where it is not in the file."""
         return self.motions.get(motion, _ANYWHERE)
 
-    def is_one_of(self, thing: str, classes: Iterable[str]) -> bool:
-        """Whether a class or a text names one of some classes or groups: the whole of it, or its last words."""
-        words = plain(thing).lower()
-        return any(words == known or words.endswith(f" {known}") for known in self._words(tuple(classes)))
+    def is_one_of(self, cls: str, classes: Iterable[str]) -> bool:
+        """Whether a class is one of some classes or groups."""
+        return plain(cls).lower() in self._words(tuple(classes))
+
+    def means_one_of(self, words: str, classes: Iterable[str]) -> bool:
+        """Whether words for a thing mean one of some classes or groups: the whole of them does, or their end."""
+        said = plain(words).lower()
+        return any(said == known or said.endswith(f" {known}") for known in self._words(tuple(classes)))
 
     def _words(self, classes: tuple[str, ...]) -> frozenset[str]:
         known = self._spelled.get(classes)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from coopera.core.affordances import HAND, Affordance, Condition, Effect, affordances
 from coopera.core.household import AgentId
+from coopera.simulation.acts.fitting import is_one_of
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.scene import SceneObject
@@ -64,7 +65,7 @@ def _meant(
     }
     for part in effect.to:
         for thing in parts.get(part, []):
-            if not effect.of or affordances().is_one_of(_class_or_words(state, thing), effect.of):
+            if not effect.of or is_one_of(state, thing, effect.of):
                 yield thing
 
 
@@ -72,7 +73,7 @@ def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) ->
     """Put on what is in hand, if it is something to wear; what was worn of the same kind comes off for it."""
     held = state.agents[agent].thing
     thing = state.find(ground.scene, held) if held is not None else None
-    if thing is None or not affordances().is_one_of(_class_or_words(state, thing), effect.of):
+    if thing is None or not is_one_of(state, thing, effect.of):
         return state
     for name in state.person(agent).worn:
         other = state.find(ground.scene, name)
@@ -82,10 +83,6 @@ def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) ->
         state = state.with_agent(agent, worn=worn, thing=None).with_worn(agent, thing.name)
         return state.into_box(name) if name in state.box else state.with_held(agent, name)
     return state.with_worn(agent, thing.name)
-
-
-def _class_or_words(state: HomeState, thing: SceneObject) -> str:
-    return state.box[thing.name].text if thing.name in state.box else thing.cls
 
 
 def _in_words(state: HomeState, agent: AgentId) -> str:

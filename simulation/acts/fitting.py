@@ -5,7 +5,7 @@ Only what never changes while people and robots move about is asked here. A refu
 
 from __future__ import annotations
 
-from coopera.core.affordances import Relation, affordances
+from coopera.core.affordances import Classes, Relation, affordances
 from coopera.core.household import Act, AgentId, FreeMotion, HandOver, PickPlace, plain
 from coopera.simulation.acts.plans import Ground, UnableError
 from coopera.simulation.acts.resting import bed_for, seat_for
@@ -124,7 +124,7 @@ def check_tools(ground: Ground, state: HomeState, act: FreeMotion, caption: str)
     needs = known.of(caption).needs
     if not needs or in_hand_is(ground, state, act.in_hand, needs):
         return
-    if not any(known.is_one_of(thing.cls, needs) for thing in state.objects(ground.scene)):
+    if not any(is_one_of(state, thing, needs) for thing in state.objects(ground.scene)):
         names = [plain(name) for name in known.names(needs)]
         raise UnableError(
             f"to {caption} one needs a {' or a '.join(names[:_NAMED])}, and this home has none: "
@@ -132,11 +132,20 @@ def check_tools(ground: Ground, state: HomeState, act: FreeMotion, caption: str)
         )
 
 
-def in_hand_is(ground: Ground, state: HomeState, in_hand: str, classes: tuple[str, ...]) -> bool:
+def in_hand_is(ground: Ground, state: HomeState, in_hand: str, classes: Classes) -> bool:
     """Whether a thing, named by its name or in words, is one of some classes or groups."""
     thing = state.find(ground.scene, in_hand)
-    words = state.box[in_hand].text if in_hand in state.box else in_hand
-    return affordances().is_one_of(words if thing is None or in_hand in state.box else thing.cls, classes)
+    return affordances().means_one_of(in_hand, classes) if thing is None else is_one_of(state, thing, classes)
+
+
+def is_one_of(state: HomeState, thing: SceneObject, classes: Classes) -> bool:
+    """Whether a thing is one of some classes or groups: by its class, or by its words if it is from the magic box."""
+    known = state.box.get(thing.name)
+    return (
+        affordances().is_one_of(thing.cls, classes)
+        if known is None
+        else affordances().means_one_of(known.text, classes)
+    )
 
 
 def check_receptacle(ground: Ground, thing: SceneObject, receptacle: SceneObject, relation: Relation) -> None:
