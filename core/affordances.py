@@ -184,7 +184,10 @@ def problem_of(name: StateName, value: StateValue) -> str:
 def in_words(condition: Condition) -> str:
     """States as words, such as "open, dirty, with tea in it"; empty where all is as at first."""
     said = []
-    for name, value in condition.items():
+    for name in get_args(StateName):
+        if name not in condition:
+            continue
+        value = condition[name]
         if name == "filled":
             said.append(f"with {value} in it" if value else "empty")
         elif name == "form":

@@ -61,24 +61,46 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     def pick(thing: str) -> str:
         """Go to a movable thing and take it into your hand, which must be empty.
 
+        What another one holds is asked for. What a thing is in is opened for it, and closed again.
+
         Args:
             thing: Its name, such as "mug_1".
         """
         return _said(world.pick(agent, thing), f"You hold {thing}.")
 
-    def place(receptacle: str) -> str:
-        """Carry what you hold to a piece of furniture and put it down there.
+    def place(receptacle: str, inside: bool = False) -> str:
+        """Carry what you hold to a piece of furniture and put it down there, on top or inside.
 
         Args:
-            receptacle: The furniture's name, such as "dining_table_1".
+            receptacle: The furniture's name, such as "dining_table_1", or that of a basket or a box.
+            inside: Whether it goes inside, as in a fridge; it is opened for that, and closed again.
         """
-        return _said(world.place(agent, receptacle), f"It is on {receptacle}.")
+        there = f"inside {receptacle}" if inside else f"on {receptacle}"
+        return _said(world.place(agent, receptacle, "inside" if inside else "on"), f"It is {there}.")
+
+    def set_open(name: str, opens: bool) -> str:
+        """Go to what has a door, a drawer or a lid, and open it or close it.
+
+        Args:
+            name: Its name, such as "fridge_1".
+            opens: True to open it, false to close it.
+        """
+        return _said(world.set_open(agent, name, opens), f"{name} is {'open' if opens else 'closed'}.")
+
+    def switch(name: str, on: bool) -> str:
+        """Go to what can be switched, and switch it on or off.
+
+        Args:
+            name: Its name, such as "television_1".
+            on: True to switch it on, false to switch it off.
+        """
+        return _said(world.switch(agent, name, on), f"{name} is {'on' if on else 'off'}.")
 
     def hand_over(thing: str, person: str = "") -> str:
-        """Bring a person any small thing from the magic box.
+        """Bring a person a thing: one of the home, which you fetch or hold, or any small thing from the magic box.
 
         Args:
-            thing: What it is, in words, such as "toothbrush".
+            thing: The name of a thing of the home, such as "mug_1", or else what it is in words, such as "toothbrush".
             person: Who gets it; may be left out where there is only one person.
         """
         receiver = AgentId(person) if person else None
@@ -91,14 +113,14 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         Args:
             target: The furniture's name.
             motion: The motion in words, such as "sit and read".
-            in_hand: The thing in words, such as "book".
+            in_hand: The thing: its name if it is to be that thing of the home, or words such as "book".
         """
         fixed = world.layout.object(target)
         act = FreeMotion(target_id=fixed.id if fixed else 0, target=target, in_hand=in_hand, motion=motion)
         done = world.perform(agent, act)
         return _said(Result(done.ok, done.reason, done.metres), f"You {world.state.person(agent).motion} at {target}.")
 
-    functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place]
+    functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place, set_open, switch]
     functions.append(hand_over if agent in world.robots else move)
     return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
 
@@ -112,6 +134,7 @@ def _seen_by(world: World, agent: AgentId) -> dict[str, object]:
             seen[other] = {"room": world.room_of(other), "holding": state.thing, **doing}
     seen["furniture"] = [name for name, (_, where) in world.objects("fixed").items() if where == room]
     seen["things"] = world.things_on(room)
+    seen["states"] = world.states(room)
     return seen
 
 
