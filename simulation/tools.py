@@ -11,10 +11,13 @@ from collections.abc import Callable
 
 from langchain_core.tools import BaseTool, StructuredTool
 
+from coopera.core.affordances import Relation
 from coopera.core.household import ROBOT, AgentId, FreeMotion, HandOver
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.state import PersonState
 from coopera.simulation.world import World
+
+_DOOR, _SWITCH = ("closed", "open"), ("off", "on")
 
 
 def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
@@ -68,15 +71,14 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         """
         return _said(world.pick(agent, thing), f"You hold {thing}.")
 
-    def place(receptacle: str, inside: bool = False) -> str:
+    def place(receptacle: str, relation: Relation = "on") -> str:
         """Carry what you hold to a piece of furniture and put it down there, on top or inside.
 
         Args:
             receptacle: The furniture's name, such as "dining_table_1", or that of a basket or a box.
-            inside: Whether it goes inside, as in a fridge; it is opened for that, and closed again.
+            relation: "on" it, or "inside", as in a fridge; it is opened for that, and closed again.
         """
-        there = f"inside {receptacle}" if inside else f"on {receptacle}"
-        return _said(world.place(agent, receptacle, "inside" if inside else "on"), f"It is {there}.")
+        return _said(world.place(agent, receptacle, relation), f"It is {relation} {receptacle}.")
 
     def set_open(name: str, opens: bool) -> str:
         """Go to what has a door, a drawer or a lid, and open it or close it.
@@ -85,7 +87,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
             name: Its name, such as "fridge_1".
             opens: True to open it, false to close it.
         """
-        return _said(world.set_open(agent, name, opens), f"{name} is {'open' if opens else 'closed'}.")
+        return _said(world.set_open(agent, name, opens), f"{name} is {_DOOR[opens]}.")
 
     def switch(name: str, on: bool) -> str:
         """Go to what can be switched, and switch it on or off.
@@ -94,7 +96,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
             name: Its name, such as "television_1".
             on: True to switch it on, false to switch it off.
         """
-        return _said(world.switch(agent, name, on), f"{name} is {'on' if on else 'off'}.")
+        return _said(world.switch(agent, name, on), f"{name} is {_SWITCH[on]}.")
 
     def hand_over(thing: str, person: str = "") -> str:
         """Bring a person a thing: one of the home, which you fetch or hold, or any small thing from the magic box.

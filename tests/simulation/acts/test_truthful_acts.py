@@ -1,4 +1,4 @@
-"""Acts move things truthfully, or fail with a reason: through the graphs' acts, the single steps and the tools alike."""
+"""Acts move things truthfully, or fail with a reason: those of the graphs and the single steps alike."""
 
 from __future__ import annotations
 
