@@ -33,7 +33,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     world.state.agent(agent)
 
     def look_around() -> str:
-        """See where you and the others are, what you hold, and which objects are in your room."""
+        """See where you and the others are, what you hold, and which objects are in your room, in which state."""
         return json.dumps(_seen_by(world, agent))
 
     def list_objects(room: str = "") -> str:
@@ -42,16 +42,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         Args:
             room: Only this room; empty for the whole home.
         """
-        if room and room not in world.rooms:
-            return f"There is no room {room!r}; there are {', '.join(world.rooms)}."
-        listed = {
-            name: {
-                "furniture": [thing for thing, (_, where) in world.objects("fixed").items() if where == name],
-                "things": world.things_on(name),
-            }
-            for name in ([room] if room else world.rooms)
-        }
-        return json.dumps(listed)
+        return _listed(world, room)
 
     def go_to(target: str) -> str:
         """Go to a room, a piece of furniture or a thing.
@@ -125,6 +116,19 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place, set_open, switch]
     functions.append(hand_over if agent in world.robots else move)
     return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
+
+
+def _listed(world: World, room: str) -> str:
+    if room and room not in world.rooms:
+        return f"There is no room {room!r}; there are {', '.join(world.rooms)}."
+    listed = {
+        name: {
+            "furniture": [thing for thing, (_, where) in world.objects("fixed").items() if where == name],
+            "things": world.things_on(name),
+        }
+        for name in ([room] if room else world.rooms)
+    }
+    return json.dumps(listed)
 
 
 def _seen_by(world: World, agent: AgentId) -> dict[str, object]:
