@@ -149,8 +149,8 @@ def test_a_hand_over_can_be_recorded_too(home, tmp_path) -> None:
     home.perform("human", move("sofa_1", "book", "sit and rest"))
     assert home.perform("robot", bring("mug"), record=True).ok
     (shot,) = home._recording.shots
-    assert shot.at(0).held["robot"].name == "mug"
-    assert shot.at(shot.ticks - 1).held["human"].name == "mug"
+    assert shot.at(0).held["robot"].name.startswith("mug")
+    assert shot.at(shot.ticks - 1).held["human"].name.startswith("mug")
     assert len(home.frames(2, tmp_path)) == 4
 
 
