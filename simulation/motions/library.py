@@ -22,6 +22,7 @@ from coopera.simulation.shapes.rotations import Array
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
 Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
+Frame: TypeAlias = Literal["surface", "mouth", "head", "chest", "hips", "body"]
 Triple: TypeAlias = tuple[float, float, float]
 Path3: TypeAlias = Triple | list[Triple]
 
@@ -35,15 +36,24 @@ _WORD = re.compile(r"[a-z]+")
 
 
 class HandPath(Frozen):
-    """Where a hand goes: points in a frame, written in the file as one list, the frame first."""
+    """Where a hand goes: points, each in a frame; written in the file as one list, a frame before its points."""
 
-    frame: Literal["surface", "mouth", "head", "chest", "hips", "body"]
+    frames: list[Frame] = Field(min_length=1)
     points: list[Triple] = Field(min_length=1)
 
     @model_validator(mode="before")
     @classmethod
     def _from_list(cls, data: Any) -> Any:
-        return {"frame": data[0], "points": data[1:]} if isinstance(data, list) and data else data
+        if not isinstance(data, list) or not data:
+            return data
+        frames, points = [data[0]], []
+        for entry in data[1:]:
+            if isinstance(entry, str):
+                frames[-1] = entry
+            else:
+                points.append(entry)
+                frames.append(frames[-1])
+        return {"frames": frames[: max(len(points), 1)], "points": points}
 
 
 class Keys(Frozen):
