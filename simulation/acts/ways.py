@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-Array = NDArray[np.float64]
-Nodes = NDArray[np.int64]
+from coopera.simulation.acts.floor import Array, Nodes
 
 _REMEMBERED = 64
 _MOST_DOORS, _MOST_WAYS = 600, 6_000_000
