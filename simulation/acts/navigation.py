@@ -6,7 +6,7 @@ Bodies are discs of radius 0.30 m. Small objects are no obstacles; other agents 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -37,7 +37,7 @@ _DOORWAY = 0.45
 _COMFORT = 0.45
 _DISLIKE = 1.5
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
-_STEP_ASIDE = 2.0
+_STEP_ASIDE, _SPREAD = 2.0, 0.3
 _REMEMBERED = 256
 
 
@@ -194,18 +194,21 @@ class Navigator:
 
     def give_way(
         self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS, taken: Iterable[Disc] = ()
-    ) -> Point | None:
-        """The nearest place (straight line), not taken, to step to so that a walker on `route` passes; or None."""
-        steps = np.hypot(*(self._centres - np.array(here)).T)
+    ) -> Iterator[Point]:
+        """Places, not taken, to step to so that a walker on `route` passes: near ones first (straight line), spread."""
+        steps, taken = np.hypot(*(self._centres - np.array(here)).T), tuple(taken)
+        done = -1.0
         for within in (_STEP_ASIDE, math.inf):
-            nodes = np.flatnonzero(steps <= within)
+            nodes = np.flatnonzero((steps <= within) & (steps > done))
             away = np.full(len(nodes), np.inf)
             for a, b in zip(route, route[1:], strict=False):
                 away = np.minimum(away, to_segment(self._centres[nodes], a, b))
             nodes = nodes[(away >= space + 0.05) & _outside(taken, self._centres[nodes])]
-            if len(nodes):
-                return self._point(int(nodes[int(steps[nodes].argmin())]))
-        return None
+            nodes = nodes[np.argsort(steps[nodes], kind="stable")]
+            while len(nodes):
+                yield self._point(int(nodes[0]))
+                nodes = nodes[np.hypot(*(self._centres[nodes] - self._centres[nodes[0]]).T) >= _SPREAD]
+            done = within
 
     def can_stand(self, x: float, y: float) -> bool:
         """Whether a body fits at a point and the rest of the home can be reached from there."""
