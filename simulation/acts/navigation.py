@@ -37,7 +37,7 @@ _DOORWAY = 0.45
 _COMFORT = 0.45
 _DISLIKE = 1.5
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
-_STEP_ASIDE, _SPREAD = 2.0, 0.3
+_STEP_ASIDE, _SPREAD = 3.0, 0.5
 _REMEMBERED = 256
 
 
@@ -195,20 +195,20 @@ class Navigator:
     def give_way(
         self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS, taken: Iterable[Disc] = ()
     ) -> Iterator[Point]:
-        """Places, not taken, to step to so that a walker on `route` passes: near ones first (straight line), spread."""
-        steps, taken = np.hypot(*(self._centres - np.array(here)).T), tuple(taken)
-        done = -1.0
-        for within in (_STEP_ASIDE, math.inf):
-            nodes = np.flatnonzero((steps <= within) & (steps > done))
+        """Places, not taken, to step to so that a walker on `route` passes: a short walk past the taken ones first."""
+        taken = tuple(taken)
+        free, first = _outside(taken, self._centres), self._nearest(here, taken)
+        for nearest, farthest in ((0.0, _STEP_ASIDE), (_STEP_ASIDE, math.inf)) if first is not None else ():
+            walk = self._ways.costs_around(first or 0, np.flatnonzero(~free), farthest)
+            nodes = np.flatnonzero(np.isfinite(walk) & (walk >= nearest) & free)
             away = np.full(len(nodes), np.inf)
             for a, b in zip(route, route[1:], strict=False):
                 away = np.minimum(away, to_segment(self._centres[nodes], a, b))
-            nodes = nodes[(away >= space + 0.05) & _outside(taken, self._centres[nodes])]
-            nodes = nodes[np.argsort(steps[nodes], kind="stable")]
+            nodes = nodes[away >= space + 0.05]
+            nodes = nodes[np.argsort(walk[nodes], kind="stable")]
             while len(nodes):
                 yield self._point(int(nodes[0]))
                 nodes = nodes[np.hypot(*(self._centres[nodes] - self._centres[nodes[0]]).T) >= _SPREAD]
-            done = within
 
     def can_stand(self, x: float, y: float) -> bool:
         """Whether a body fits at a point and the rest of the home can be reached from there."""

@@ -26,7 +26,7 @@ from coopera.simulation.homes.floorplan import Point
 _THERE = 0.02
 _DETOUR = 4.0
 """Longest way around the others, in metres more than the straight way, before they are asked to step aside."""
-_ASIDES = 12
+_ASIDES = 16
 """How many places to step aside to are tried."""
 
 
