@@ -6,9 +6,9 @@ Bodies are discs of radius 0.30 m. Small objects are no obstacles; other agents 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,10 @@ from scipy.ndimage import label
 from scipy.sparse import csr_matrix
 
 from coopera.core.errors import SimulationError
+from coopera.simulation.acts.floor import CELL as CELL
+from coopera.simulation.acts.floor import FAR, Discs, Floor
+from coopera.simulation.acts.floor import RADIUS as RADIUS
+from coopera.simulation.acts.floor import Disc as Disc
 from coopera.simulation.acts.ways import Ways
 from coopera.simulation.homes.catalogue import blocks
 from coopera.simulation.homes.floorplan import Point, Wall
@@ -24,8 +28,6 @@ from coopera.simulation.homes.scene import Scene, SceneObject
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-CELL = 0.05
-RADIUS = 0.30  # PAPER App. A uses Habitat's agents, whose radius this is
 REACH = 0.80
 """Farthest a thing may lie from where one stands: both bodies can then take it."""
 STOP = 0.55
@@ -33,10 +35,10 @@ STOP = 0.55
 _DOORWAY = 0.45
 """Two rooms of an imported home at most this far apart from a point may have a doorway there, in metres."""
 _COMFORT = 0.45
-_FAR = 2.0
 _DISLIKE = 1.5
-_REMEMBERED = 256
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
+_STEP_ASIDE, _SPREAD = 3.0, 0.5
+_REMEMBERED = 256
 
 
 class Route(NamedTuple):
@@ -55,17 +57,6 @@ class Stand(NamedTuple):
     yaw: float
     walk: float
     gap: float
-
-
-class Disc(NamedTuple):
-    """A round obstacle, such as another agent."""
-
-    x: float
-    y: float
-    radius: float = RADIUS
-
-
-Discs: TypeAlias = tuple[Disc, ...]
 
 
 def obstacle_boxes(things: Iterable[SceneObject], walls: Iterable[Wall]) -> Array:
@@ -113,6 +104,7 @@ class Navigator:
         if scene.stage is not None:
             self._fill_doorways(grid_x, grid_y)
         self._clear[self._room < 0] = 0.0
+        self._floor = Floor(self._clear, (self._x0, self._y0))
         free = self._clear >= RADIUS
         parts, count = label(free)
         if not count:
@@ -153,7 +145,7 @@ class Navigator:
         )
         if chain is None:
             return Route(None, reason="somebody stands in the way" if avoid else "the way is blocked")
-        corners = self._pull([self._point(node) for node in chain], avoid)
+        corners = self._floor.pulled([(x, y) for x, y in self._centres[chain].tolist()], avoid)
         points = [start, *corners] if math.dist(start, corners[0]) > CELL else [start, *corners[1:]]
         points = points if len(points) > 1 else [start, corners[-1]]
         return Route(points, sum(math.dist(a, b) for a, b in zip(points, points[1:], strict=False)))
@@ -202,21 +194,26 @@ class Navigator:
 
     def give_way(
         self, here: Point, route: Sequence[Point], *, space: float = 2 * RADIUS, taken: Iterable[Disc] = ()
-    ) -> Point | None:
-        """The nearest place (straight line), not taken, to step to so that a walker on `route` passes; or None."""
-        away = np.full(len(self._centres), np.inf)
-        for a, b in zip(route, route[1:], strict=False):
-            away = np.minimum(away, to_segment(self._centres, a, b))
-        open_nodes = np.flatnonzero((away >= space + 0.05) & _outside(taken, self._centres))
-        if not len(open_nodes):
-            return None
-        steps = np.hypot(*(self._centres[open_nodes] - np.array(here)).T)
-        return self._point(int(open_nodes[int(steps.argmin())]))
+    ) -> Iterator[Point]:
+        """Places, not taken, to step to so that a walker on `route` passes: a short walk past the taken ones first."""
+        taken = tuple(taken)
+        free, first = _outside(taken, self._centres), self._nearest(here, taken)
+        for nearest, farthest in ((0.0, _STEP_ASIDE), (_STEP_ASIDE, math.inf)) if first is not None else ():
+            walk = self._ways.costs_around(first or 0, np.flatnonzero(~free), farthest)
+            nodes = np.flatnonzero(np.isfinite(walk) & (walk >= nearest) & free)
+            away = np.full(len(nodes), np.inf)
+            for a, b in zip(route, route[1:], strict=False):
+                away = np.minimum(away, to_segment(self._centres[nodes], a, b))
+            nodes = nodes[away >= space + 0.05]
+            nodes = nodes[np.argsort(walk[nodes], kind="stable")]
+            while len(nodes):
+                yield self._point(int(nodes[0]))
+                nodes = nodes[np.hypot(*(self._centres[nodes] - self._centres[nodes[0]]).T) >= _SPREAD]
 
     def can_stand(self, x: float, y: float) -> bool:
         """Whether a body fits at a point and the rest of the home can be reached from there."""
         node = self._nearest((x, y), (), within=CELL)
-        return node is not None and float(self._clear_at(np.array([x]), np.array([y]))[0]) >= RADIUS - 0.01
+        return node is not None and self._floor.clearance(x, y) >= RADIUS - 0.01
 
     def cells_in(self, room: str) -> Array:
         """Centres of all cells of a room where one can stand, in fixed order; shape (n, 2)."""
@@ -251,10 +248,10 @@ class Navigator:
         self._room[between] = away.argmin(axis=0)[between]
 
     def _clearances(self, boxes: Array) -> Array:
-        """Clearance of every cell, up to `_FAR`: beyond that nobody asks, and each box is looked at only nearby."""
-        clear = np.full((len(self._xs), len(self._ys)), _FAR)
+        """Clearance of every cell, up to `FAR`: beyond that nobody asks, and each box is looked at only nearby."""
+        clear = np.full((len(self._xs), len(self._ys)), FAR)
         for box in boxes:
-            around = math.hypot(box[2], box[3]) + _FAR
+            around = math.hypot(box[2], box[3]) + FAR
             i, j = np.searchsorted(self._xs, (box[0] - around, box[0] + around))
             k, m = np.searchsorted(self._ys, (box[1] - around, box[1] + around))
             x, y = np.meshgrid(self._xs[i:j], self._ys[k:m], indexing="ij")
@@ -324,46 +321,6 @@ class Navigator:
 
     def _point(self, node: int) -> Point:
         return float(self._centres[node, 0]), float(self._centres[node, 1])
-
-    def _clear_at(self, x: Array, y: Array) -> Array:
-        """Clearance between cell centres, bilinear."""
-        rows, columns = self._clear.shape
-        u = np.minimum(np.maximum((x - self._x0) / CELL, 0.0), rows - 1.001)
-        v = np.minimum(np.maximum((y - self._y0) / CELL, 0.0), columns - 1.001)
-        i, j = u.astype(np.intp), v.astype(np.intp)
-        s, t = u - i, v - j
-        flat, corner = self._clear.ravel(), i * columns + j
-        low = flat[corner] * (1 - s) + flat[corner + columns] * s
-        high = flat[corner + 1] * (1 - s) + flat[corner + columns + 1] * s
-        return np.asarray(low * (1 - t) + high * t)
-
-    def _straight(self, a: Point, b: Point, avoid: Discs) -> bool:
-        dx, dy = b[0] - a[0], b[1] - a[1]
-        steps = max(1, math.ceil(math.hypot(dx, dy) / (CELL / 2)))
-        share = np.arange(steps + 1) / steps
-        x, y = a[0] + dx * share, a[1] + dy * share
-        if any((np.hypot(x - disc.x, y - disc.y) < disc.radius + RADIUS).any() for disc in avoid):
-            return False
-        return float(self._clear_at(x, y).min()) >= RADIUS
-
-    def _pull(self, points: list[Point], avoid: Discs) -> list[Point]:
-        """Drop every corner that a straight walk can skip (greedy from the start, galloping ahead)."""
-        pulled, here, last = [points[0]], 0, len(points) - 1
-        while here < last:
-            step, good = 1, here + 1
-            while here + step <= last and self._straight(points[here], points[here + step], avoid):
-                good = here + step
-                step *= 2
-            low, high = good, min(here + step, last)
-            while low < high:
-                middle = (low + high + 1) // 2
-                if self._straight(points[here], points[middle], avoid):
-                    low = middle
-                else:
-                    high = middle - 1
-            here = low
-            pulled.append(points[here])
-        return pulled
 
 
 def _facing_point(target: SceneObject, x: float, y: float) -> Point:

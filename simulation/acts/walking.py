@@ -3,22 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from itertools import islice
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.navigation import RADIUS, Disc, Route
-from coopera.simulation.acts.plans import Ground, Placed, Plan, UnableError, Walk, Watch, floor_of_others, stand_up
+from coopera.simulation.acts.plans import (
+    Ground,
+    Placed,
+    Plan,
+    UnableError,
+    Walk,
+    Watch,
+    discs,
+    floor_of_others,
+    stand_up,
+)
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
 
 _THERE = 0.02
 _DETOUR = 4.0
 """Longest way around the others, in metres more than the straight way, before they are asked to step aside."""
+_ASIDES = 16
+"""How many places to step aside to are tried."""
 
 
-def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str | None = None) -> None:
+def walk(
+    ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str | None = None, *, backs: bool = True
+) -> None:
     """Add a walk to a plan: around the others, or past them once they have stepped aside.
+
+    Where somebody can step aside only past the walker, as in a dead end, the walker backs out of their way before;
+    without `backs` it does not.
 
     Raises:
         UnableError: If there is no way.
@@ -36,11 +54,13 @@ def walk(ground: Ground, plan: Plan, agent: AgentId, goal: Point, carries: str |
     if route is None:
         route = straight
         for one in [one for one, found in floor.items() if _in_the_way(straight, found)]:
-            _step_aside(ground, plan, one, agent, straight)
-    points = route.points or [start, goal]
-    plan.steps.append(Walk(agent, points, carries))
+            if _step_aside(ground, plan, one, straight):
+                continue
+            if backs and _let_past(ground, plan, one, agent, straight, goal, carries):
+                return
+            raise UnableError(f"{named(one)} stands in the way and has nowhere to step aside")
+    _go(plan, agent, route, carries)
     plan.metres += route.length
-    plan.state = _arrived(ground, plan.state, agent, points[-1])
 
 
 def walk_to_deed(
@@ -110,16 +130,54 @@ def _to_line(point: Point, a: Point, b: Point) -> float:
     return math.dist(point, (a[0] + share * dx, a[1] + share * dy))
 
 
-def _step_aside(ground: Ground, plan: Plan, agent: AgentId, walker: AgentId, route: Route) -> None:
-    """Let an agent in the way go where the walker passes it, and where nobody else stands."""
+def _step_aside(ground: Ground, plan: Plan, agent: AgentId, route: Route) -> bool:
+    """Let an agent in the way go where the walker passes it, past nobody's body; False where it cannot."""
+    way = next(_ways_aside(ground, plan, agent, route, floor_of_others(plan.state, agent)), None)
+    if way is not None:
+        _go(plan, agent, way)
+    return way is not None
+
+
+def _let_past(
+    ground: Ground, plan: Plan, agent: AgentId, walker: AgentId, route: Route, goal: Point, carries: str | None
+) -> bool:
+    """Let a walker back out for an agent that can step aside only past it, and then go on; False where that fails."""
+    mark = plan.mark()
+    for way in _ways_aside(ground, plan, agent, route, floor_of_others(plan.state, agent, walker)):
+        floor = {**floor_of_others(plan.state, walker), agent: [*discs(plan.state, agent), Disc(*_end(way))]}
+        back = next(_ways_aside(ground, plan, walker, way, floor), None)
+        if back is None:
+            continue
+        _go(plan, walker, back, carries)
+        plan.metres += back.length
+        _go(plan, agent, way)
+        try:
+            walk(ground, plan, walker, goal, carries, backs=False)
+        except UnableError:
+            plan.rewind(mark)
+            continue
+        return True
+    return False
+
+
+def _ways_aside(
+    ground: Ground, plan: Plan, agent: AgentId, route: Route, floor: Mapping[AgentId, list[Disc]]
+) -> Iterator[Route]:
+    """Ways to places near an agent that leave a route free, and to which one gets past what others take up."""
     here = plan.state.agents[agent].spot
-    floor = floor_of_others(plan.state, agent, walker)
     taken = [disc for found in floor.values() for disc in found]
-    aside = ground.navigator.give_way(here, route.points or [], taken=taken)
-    way = ground.navigator.route(here, aside) if aside is not None else None
-    if aside is not None and way is not None and way.points is not None:
-        way = _around(ground, way, here, aside, floor)
-    if way is None or way.points is None:
-        raise UnableError(f"{named(agent)} stands in the way and has nowhere to step aside")
-    plan.steps.append(Walk(agent, way.points))
-    plan.state = _arrived(ground, plan.state, agent, way.points[-1])
+    for aside in islice(ground.navigator.give_way(here, route.points or [], taken=taken), _ASIDES):
+        way = ground.navigator.route(here, aside)
+        free = _around(ground, way, here, aside, floor) if way.points is not None else None
+        if free is not None:
+            yield free
+
+
+def _go(plan: Plan, agent: AgentId, route: Route, carries: str | None = None) -> None:
+    plan.steps.append(Walk(agent, route.points or [], carries))
+    plan.state = _arrived(ground, plan.state, agent, _end(route))
+
+
+def _end(route: Route) -> Point:
+    """Where a walk that there is ends."""
+    return (route.points or [])[-1]

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-Array = NDArray[np.float64]
-Nodes = NDArray[np.int64]
+from coopera.simulation.acts.floor import Array, Nodes
 
 _REMEMBERED = 64
 _MOST_DOORS, _MOST_WAYS = 600, 6_000_000
@@ -84,18 +83,26 @@ class Ways:
             return None
         return self._walk_back(here, self._from(first).before[0], b)[::-1]
 
+    def costs_around(self, first: int, closed: Nodes, farthest: float = math.inf) -> Array:
+        """Cost of the way from a node to each, where nothing leads out of closed ones; inf beyond `farthest`."""
+        cost: Array = dijkstra(self._without(closed), indices=first, limit=farthest)
+        return cost
+
     def chain_around(self, first: int, last: int, closed: Nodes) -> list[int] | None:
-        """The same where some nodes are closed: nothing leads out of these."""
-        graph = csr_matrix((self._graph.data.copy(), self._graph.indices, self._graph.indptr), shape=self._graph.shape)
-        for node in closed:
-            graph.data[graph.indptr[node] : graph.indptr[node + 1]] = np.inf
-        cost, before = dijkstra(graph, indices=first, return_predecessors=True)
+        """The nodes of a shortest way between two nodes where nothing leads out of closed ones; None without one."""
+        cost, before = dijkstra(self._without(closed), indices=first, return_predecessors=True)
         if not math.isfinite(cost[last]):
             return None
         nodes = [last]
         while nodes[-1] != first:
             nodes.append(int(before[nodes[-1]]))
         return nodes[::-1]
+
+    def _without(self, closed: Nodes) -> csr_matrix:
+        graph = csr_matrix((self._graph.data.copy(), self._graph.indices, self._graph.indptr), shape=self._graph.shape)
+        for node in closed:
+            graph.data[graph.indptr[node] : graph.indptr[node + 1]] = np.inf
+        return graph
 
     def _work_out_from(self, first: int) -> _Tree:
         """The ways from one node to all of its room that do not leave the room."""

@@ -14,6 +14,7 @@ from coopera.simulation.acts.state import HomeState, PersonState, RobotState
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import load_library
 from tests.simulation.flat import bring, flat, put
 
@@ -159,3 +160,59 @@ def test_who_is_walled_in_cannot_be_helped() -> None:
     ground = Ground(small, Navigator(small), load_library(), *WHO, Elbowroom(small))
     with pytest.raises(UnableError):
         pick_place(ground, home(), "human", put("book_1", "dining_table_1"))
+
+
+def assert_nobody_is_walked_through(state: HomeState, plan: Plan) -> None:
+    """No walk of a plan comes nearer to another body than that is wide, or than the walker already was."""
+    floor = {agent: discs(state, agent) for agent in state.agents}
+    for step in plan.steps:
+        if not isinstance(step, Walk):
+            continue
+        for disc in (disc for agent, taken in floor.items() if agent != step.agent for disc in taken):
+            nearest = min(math.dist(point, (disc.x, disc.y)) for point in _along(step.points))
+            assert nearest >= min(disc.radius + 0.28, math.dist(step.points[0], (disc.x, disc.y)) - 0.02)
+        floor[step.agent] = [Disc(*step.points[-1])]
+
+
+def corridor() -> Ground:
+    """A room, and a corridor from it that ends nowhere, too narrow for two."""
+    rooms = [
+        {"name": "hall", "kind": "living room", "x0": 0, "y0": 0, "x1": 3, "y1": 3},
+        {"name": "corridor", "kind": "hallway", "x0": 3, "y0": 1, "x1": 7, "y1": 2},
+    ]
+    door = {"between": ["hall", "corridor"], "x": 3, "y": 1.5, "width": 0.9}
+    scene = Scene.model_validate({"id": "dead-end", "rooms": rooms, "doors": [door]})
+    return Ground(scene, Navigator(scene), load_library(), *WHO, Elbowroom(scene))
+
+
+def test_who_steps_aside_does_not_walk_through_the_one_who_asked() -> None:
+    moved = 0
+    for x, y in ((4.1, 2.5), (4.5, 2.5), (4.9, 2.5), (5.6, 2.4), (3.9, 2.9)):
+        state = home(person=(x, y), robot=(x - 0.7, 2.5))
+        plan = Plan(state)
+        walk(GROUND, plan, "human", (1.0, 2.4))
+        assert_nobody_is_walked_through(state, plan)
+        moved += len(plan.steps) > 1
+    assert moved
+
+
+def test_a_walker_backs_out_of_a_dead_end_to_let_the_other_one_out() -> None:
+    ground = corridor()
+    state = home(person=(5.5, 1.5), robot=(6.5, 1.5))
+    plan = Plan(state)
+    walk(ground, plan, "human", (6.6, 1.5))
+    assert [step.agent for step in plan.steps] == ["human", "robot", "human"]
+    assert_nobody_is_walked_through(state, plan)
+    assert math.dist(plan.state.person().spot, (6.6, 1.5)) < 0.05
+    assert ground.scene.room_at(*plan.state.robot().spot).name == "hall"
+    length = sum(math.dist(a, b) for step in plan.steps if step.agent == "human" for a, b in pairwise(step.points))
+    assert plan.metres == pytest.approx(length)
+
+
+def test_who_can_neither_step_aside_nor_be_let_past_is_in_the_way() -> None:
+    room = {"name": "cell", "kind": "hallway", "x0": 0, "y0": 0, "x1": 4, "y1": 1}
+    scene = Scene.model_validate({"id": "cell", "rooms": [room]})
+    ground = Ground(scene, Navigator(scene), load_library(), *WHO, Elbowroom(scene))
+    plan = Plan(home(person=(1.0, 0.5), robot=(3.0, 0.5)))
+    with pytest.raises(UnableError, match="the robot stands in the way and has nowhere to step aside"):
+        walk(ground, plan, "human", (3.0, 0.5))
