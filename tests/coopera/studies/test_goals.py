@@ -35,6 +35,7 @@ goals:
   read:
     eventually: performed(human, sit and read)
   cleared: not on(apple, dining table)
+  "[/b] in brackets": eventually(on(mug, sofa))
 """
 
 
@@ -72,12 +73,14 @@ def test_each_day_says_which_goals_it_met_and_after_which_act(run: RunDir) -> No
         "tidied": (True, After(10, 1, "robot", "put the mug on the coffee table")),
         "read": (False, None),
         "cleared": (False, None),
+        "[/b] in brackets": (False, None),
     }
     assert {goal.goal: (goal.met, goal.first and goal.first.act) for goal in second.goals} == {
         "served": (False, None),
         "tidied": (False, None),  # the day before does not count
         "read": (True, 2),
         "cleared": (True, 1),
+        "[/b] in brackets": (False, None),
     }
 
 
@@ -100,6 +103,7 @@ def test_the_command_prints_a_table_or_json(run: RunDir, coopera: Callable[..., 
     assert said.code == 0, said.err
     assert "10:00, after act 1 (robot: put the mug on the coffee table)" in said.out
     assert "tidied: met on 1 of 2 days" in said.out
+    assert said.out.count("[/b] in brackets") == 3
     said = coopera("analyse", "goals", run.root, "goals.yaml", "--json")
     assert said.json["goals"]["read"] == "eventually(performed(human, sit and read))"
     day = said.json["days"][1]

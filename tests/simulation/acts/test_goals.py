@@ -10,8 +10,9 @@ from coopera.simulation.acts.goals.achieved import goal_of
 from coopera.simulation.acts.goals.files import goal_from, parse_goals, read_goals
 from coopera.simulation.acts.goals.judging import Met, holds, met
 from coopera.simulation.acts.goals.reading import DEEPEST, LONGEST, read_goal
-from coopera.simulation.acts.goals.tree import And, Atom, Eventually, Not, Or, Then
+from coopera.simulation.acts.goals.tree import PREDICATES, And, Atom, Eventually, Not, Or, Then
 from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
+from tests.names import ROOT
 from tests.simulation.flat import flat
 
 MUG, APPLE, CLEAN = Atom("on", ("mug", "sofa")), Atom("on", ("apple", "sofa")), Atom("clean", ("mug",))
@@ -169,6 +170,11 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path) -> None:
 def test_data_that_is_no_goal_is_refused(data) -> None:
     with pytest.raises(ConfigError, match="here"):
         goal_from(data, "here")
+
+
+def test_the_page_explains_every_predicate() -> None:
+    page = (ROOT / "docs" / "goals.md").read_text(encoding="utf-8")
+    assert [name for name in PREDICATES if f"| `{name}(" not in page and f", `{name}(" not in page] == []
 
 
 # A day
