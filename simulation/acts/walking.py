@@ -59,7 +59,7 @@ def walk(
             if backs and _let_past(ground, plan, one, agent, straight, goal, carries):
                 return
             raise UnableError(f"{named(one)} stands in the way and has nowhere to step aside")
-    _go(plan, agent, route, carries)
+    _go(ground, plan, agent, route, carries)
     plan.metres += route.length
 
 
@@ -134,7 +134,7 @@ def _step_aside(ground: Ground, plan: Plan, agent: AgentId, route: Route) -> boo
     """Let an agent in the way go where the walker passes it, past nobody's body; False where it cannot."""
     way = next(_ways_aside(ground, plan, agent, route, floor_of_others(plan.state, agent)), None)
     if way is not None:
-        _go(plan, agent, way)
+        _go(ground, plan, agent, way)
     return way is not None
 
 
@@ -148,9 +148,9 @@ def _let_past(
         back = next(_ways_aside(ground, plan, walker, way, floor), None)
         if back is None:
             continue
-        _go(plan, walker, back, carries)
+        _go(ground, plan, walker, back, carries)
         plan.metres += back.length
-        _go(plan, agent, way)
+        _go(ground, plan, agent, way)
         try:
             walk(ground, plan, walker, goal, carries, backs=False)
         except UnableError:
@@ -173,7 +173,7 @@ def _ways_aside(
             yield free
 
 
-def _go(plan: Plan, agent: AgentId, route: Route, carries: str | None = None) -> None:
+def _go(ground: Ground, plan: Plan, agent: AgentId, route: Route, carries: str | None = None) -> None:
     plan.steps.append(Walk(agent, route.points or [], carries))
     plan.state = _arrived(ground, plan.state, agent, _end(route))
 
