@@ -46,7 +46,7 @@ class LetterEmbeddings(Embeddings):
 
 
 class FakeHome:
-    """Three fixed and three movable objects in two rooms; what fits works, unless `broken`; `said` are states."""
+    """Three fixed and three movable objects in two rooms; what fits, and is not `unfit`, works unless `broken`."""
 
     scene = SceneId("toy")
     rooms = ["kitchen", "study"]
@@ -59,6 +59,7 @@ class FakeHome:
         self.performed: list[tuple[AgentId, Act, bool]] = []
         self.broken: set[str] = set()
         self.said: dict[str, str] = {}
+        self.unfit: set[tuple[str, str]] = set()
 
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
         return dict(sorted((self.fixed if kind == "fixed" else self.movable).items()))
@@ -74,13 +75,15 @@ class FakeHome:
         if isinstance(act, PickPlace):
             if wrong := _no_object(act.object, act.object_id, self.movable, "movable"):
                 return wrong
-            if wrong := _no_object(act.receptacle, act.receptacle_id, self.fixed, "fixed"):
+            places = self.fixed if act.relation == "on" else {**self.fixed, **self.movable}
+            if wrong := _no_object(act.receptacle, act.receptacle_id, places, "fixed"):
                 return wrong
             holds = act.relation == "on" or affordances().contains(self.class_of(act.receptacle))
             return "" if holds else f"Nothing can be put into the {act.receptacle}."
         if wrong := _no_object(act.target, act.target_id, self.fixed, "fixed"):
             return wrong
-        fits = affordances().suits(act.motion, self.class_of(act.target))
+        suits = affordances().suits(act.motion, self.class_of(act.target))
+        fits = suits and (act.motion, act.target) not in self.unfit
         return "" if fits else f"Nobody can {act.motion} at the {act.target}."
 
     def states(self, room: str | None = None) -> dict[str, str]:

@@ -83,14 +83,16 @@ def _meant(act: Act, home: Home, search: SearchIn) -> PickPlace | FreeMotion | N
     """The act with the names and ids of objects that there are."""
     fixed, movable = home.objects("fixed"), home.objects("movable")
     if isinstance(act, PickPlace):
-        thing, place = _valid(act.object, movable, search), _valid(act.receptacle, fixed, search)
+        carried = act.receptacle in movable and affordances().contains(home.class_of(act.receptacle))
+        places = movable if carried else fixed  # things go into a basket, too
+        thing, place = _valid(act.object, movable, search), _valid(act.receptacle, places, search)
         if thing is None or place is None:
             return None
         update = {
             "object": thing,
             "object_id": movable[thing][0],
             "receptacle": place,
-            "receptacle_id": fixed[place][0],
+            "receptacle_id": places[place][0],
         }
         return act.model_copy(update=update)
     if isinstance(act, FreeMotion) and not _is_nothing(act.in_hand):

@@ -90,7 +90,7 @@ class Simulated:
 def ask_for_tasks(state: HumanState, ctx: HumanContext, steps: Sequence[str] = ()) -> Sequence[Draft]:
     """Ask the model to break the intention into tasks, or to read the steps that a person gave in their own words."""
     found = state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state, ctx)
+    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state)
     reply = ctx.ask(
         f"human/tasks_type{ctx.collab}",
         TASKS_REPLY[ctx.collab],

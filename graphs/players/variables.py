@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from coopera.core.affordances import affordances
 from coopera.core.clock import Clock
 from coopera.core.hour import Task
 from coopera.graphs.players.player import HumanContext, HumanState
 from coopera.graphs.robots.recall import as_variables
-
-_READABLE = 8
-"""How many motions a prompt names for one piece of furniture."""
 
 
 def when(clock: Clock) -> dict[str, Any]:
@@ -36,19 +32,9 @@ def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
 
 
-def motions_here(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
-    """The motions that were found, and what can be done at each of the furniture: the nearest to the intention first.
-
-    What can be done anywhere is not named at any.
-    """
-    found, motions = state["found"], ctx.home.motions
-    ranked = [caption for caption, _ in ctx.search(motions).top(state["intention"].text, len(motions))]
-    can: dict[str, list[str]] = {}
-    for name in found.fixed:
-        known_here = set(affordances().motions_at(ctx.home.class_of(name)))
-        if there := [caption for caption in ranked if caption in known_here][:_READABLE]:
-            can[name] = there
-    return {"motions": found.motions, "can": can}
+def motions_here(state: HumanState) -> dict[str, Any]:
+    """The motions that were found, and those that can be done at each of the furniture."""
+    return {"motions": state["found"].motions, "can": state["can"]}
 
 
 def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:

@@ -234,6 +234,9 @@ def test_the_person_is_told_what_can_be_done_where_and_how_things_are_in_the_who
 ) -> None:
     home = FakeHome()
     home.said = {"desk_1": "dirty", "mug_1": "with tea in it"}
+    home.fixed["sofa_2"] = (7, "kitchen")
+    home.fixed["shelf_1"] = (8, "study")  # no motion is said to be done at one
+    home.unfit = {("sit and read", "sofa_2")}
     ask = ScriptedAsk(type2_answers())
     live(person(make_services, ask=ask, home=home))
     for prompt in ("human/tasks_type2", "human/reflect_scene_type2"):
@@ -245,6 +248,17 @@ def test_the_person_is_told_what_can_be_done_where_and_how_things_are_in_the_who
         }
         assert variables["states"] == home.said
     assert ask.variables_of("human/intention")[0]["states"] == home.said
+
+
+def test_things_may_go_into_what_is_carried_if_it_holds_things(make_services: MakeServices) -> None:
+    home = FakeHome()
+    home.movable["laundry_basket_1"] = (9, "study")
+    into = [placing("book_1", "laundry_basket_1", 4, 99), placing("book_1", "mug_1", 4, 5)]
+    into[0]["act"]["relation"] = "inside"
+    hour = mended(make_services, home, *into, collab=1)
+    assert hour.tasks[0].act.describe() == "put the book in the laundry basket"
+    assert hour.tasks[0].act.receptacle_id == 9
+    assert hour.tasks[1].act.receptacle in home.fixed
 
 
 def test_in_type_1_tasks_use_the_movable_objects_of_the_home(make_services: MakeServices) -> None:
