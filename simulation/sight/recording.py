@@ -291,16 +291,18 @@ class Filming:
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
     def _give(self, step: Give) -> None:
-        """Drive up, hold out the thing, and let the person take it."""
+        """Drive up, hold out the thing, and let the person take it; or take from the person what they hold out."""
         walk_ticks, walk_at = self._approach(step.agent)
-        came, body = walk_at(walk_ticks), self.robots[step.agent]
+        came = walk_at(walk_ticks)
         moves, bends = self._blend(step.agent), self._blend(step.receiver)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, body.carrying)
-        out, empty = here._replace(pose=step.posture), here._replace(pose=body.tucked)
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(step.agent, holds=not step.back))
+        out, after = here._replace(pose=step.posture), here._replace(pose=self._idle(step.agent, holds=step.back))
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + 2 * _HOLD
         waiting, moved = self.bodies[step.receiver], self.moved
-        offer, before = Held(step.thing), self.held.get(step.receiver)
+        thing, other = Held(step.thing), self.held.get(step.receiver)
+        robots = (None, thing) if step.back else (thing, None)
+        persons = (thing, None) if step.back else (other, thing)
         stands = self.recording.state.person(step.receiver).posture == "stand"
         taking = _receiving(waiting, step) if stands else waiting
         others = self._frozen(step.agent)
@@ -313,17 +315,17 @@ class Filming:
             elif tick < reached:
                 robot = moves(here, out, (tick - turned) / _REACH)
             else:
-                robot = moves(out, empty, (tick - done) / _BACK)
+                robot = moves(out, after, (tick - done) / _BACK)
             share = (tick - turned) / _REACH if tick < done else 1 - (tick - done) / _BACK
             given = tick >= reached + _HOLD
             person = bends(waiting, taking, share)
-            moment = others(robot, None if given else offer, moved)
-            held = _with(moment.held, step.receiver, offer if given else before)
+            moment = others(robot, robots[given], moved)
+            held = _with(moment.held, step.receiver, persons[given])
             return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
         self.recording.shots.append(Shot(done + _BACK, at, reached))
-        self._finish(step.agent, empty, None, moved)
-        self.held[step.receiver] = offer
+        self._finish(step.agent, after, robots[1], moved)
+        self.held = _with(self.held, step.receiver, persons[1])
 
     def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""

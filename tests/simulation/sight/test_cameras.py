@@ -144,6 +144,15 @@ def test_the_body_moves_without_jumps_within_a_shot(home) -> None:
             assert np.abs(np.diff(places, axis=0)).max() < 0.2  # metres in a 30th of a second
 
 
+def test_a_robot_that_is_given_a_thing_is_seen_to_take_it(home) -> None:
+    home.pick("human", "mug_1")
+    home.perform("robot", put("mug_1", "sofa_1"), record=True)
+    given = home._recording.shots[0]
+    assert (given.at(0).held["human"].name, given.at(0).held.get("robot")) == ("mug_1", None)
+    last = given.at(given.ticks - 1)
+    assert (last.held.get("human"), last.held["robot"].name) == (None, "mug_1")
+
+
 def test_a_hand_over_can_be_recorded_too(home, tmp_path) -> None:
     home.perform("human", move("sofa_1", "book", "sit and rest"))
     assert home.perform("robot", bring("mug"), record=True).ok
