@@ -145,6 +145,7 @@ def test_the_body_moves_without_jumps_within_a_shot(home) -> None:
 
 
 def test_a_robot_that_is_given_a_thing_is_seen_to_take_it(home) -> None:
+    home.restore({})
     home.pick("human", "mug_1")
     home.perform("robot", put("mug_1", "sofa_1"), record=True)
     given = home._recording.shots[0]
