@@ -84,6 +84,7 @@ class Affordance(Frozen):
     gathers: Gather | None = None
     switches: bool = False
     undresses: bool = False
+    seated: bool = True
     roomy: bool = False
     lies: Classes = ()
     does: tuple[Effect, ...] = ()

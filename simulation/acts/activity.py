@@ -122,6 +122,8 @@ def _placed(
     used = used_by_others(plan.state, agent)
     if motion.posture == "sit" and target.cls != "rug":
         found = seat_for(ground, target, used)
+        if found is None and not affordances().of(motion.caption).seated:
+            return _upright(ground, plan, agent, target, motion), target
         if found is None:
             raise UnableError(f"somebody sits at the {plain(target.name)} already")
         chair, rest = found

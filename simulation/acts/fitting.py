@@ -178,7 +178,8 @@ def check_receptacle(ground: Ground, thing: SceneObject, receptacle: SceneObject
 def _bears(ground: Ground, motion: Motion, target: SceneObject) -> bool:
     """Whether there is something to sit or lie on for a motion at a piece of furniture."""
     if motion.posture == "sit":
-        return target.cls == "rug" or seat_for(ground, target, []) is not None
+        standing = not affordances().of(motion.caption).seated
+        return standing or target.cls == "rug" or seat_for(ground, target, []) is not None
     if motion.posture == "lie":
         return target.cls == "rug" or bed_for(target, []) is not None
     return True
