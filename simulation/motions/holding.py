@@ -34,8 +34,12 @@ _LOW = 0.15
 """Hands that come this near to the surface work on it."""
 _STRETCH = 0.2
 """Hands go at most this far from their usual way to where a thing lies."""
-_OFFSETS = [np.array((x, y)) for x in (0.0, 0.06, 0.12, 0.18) for y in (0.0, 0.06, -0.06, 0.12, -0.12, 0.18, -0.18)]
+_OFFSETS = [np.array((x, y)) for x in (0.0, 0.04, 0.08) for y in (0.0, 0.05, -0.05, 0.1, -0.1, 0.14, -0.14)]
 """Where else than under the hands a thing may lie, in the body frame."""
+_CLUTTER = 5.0
+"""How much worse it is to lie in another thing than to lie farther away."""
+_ARM, _BEYOND = 0.15, 100.0
+"""Things that lie farther than this from the usual place are out of the hands' reach, which is worst."""
 _MOMENTS = 6
 _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
@@ -157,23 +161,23 @@ def _laid(size: Size, hands: Array, top: Worktop) -> tuple[tuple[float, float], 
     """The middle of a thing that lies on a surface, and where the hands go to: over it, or to its handle.
 
     It lies as near to the hands as it fits there, on a free mark or, without marks, beside what stands there already;
-    where all is full it lies there all the same.
+    where there is no room within reach it is as little in the way as can be.
     """
     handle = _HANDLE if _is_tool(size) else np.zeros(2)
     grasp, belly = handle * (size[0] / 2 - _END), handle * (size[1] - size[0]) / 2
     wanted = hands - grasp
     if top.marks:
         radius = size[1] / 2
-        places = np.array(top.marks)
-        bellies = places
-        places = places - belly
+        bellies = np.array(top.marks)
+        places = bellies - belly
     else:
         radius = max(size[:2]) / 2
         places = bellies = np.array([_on(size, wanted + offset, top) for offset in _OFFSETS])
-    far = np.hypot(*(places - wanted).T).round(6)
+    far = np.hypot(*(places - wanted).T)
     taken = np.array(top.taken).reshape(-1, 3)
-    gaps = np.hypot(*(bellies[:, None] - taken[:, :2]).transpose(2, 0, 1)) - taken[:, 2] - radius
-    middle = places[int(np.argmin(far + np.where((gaps > 0).all(axis=1), 0.0, 10.0)))]
+    inside = radius + taken[:, 2] - np.hypot(*(bellies[:, None] - taken[:, :2]).transpose(2, 0, 1))
+    cost = far + _CLUTTER * np.maximum(inside, 0.0).sum(axis=1) + _BEYOND * np.maximum(far - _ARM, 0.0)
+    middle = places[int(np.argmin(cost.round(6)))]
     return (float(middle[0]), float(middle[1])), middle + grasp
 
 
