@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.affordances import affordances
-from coopera.simulation.bodies.humanoid import SIDES, Frames, forward
+from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, forward
 from coopera.simulation.motions.library import HandPath, Hold, Motion
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
 from coopera.simulation.shapes.kit import Size
@@ -30,6 +30,8 @@ _END = 0.07
 """A tool is held this far from the end of its handle."""
 _STEEP = 0.87
 """Sine of the steepest pitch at which a tool is held down."""
+_STILL = 0.5
+"""How much a hand that keeps still counts for where a thing lies."""
 _LOW = 0.15
 """Hands that come this near to the surface work on it."""
 _STRETCH = 0.2
@@ -87,12 +89,13 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it.
+    touches it; raised above it, a tool that is `eaten` with points at the mouth.
     """
 
     hold: Hold = "right"
     laid: Laid | None = None
     surface: float | None = None
+    eaten: bool = False
 
 
 CARRIED = Grip()
@@ -127,7 +130,8 @@ def grip(
     height = working_height(setting)
     working = [path for path in (keys.right, keys.left) if path is not None and "surface" in path.frames]
     if top is not None and working and lies(motion, names, size):
-        hands = np.mean([_where(path) for path in working], axis=0)
+        busy = [1.0 if len(path.points) > 1 else _STILL for path in working]
+        hands = np.average([_where(path) for path in working], axis=0, weights=busy)
         if keys.hold != "surface" and keys.right in working:
             hands = _where(working[0])
         laid, hand = _laid(size, hands, top)
@@ -140,7 +144,8 @@ def grip(
     if hold == "floor" and size[0] <= _LONG:
         hold = "right"
     touches = keys.right is not None and "surface" in keys.right.frames
-    return setting, Grip(hold, surface=height if touches else None)
+    eaten = keys.right is not None and "mouth" in keys.right.frames
+    return setting, Grip(hold, surface=height if touches else None, eaten=eaten)
 
 
 def _yaw(size: Size) -> float:
@@ -219,7 +224,7 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
     floor = -math.inf if grip.surface is None else grip.surface
     if grip.hold != "left" and _is_tool(size):
-        return _handled(frames, size, floor)
+        return _handled(frames, size, floor, eaten=grip.eaten)
     hand = left if grip.hold == "left" else right
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
@@ -259,7 +264,7 @@ def _across(right: Array, left: Array, size: Size) -> tuple[Array, Array]:
     return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
 
 
-def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
+def _handled(frames: Frames, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
     """A tool held at its handle (+x): a thin one goes on where the forearm points, or down to the surface.
 
     A pan stays level.
@@ -270,6 +275,7 @@ def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
         arm = np.array((1.0, 0.0, 0.0))
         hand = np.array((hand[0], hand[1], max(float(hand[2]), floor + 0.5 * size[2])))
     elif floor > -math.inf:
+        aim = _unit(frames.point("head", *MOUTH) - hand) if eaten else arm
         above = (float(hand[2]) - floor - 0.5 * size[2]) / (size[0] - _END)
         down = min(max(above, 0.0), _STEEP)
         level = math.hypot(float(arm[0]), float(arm[1]))
@@ -277,7 +283,7 @@ def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
         run = math.sqrt(1 - down * down)
         lowered = np.array((float(flat[0]) * run, float(flat[1]) * run, -down))
         raised = min(max(above - _STEEP, 0.0) / 0.5, 1.0)  # too high to reach the surface: as the forearm points
-        arm = _unit(lowered + raised * (arm - lowered))
+        arm = _unit(lowered + raised * (aim - lowered))
     up = np.array((0.0, 0.0, 1.0)) if abs(float(arm[2])) < 0.95 else np.array((1.0, 0.0, 0.0))
     up = _unit(up - arm * float(up @ arm))
     turn = np.stack((-arm, np.cross(up, -arm), up), axis=1)

@@ -178,7 +178,7 @@ def test_food_and_forks_go_from_the_table_to_the_mouth() -> None:
         scene = Scene("eat a meal", thing)
         mouths = [frames.point("head", *MOUTH) for frames in scene.frames]
         pairs = zip(mouths, scene.placed, strict=True)
-        assert min(scene._gap(mouth, *placed) for mouth, placed in pairs) < 0.1
+        assert min(scene._gap(mouth, *placed) for mouth, placed in pairs) < (0.08 if thing == "fork" else 0.12)
         assert min(scene.lowest()) - scene.height < TOUCHES
 
 
