@@ -82,6 +82,24 @@ def test_a_worn_shirt_of_the_home_is_out_of_sight_and_comes_back(stage) -> None:
     assert place(stage, thing.name) == pytest.approx(thing.position)
 
 
+def test_what_is_inside_a_basket_that_is_carried_is_out_of_sight(stage) -> None:
+    box = {"laundry_basket_9": {"id": 909, "text": "laundry basket"}, "towel_9": {"id": 910, "text": "towel"}}
+    towel = ThingState(position=(2.0, 1.0, 0.1), yaw=0.0, on=None, inside="laundry_basket_9")
+    basket = ThingState(position=(2.0, 1.0, 0.0), yaw=0.0, on=None)
+    stage.show(state(box=box, moved={"towel_9": towel, "laundry_basket_9": basket}), moment())
+    assert place(stage, "towel_9") == pytest.approx(towel.position)
+    stage.show(state(box=box, moved={"towel_9": towel}), moment(held={HUMAN: Held("laundry_basket_9")}))
+    assert place(stage, "towel_9")[2] < -10
+
+
+def test_what_is_in_a_hand_that_is_not_looked_at_is_in_nobodys_way(stage) -> None:
+    thing = stage.scene.movable[0]
+    stage.show(state().with_held(HUMAN, thing.name), moment())
+    assert place(stage, thing.name)[2] < -10
+    stage.show(state(), moment())
+    assert place(stage, thing.name) == pytest.approx(thing.position)
+
+
 def test_open_furniture_shows_its_doors_until_it_is_closed(stage) -> None:
     fridge = next(thing for thing in stage.scene.fixed if thing.cls == "fridge")
     door = f"{fridge.name}:open"
