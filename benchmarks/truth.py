@@ -236,7 +236,7 @@ def _container_moved(before: HomeState, after: HomeState, things: dict[str, Scen
 
 def through(scene: Scene, state: HomeState, name: str) -> Iterator[str]:
     """Parts of what carries a thing that it sticks into, in the carrier's frame."""
-    where, thing = state.moved[name], state.object(scene, name)
+    where, thing = state.moved[name], state.find(scene, name)
     carrier = scene.object(where.on or "")
     if carrier is None or thing is None:
         return

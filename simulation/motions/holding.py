@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.affordances import affordances
-from coopera.simulation.bodies.humanoid import SIDES, Frames, forward
+from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, forward
 from coopera.simulation.motions.library import HandPath, Hold, Motion
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
 from coopera.simulation.shapes.kit import Size
@@ -30,12 +30,18 @@ _END = 0.07
 """A tool is held this far from the end of its handle."""
 _STEEP = 0.87
 """Sine of the steepest pitch at which a tool is held down."""
+_STILL = 0.5
+"""How much a hand that keeps still counts for where a thing lies."""
 _LOW = 0.15
 """Hands that come this near to the surface work on it."""
 _STRETCH = 0.2
 """Hands go at most this far from their usual way to where a thing lies."""
-_OFFSETS = [np.array((x, y)) for x in (0.0, 0.06, 0.12, 0.18) for y in (0.0, 0.06, -0.06, 0.12, -0.12, 0.18, -0.18)]
+_OFFSETS = [np.array((x, y)) for x in (0.0, 0.04, 0.08) for y in (0.0, 0.05, -0.05, 0.1, -0.1, 0.14, -0.14)]
 """Where else than under the hands a thing may lie, in the body frame."""
+_CLUTTER = 5.0
+"""How much worse it is to lie in another thing than to lie farther away."""
+_ARM, _BEYOND = 0.15, 100.0
+"""Things that lie farther than this from the usual place are out of the hands' reach, which is worst."""
 _MOMENTS = 6
 _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
@@ -83,12 +89,13 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it.
+    touches it; raised above it, a tool that is `eaten` with points at the mouth.
     """
 
     hold: Hold = "right"
     laid: Laid | None = None
     surface: float | None = None
+    eaten: bool = False
 
 
 CARRIED = Grip()
@@ -123,7 +130,8 @@ def grip(
     height = working_height(setting)
     working = [path for path in (keys.right, keys.left) if path is not None and "surface" in path.frames]
     if top is not None and working and lies(motion, names, size):
-        hands = np.mean([_where(path) for path in working], axis=0)
+        busy = [1.0 if len(path.points) > 1 else _STILL for path in working]
+        hands = np.average([_where(path) for path in working], axis=0, weights=busy)
         if keys.hold != "surface" and keys.right in working:
             hands = _where(working[0])
         laid, hand = _laid(size, hands, top)
@@ -136,7 +144,8 @@ def grip(
     if hold == "floor" and size[0] <= _LONG:
         hold = "right"
     touches = keys.right is not None and "surface" in keys.right.frames
-    return setting, Grip(hold, surface=height if touches else None)
+    eaten = keys.right is not None and "mouth" in keys.right.frames
+    return setting, Grip(hold, surface=height if touches else None, eaten=eaten)
 
 
 def _yaw(size: Size) -> float:
@@ -157,23 +166,23 @@ def _laid(size: Size, hands: Array, top: Worktop) -> tuple[tuple[float, float], 
     """The middle of a thing that lies on a surface, and where the hands go to: over it, or to its handle.
 
     It lies as near to the hands as it fits there, on a free mark or, without marks, beside what stands there already;
-    where all is full it lies there all the same.
+    where there is no room within reach it is as little in the way as can be.
     """
     handle = _HANDLE if _is_tool(size) else np.zeros(2)
     grasp, belly = handle * (size[0] / 2 - _END), handle * (size[1] - size[0]) / 2
     wanted = hands - grasp
     if top.marks:
         radius = size[1] / 2
-        places = np.array(top.marks)
-        bellies = places
-        places = places - belly
+        bellies = np.array(top.marks)
+        places = bellies - belly
     else:
         radius = max(size[:2]) / 2
         places = bellies = np.array([_on(size, wanted + offset, top) for offset in _OFFSETS])
-    far = np.hypot(*(places - wanted).T).round(6)
+    far = np.hypot(*(places - wanted).T)
     taken = np.array(top.taken).reshape(-1, 3)
-    gaps = np.hypot(*(bellies[:, None] - taken[:, :2]).transpose(2, 0, 1)) - taken[:, 2] - radius
-    middle = places[int(np.argmin(far + np.where((gaps > 0).all(axis=1), 0.0, 10.0)))]
+    inside = radius + taken[:, 2] - np.hypot(*(bellies[:, None] - taken[:, :2]).transpose(2, 0, 1))
+    cost = far + _CLUTTER * np.maximum(inside, 0.0).sum(axis=1) + _BEYOND * np.maximum(far - _ARM, 0.0)
+    middle = places[int(np.argmin(cost.round(6)))]
     return (float(middle[0]), float(middle[1])), middle + grasp
 
 
@@ -215,7 +224,7 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
     floor = -math.inf if grip.surface is None else grip.surface
     if grip.hold != "left" and _is_tool(size):
-        return _handled(frames, size, floor)
+        return _handled(frames, size, floor, eaten=grip.eaten)
     hand = left if grip.hold == "left" else right
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
@@ -255,7 +264,7 @@ def _across(right: Array, left: Array, size: Size) -> tuple[Array, Array]:
     return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
 
 
-def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
+def _handled(frames: Frames, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
     """A tool held at its handle (+x): a thin one goes on where the forearm points, or down to the surface.
 
     A pan stays level.
@@ -266,6 +275,7 @@ def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
         arm = np.array((1.0, 0.0, 0.0))
         hand = np.array((hand[0], hand[1], max(float(hand[2]), floor + 0.5 * size[2])))
     elif floor > -math.inf:
+        aim = _unit(frames.point("head", *MOUTH) - hand) if eaten else arm
         above = (float(hand[2]) - floor - 0.5 * size[2]) / (size[0] - _END)
         down = min(max(above, 0.0), _STEEP)
         level = math.hypot(float(arm[0]), float(arm[1]))
@@ -273,7 +283,7 @@ def _handled(frames: Frames, size: Size, floor: float) -> tuple[Array, Array]:
         run = math.sqrt(1 - down * down)
         lowered = np.array((float(flat[0]) * run, float(flat[1]) * run, -down))
         raised = min(max(above - _STEEP, 0.0) / 0.5, 1.0)  # too high to reach the surface: as the forearm points
-        arm = _unit(lowered + raised * (arm - lowered))
+        arm = _unit(lowered + raised * (aim - lowered))
     up = np.array((0.0, 0.0, 1.0)) if abs(float(arm[2])) < 0.95 else np.array((1.0, 0.0, 0.0))
     up = _unit(up - arm * float(up @ arm))
     turn = np.stack((-arm, np.cross(up, -arm), up), axis=1)

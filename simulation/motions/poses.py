@@ -18,8 +18,8 @@ WORKTOP = 0.9
 _LAP = 0.19  # the top of the thighs above the seat
 _SEATED = 0.10  # the pelvis's middle above the seat
 _LYING = 0.12
-_UPRIGHT = 0.8
-"""Over a surface this high one works standing upright (metres)."""
+_UPRIGHT, _STOOP = 0.8, 0.5
+"""Over a surface this high one works standing upright; over one lower by the second, bent as far as goes (metres)."""
 
 
 class Setting(NamedTuple):
@@ -105,7 +105,7 @@ def _hands(keys: Keys) -> dict[Side, HandPath]:
 
 def _stoop(aim: Aim, worktop: float) -> None:
     """Bend down to a surface that is too low for standing upright."""
-    effort = min(max((_UPRIGHT - worktop) / _UPRIGHT, 0.0), 1.0)
+    effort = min(max((_UPRIGHT - worktop) / _STOOP, 0.0), 1.0)
     drop = 0.5 * effort
     aim.pelvis = (aim.pelvis[0] - 0.16 * effort, aim.pelvis[1], aim.pelvis[2] - drop)
     aim.hips = _sum(aim.hips, np.array((52.0 * effort, 0.0, 0.0)))

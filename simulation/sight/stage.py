@@ -94,10 +94,8 @@ class Stage:
             else:
                 self._put_person(agent, placed)
         self._unused, self._carried = self._carried, set()
-        with_people = {held.name for held in moment.held.values()} | {
-            name for on in moment.worn.values() for name in on
-        }
-        self._things(state, moment, with_people)
+        held = {held.name for held in moment.held.values()}
+        self._things(state, moment, held.union(*moment.worn.values()))
         for agent, placed in moment.bodies.items():
             if agent in moment.held:
                 self._carry(state, moment.held[agent], agent, placed)
@@ -108,16 +106,27 @@ class Stage:
         self._open(moment.opened)
 
     def _things(self, state: HomeState, moment: Moment, with_people: set[str]) -> None:
-        """Put down all that nobody has: the things of the scene, and those out of the magic box."""
-        for thing in self.scene.movable:
-            where = moment.moved.get(thing.name) or state.thing(thing)
-            if thing.name not in with_people and self._shown.get(thing.name) != where:
-                self.home.move(thing.name, where.position, where.yaw)
-                self._shown[thing.name] = where
-        for name in sorted(state.box):
-            lying = moment.moved.get(name) or state.moved.get(name)
-            if lying is not None and name not in with_people:
-                self.home.move(self._body(state, name)[0], lying.position, lying.yaw)
+        """Put down all that nobody has: the things of the scene, and those out of the magic box.
+
+        What is in a hand but not shown there is out of sight, and so is what is inside a thing that is carried.
+        """
+        borne = {name for body in state.agents.values() for name in (body.thing, *body.worn) if name}
+        borne = borne - {*moment.moved} | with_people
+        for thing in state.objects(self.scene):
+            name = thing.name
+            where = moment.moved.get(name) or (None if name in borne else state.thing(thing))
+            if where is not None and where.inside in borne:
+                where = None
+            if name in with_people or (name in state.box and where is None):
+                continue
+            if where is None:
+                self._shown.pop(name, None)
+                self.home.move(name, _AWAY, 0.0)
+            elif name in state.box:
+                self.home.move(self._body(state, name)[0], where.position, where.yaw)
+            elif self._shown.get(name) != where:
+                self.home.move(name, where.position, where.yaw)
+                self._shown[name] = where
 
     def _wear(self, state: HomeState, name: str, placed: Placed) -> None:
         """Show a hat or headphones on the head; other clothes are not shown, neither on the body nor elsewhere."""
