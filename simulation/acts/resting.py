@@ -68,11 +68,10 @@ def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[Sce
     far = SEAT_FAR if target.cls in affordances().looked_at else SEAT_NEAR
     found: list[tuple[float, str, SceneObject, Rest]] = []
     for thing in ground.scene.fixed:
-        rest = _seat_on(thing, used)
-        if rest is None or thing.room != target.room or thing.cls in ("toilet", "bathtub"):
+        if thing.room != target.room or thing.cls in ("toilet", "bathtub"):
             continue
         gap = gap_between(thing, target)
-        if gap <= far:
+        if gap <= far and (rest := _seat_on(thing, used)) is not None:
             off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))
             if off <= _LOOKS_AT:
                 found.append((round(gap + 0.6 * off, 6), thing.name, thing, rest))
