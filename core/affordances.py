@@ -53,6 +53,7 @@ class Effect(Frozen):
 
     to: tuple[Part, ...] = Field(min_length=1)
     of: Classes = ()
+    one: bool = False
     open: bool | None = None
     powered: bool | None = None
     clean: bool | None = None
@@ -82,7 +83,7 @@ class Affordance(Frozen):
     needs: Classes = ()
     uses: Classes = ()
     gathers: Gather | None = None
-    switches: bool = False
+    switches: Classes = ()
     undresses: bool = False
     seated: bool = True
     roomy: bool = False

@@ -210,12 +210,13 @@ class World:
     def states(self, room: str | None = None) -> dict[str, str]:
         """{object: its states in words} of all that is not as at first and can be seen, in a room or everywhere.
 
-        Sorted by name. What is inside something closed is not seen.
+        Sorted by name. What is inside something closed is not seen, and what somebody holds or wears is left out: what
+        is in a hand has to be recognised, which is what `percept` is for.
         """
         found = {}
         for name, condition in self.state.conditions.items():
             thing = self.state.find(self.layout, name)
-            if thing is None or not self.can_be_seen(thing):
+            if thing is None or self.state.bearer(name) is not None or not self.can_be_seen(thing):
                 continue
             where = thing.room if thing.fixed else room_of_thing(self.layout, self.state, thing)
             if room is None or where == room:

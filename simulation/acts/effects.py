@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from coopera.core.affordances import HAND, Affordance, Condition, Effect, affordances
+from coopera.core.affordances import HAND, Affordance, Classes, Condition, Effect, affordances
 from coopera.core.household import AgentId
 from coopera.simulation.acts.fitting import is_one_of
 from coopera.simulation.acts.plans import Ground
+from coopera.simulation.acts.resting import gap_between
 from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.scene import SceneObject
 
@@ -25,7 +26,7 @@ def after(
     What the motion switches on stays on until the person does something else.
     """
     if done.switches:
-        state = _switched_on(state, agent, [target, *([used] if used is not None else [])])
+        state = _switched_on(ground, state, agent, done.switches, [target, *([used] if used is not None else [])])
     for effect in done.does:
         if "person" in effect.to:
             state = _put_on(ground, state, agent, effect)
@@ -37,10 +38,18 @@ def after(
     return state
 
 
-def _switched_on(state: HomeState, agent: AgentId, things: list[SceneObject]) -> HomeState:
-    """Switch on the first of some objects that can be, and note that this person did it."""
-    for thing in things:
-        if "powered" in affordances().first(thing.cls):
+def _switched_on(
+    ground: Ground, state: HomeState, agent: AgentId, classes: Classes, things: list[SceneObject]
+) -> HomeState:
+    """Switch on the first of some objects that is of some classes, and note who did it.
+
+    What is looked at is also switched on from a seat: the nearest one in the room.
+    """
+    target = things[0]
+    room = [one for one in ground.scene.fixed if one.room == target.room and one.cls in affordances().looked_at]
+    room.sort(key=lambda thing: (round(gap_between(thing, target), 3), thing.name))
+    for thing in [*things, *room]:
+        if affordances().is_one_of(thing.cls, classes):
             if state.condition(thing)["powered"]:
                 return state
             on = (*state.person(agent).switched, thing.name)
@@ -67,6 +76,8 @@ def _meant(
         for thing in parts.get(part, []):
             if not effect.of or is_one_of(state, thing, effect.of):
                 yield thing
+                if effect.one:
+                    return
 
 
 def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) -> HomeState:

@@ -323,6 +323,8 @@ def test_a_poured_drink_is_in_the_cup_until_it_is_drunk(home) -> None:
     assert home.perform("human", moves("dining_table_1", "milk carton", "pour a drink")).fetched == ("mug_1",)
     assert home.states() == {"mug_1": "with milk in it"}
     assert home.perform("human", moves("sofa_1", "mug_1", "drink from a cup")).ok
+    assert home.states() == {}  # what is in a hand has to be recognised
+    assert home.place("human", "coffee_table_1").ok
     assert home.states() == {"mug_1": "dirty"}
 
 
