@@ -16,7 +16,9 @@ from PIL import Image, ImageDraw, ImageFont
 from coopera.core.household import HUMAN, SceneId
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.state import HomeState, PersonState
+from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.motions.holding import grip
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.motions.user_folder import load_motions
@@ -26,6 +28,7 @@ from coopera.simulation.sight.stage import Camera, Stage
 TILE = (104, 132)
 COLUMNS = 4
 SHARES = (0.0, 0.33, 0.66)
+THING = "water bottle"
 HEIGHTS = {"stand": (0.0, 0.9), "sit": (0.45, 0.75), "lie": (0.5, None), "floor": (0.0, None)}
 
 
@@ -47,7 +50,7 @@ def studio(motion: Motion) -> Scene:
     if motion.posture == "lie":
         blocks.append(block(1, 0.0, (2.0, 0.9, support)))
     paths = (motion.keys.right, motion.keys.left)
-    if worktop is not None and any(path is not None and path.frame == "surface" for path in paths):
+    if worktop is not None and any(path is not None and "surface" in path.frames for path in paths):
         blocks.append(block(2, 0.53, (0.5, 1.1, worktop)))
     room = Room(name="studio", kind="study", x0=-3, y0=-3, x1=3, y1=3)
     return Scene(id=SceneId("studio"), rooms=[room], objects=blocks)
@@ -57,6 +60,8 @@ def pictures(motion: Motion) -> list[Image.Image]:
     """The motion at its moments, seen from the front left."""
     support, worktop = HEIGHTS[motion.posture]
     setting = Setting(support, worktop, motion.posture)
+    shape = shape_of(THING)
+    setting, how = grip(motion, setting, [THING, shape.cls], shape.size, None)
     stage = Stage(studio(motion), [HUMAN], {})
     state = HomeState(scene="studio", agents={HUMAN: PersonState(spot=(0.0, 0.0), place=(0.0, 0.0))})
     low = motion.posture in ("lie", "floor")
@@ -67,7 +72,7 @@ def pictures(motion: Motion) -> list[Image.Image]:
     found = []
     for share in SHARES:
         body = Placed(0.0, 0.0, 0.0, pose_at(motion, share * motion.keys.period, setting))
-        stage.show(state, Moment({HUMAN: body}, {HUMAN: Held("water bottle", motion.keys.hold)}, {}))
+        stage.show(state, Moment({HUMAN: body}, {HUMAN: Held(THING, how)}, {}))
         image, _ = stage.picture(Camera(eye, target, 44.0), (TILE[0] * 2, TILE[1] * 2))
         found.append(Image.fromarray(image).resize(TILE, Image.Resampling.LANCZOS))
     stage.close()

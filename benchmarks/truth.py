@@ -27,7 +27,7 @@ from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts import primitives
 from coopera.simulation.acts.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
 from coopera.simulation.acts.plans import Give, Handle, Plan, Walk, discs
-from coopera.simulation.acts.skills import HANDING
+from coopera.simulation.acts.handing import HANDING
 from coopera.simulation.acts.state import HomeState, digest
 from coopera.simulation.acts.truth import problems
 from coopera.simulation.bodies.robot import known_robots
@@ -236,7 +236,7 @@ def _container_moved(before: HomeState, after: HomeState, things: dict[str, Scen
 
 def through(scene: Scene, state: HomeState, name: str) -> Iterator[str]:
     """Parts of what carries a thing that it sticks into, in the carrier's frame."""
-    where, thing = state.moved[name], state.object(scene, name)
+    where, thing = state.moved[name], state.find(scene, name)
     carrier = scene.object(where.on or "")
     if carrier is None or thing is None:
         return

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import yaml
 from pydantic import BeforeValidator, Field, ValidationError, model_validator
@@ -62,8 +62,8 @@ class Effect(Frozen):
     @cached_property
     def changes(self) -> Condition:
         """The states that it sets."""
-        said: Condition = self.model_dump(include={"open", "powered", "clean", "filled", "form"}, exclude_none=True)
-        return said
+        said = {name: getattr(self, name) for name in get_args(StateName)}
+        return {name: value for name, value in said.items() if value is not None}
 
 
 class Gather(Frozen):
@@ -83,6 +83,8 @@ class Affordance(Frozen):
     uses: Classes = ()
     gathers: Gather | None = None
     switches: bool = False
+    undresses: bool = False
+    seated: bool = True
     roomy: bool = False
     lies: Classes = ()
     does: tuple[Effect, ...] = ()
@@ -119,10 +121,14 @@ class Affordances(Frozen):
         """What is said of a motion's caption; nothing, where it is not in the file."""
         return self.motions.get(motion, _ANYWHERE)
 
-    def is_one_of(self, thing: str, classes: Iterable[str]) -> bool:
-        """Whether a class or a text names one of some classes or groups: the whole of it, or its last words."""
-        words = plain(thing).lower()
-        return any(words == known or words.endswith(f" {known}") for known in self._words(tuple(classes)))
+    def is_one_of(self, cls: str, classes: Iterable[str]) -> bool:
+        """Whether a class is one of some classes or groups."""
+        return plain(cls).lower() in self._words(tuple(classes))
+
+    def means_one_of(self, words: str, classes: Iterable[str]) -> bool:
+        """Whether words for a thing mean one of some classes or groups: the whole of them does, or their end."""
+        said = plain(words).lower()
+        return any(said == known or said.endswith(f" {known}") for known in self._words(tuple(classes)))
 
     def _words(self, classes: tuple[str, ...]) -> frozenset[str]:
         known = self._spelled.get(classes)
@@ -179,7 +185,10 @@ def problem_of(name: StateName, value: StateValue) -> str:
 def in_words(condition: Condition) -> str:
     """States as words, such as "open, dirty, with tea in it"; empty where all is as at first."""
     said = []
-    for name, value in condition.items():
+    for name in get_args(StateName):
+        if name not in condition:
+            continue
+        value = condition[name]
         if name == "filled":
             said.append(f"with {value} in it" if value else "empty")
         elif name == "form":

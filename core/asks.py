@@ -5,6 +5,9 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first;
 - `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
+- `can` is `{furniture: [captions of motions that can be done there]}`; what can be done anywhere is named at none;
+- `states` is `{object: its states in words}`, such as "open" or "dirty", of all that is not as at first: for the person
+  in their whole home, for the robot where it is and in what it saw;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
 - `guesses` and `offers` are the robot's candidates, as persons and judges are asked about them: intentions are texts,
   tasks have `text` and `thought`;
@@ -43,13 +46,23 @@ ASKS: dict[str, AskSpec] = {
     "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
     "persona/big_five_test": _spec("human", "BigFiveTestReply", "profile", "statements"),
-    "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "today"),
+    "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "states", "today"),
     "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours"),
     "human/tasks_type1": _spec(
-        "human", "PickPlaceReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "n_tasks", "steps"
+        "human",
+        "PickPlaceReply",
+        *_TIME,
+        *_PERSON,
+        *_MEMORY,
+        *("intention", "fixed", "movable", "states", "n_tasks", "steps"),
     ),
     "human/tasks_type2": _spec(
-        "human", "FreeMotionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "motions", "n_tasks", "steps"
+        "human",
+        "FreeMotionReply",
+        *_TIME,
+        *_PERSON,
+        *_MEMORY,
+        *("intention", "fixed", "motions", "can", "states", "n_tasks", "steps"),
     ),
     "human/reflect_profile_type1": _spec(
         "human", "PickPlaceReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "tasks"
@@ -58,10 +71,16 @@ ASKS: dict[str, AskSpec] = {
         "human", "FreeMotionReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "tasks"
     ),
     "human/reflect_scene_type1": _spec(
-        "human", "PickPlaceReflectionReply", *_TIME, "intention", "fixed", "movable", "tasks", "n_tasks", "findings"
+        "human",
+        "PickPlaceReflectionReply",
+        *_TIME,
+        *("intention", "fixed", "movable", "states", "tasks", "n_tasks", "findings"),
     ),
     "human/reflect_scene_type2": _spec(
-        "human", "FreeMotionReflectionReply", *_TIME, "intention", "fixed", "motions", "tasks", "n_tasks", "findings"
+        "human",
+        "FreeMotionReflectionReply",
+        *_TIME,
+        *("intention", "fixed", "motions", "can", "states", "tasks", "n_tasks", "findings"),
     ),
     "human/feedback_intentions": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "guesses"),
     "human/feedback_tasks": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
@@ -76,15 +95,15 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_BELIEF,
         *_MEMORY,
-        "intention",
-        "fixed",
-        "movable",
-        "first_task",
-        "seen",
-        "n_tasks",
+        *("intention", "fixed", "movable", "states", "first_task", "seen", "n_tasks"),
     ),
     "robot/tasks_type2": _spec(
-        "robot", "HandOverReply", *_TIME, *_BELIEF, *_MEMORY, "intention", "fixed", "seen", "n_tasks"
+        "robot",
+        "HandOverReply",
+        *_TIME,
+        *_BELIEF,
+        *_MEMORY,
+        *("intention", "fixed", "states", "seen", "n_tasks"),
     ),
     "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),

@@ -117,6 +117,10 @@ class Home(Protocol):
         """
         ...
 
+    def room_of(self, agent: AgentId) -> str:
+        """The room in which an agent is."""
+        ...
+
     def percept(self, rng: np.random.Generator) -> Percept:
         """What a perception module reports of the recording, with its errors drawn from `rng`."""
         ...

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from coopera.core.hour import Task, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver, PickPlace, plain
 from coopera.core.protocols import Home
+from coopera.simulation.acts.goals.achieved import goal_of
 
 if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings
@@ -36,10 +37,11 @@ class Predicate:
         """Whether an act of the robot helps with an act that the person has before them.
 
         PAPER App. C.3: in type 1 the classes of object and receptacle are the same, whichever instances; in type 2
-        the offered thing is similar (cosine of at least 0.6) to the one that the person will hold.
+        the offered thing is similar (cosine of at least 0.6) to the one that the person will hold. DEVIATES: the paper
+        knows no inside; here a thing that is put on what it should be put in does not help, nor the reverse.
         """
         if isinstance(act, PickPlace) and isinstance(wanted, PickPlace):
-            return _classes(home, act) == _classes(home, wanted)
+            return goal_of(act, home.class_of) == goal_of(wanted, home.class_of)
         if isinstance(act, HandOver) and isinstance(wanted, FreeMotion):
             return self._similarity(act.object, wanted.in_hand) >= SIMILAR
         return False
@@ -54,7 +56,3 @@ class Predicate:
         if text not in self._vectors:
             self._vectors[text] = np.asarray(self.embeddings.embed_query(text), dtype=np.float64)
         return self._vectors[text]
-
-
-def _classes(home: Home, act: PickPlace) -> tuple[str, str]:
-    return home.class_of(act.object), home.class_of(act.receptacle)

@@ -192,7 +192,7 @@ def robot_view(
         person=person,
         belief=belief,
         collab=plan.collab,
-        home=HomeView.of(services.home(plan.scene)),
+        home=HomeView.of(services.home(plan.scene), services.robot_agent),
         history=services.memories("history", plan.episode, person).to_read(),
         guesses=services.memories("guesses", plan.episode, person).to_read(),
         ask=robots_door(services.ask),
@@ -262,7 +262,7 @@ def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: Robo
 
 def _effect(home: Home, agent: AgentId, act: Act) -> tuple[str, ...]:
     if act.kind == "pick_place":
-        return ("on", home.class_of(act.object), home.class_of(act.receptacle))
+        return (act.relation, home.class_of(act.object), home.class_of(act.receptacle))
     return (agent, act.describe())
 
 

@@ -6,21 +6,22 @@ Who decides in `propose` and `decompose` is the context's player: a language mod
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any, Literal
 
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 
+from coopera.core.affordances import affordances
 from coopera.core.clock import Clock
 from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskVerdict
-from coopera.core.household import ObjectMap, plain
+from coopera.core.household import FreeMotion, ObjectMap, plain
 from coopera.core.randomness import Address
 from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
 from coopera.graphs.players.checks import findings, repair
 from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
-from coopera.graphs.players.variables import as_tasks, known, when
+from coopera.graphs.players.variables import as_tasks, known, motions_here, when
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.recall import as_memory, recall_both
 
@@ -28,6 +29,9 @@ REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflection
     1: PickPlaceReflectionReply,
     2: FreeMotionReflectionReply,
 }
+
+_NAMED = 8
+"""As many motions are named at one piece of furniture: what a prompt can list for thirty of them."""
 
 
 def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInput, HumanState]:
@@ -82,20 +86,21 @@ def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]
 
 
 def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Find the objects and motions that fit the intention. Reads `intention`; writes `found`.
+    """Find the objects and motions that fit the intention. Reads `intention`; writes `found`, and in type 2 `can`.
 
     The nearest objects (the fixed and, in type 1, the movable ones separately) and motions by cosine, as many as
-    `HumanContext.sizes` says.
+    `HumanContext.sizes` says; `can` is what can be done at each piece of furniture.
     """
     ctx, query = runtime.context, state["intention"].text
     movable = _nearest(ctx, query, ctx.home.objects("movable")) if ctx.collab == 1 else {}
-    motions = ctx.search(ctx.home.motions).top(query, ctx.sizes.motions) if ctx.collab == 2 else []
+    ranked = ctx.search(ctx.home.motions).top(query, len(ctx.home.motions)) if ctx.collab == 2 else []
+    motions = [caption for caption, _ in ranked]
     found = Found(
         fixed=_nearest(ctx, query, ctx.home.objects("fixed")),
         movable=movable,
-        motions=[text for text, _ in motions],
+        motions=motions[: ctx.sizes.motions],
     )
-    return {"found": found}
+    return {"found": found, "can": _can(ctx, found.fixed, motions)}
 
 
 def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
@@ -135,7 +140,7 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
     The model is told what code found wrong.
     """
     ctx, found = runtime.context, state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
+    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state)
     count = Numbers.HUMAN_TASKS[ctx.collab]
     reply = ctx.ask(
         f"human/reflect_scene_type{ctx.collab}",
@@ -146,13 +151,14 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
+            "states": ctx.home.states(),
             "tasks": as_tasks(state["tasks"]),
             "n_tasks": count,
-            "findings": findings(state["tasks"], ctx.home, count),
+            "findings": findings(state["tasks"], ctx.home, ctx.agent, count),
         },
     )
     revised = _revised(state, reply, "reflect_scene")
-    return {**revised, "wrong": findings(revised["tasks"], ctx.home, count)}
+    return {**revised, "wrong": findings(revised["tasks"], ctx.home, ctx.agent, count)}
 
 
 def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
@@ -161,7 +167,7 @@ def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
 
 
 def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Mend what is still wrong to the nearest valid object, so that each task can be tried in the home.
+    """Mend what is still wrong to what is nearest and fits, so that each task can be tried in the home.
 
     Reads and revises `tasks`; writes `repairs`, a sentence for each thing mended.
 
@@ -170,7 +176,7 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """
     ctx = runtime.context
     count = len(state["tasks"]) if state["stated"] else Numbers.HUMAN_TASKS[ctx.collab]
-    tasks, repairs = repair(state["tasks"], ctx.home, count, ctx.search)
+    tasks, repairs = repair(state["tasks"], ctx.home, ctx.agent, count, ctx.search)
     return {"tasks": tasks, "repairs": repairs}
 
 
@@ -201,6 +207,24 @@ def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
         by_text.setdefault(plain(name), []).append(name)
     ranked = [name for text, _ in ctx.search(list(by_text)).top(query, len(by_text)) for name in by_text[text]]
     return {name: objects[name] for name in ranked[: ctx.sizes.objects]}
+
+
+def _can(ctx: HumanContext, fixed: ObjectMap, ranked: Sequence[str]) -> dict[str, list[str]]:
+    """The first of some motions that can be done at each piece of furniture; where nothing is said, it is left out."""
+    can: dict[str, list[str]] = {}
+    for name, (number, _) in fixed.items():
+        there = set(affordances().motions_at(ctx.home.class_of(name)))
+        fitting = (caption for caption in ranked if caption in there and _fits(ctx, caption, name, number))
+        if named := list(islice(fitting, _NAMED)):
+            can[name] = named
+    return can
+
+
+def _fits(ctx: HumanContext, caption: str, name: str, number: int) -> bool:
+    """Whether a motion can be done at a piece of furniture with what it needs in hand."""
+    needed = affordances().names(affordances().of(caption).needs)
+    in_hand = plain(needed[0]) if needed else "thing"
+    return not ctx.home.misfit(ctx.agent, FreeMotion(target_id=number, target=name, in_hand=in_hand, motion=caption))
 
 
 def _with_reasons(task: Task, said: Mapping[str, Reasons]) -> Task:

@@ -187,7 +187,9 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         return {"intentions": [IntentionCandidate(text=state["true_intention"])]}
     if ctx.method.intentions == "skipped":
         return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
-    percept = {**seen.percept.model_dump(), "caption": seen.percept.caption()} if seen.percept else None
+    percept = None
+    if seen.percept:
+        percept = {**seen.percept.model_dump(), "states": seen.percept.states, "caption": seen.percept.caption()}
     count = ctx.method.n_intentions or Numbers.ROBOT_INTENTIONS[view.collab]
     reply = view.ask(
         "robot/intentions",
@@ -260,7 +262,6 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     """Propose tasks for one accepted intention. Reads a `TaskRequest`; adds to `imagined`.
 
     A reply that cannot be read leaves this intention without tasks, and that is said.
-    A task with an object that is not in the home stays a candidate; done, it fails with its reason.
     """
     ctx, view, intention = runtime.context, runtime.context.view, state["intention"]
     home, count = view.home, Numbers.ROBOT_TASKS[view.collab]
@@ -282,6 +283,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
                 "intention": intention.text,
                 "seen": intention.text if direct else None,
                 "fixed": home.objects("fixed"),
+                "states": view.states,
                 "n_tasks": count,
             },
         )
@@ -302,23 +304,28 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
 def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Keep the likely tasks of the superset. Reads `imagined`; writes `tasks`.
 
-    A task imagined for several intentions counts once, for the most likely of them. Where there is none at all the
-    robot does nothing this hour, and that is said.
+    A task that cannot be done in this home is dropped before it is judged, and that is said. One imagined for several
+    intentions counts once, for the most likely of them. Where there is none at all the robot does nothing this hour,
+    and that is said.
     """
     ctx = runtime.context
     superset: dict[str, TaskCandidate] = {}
+    dropped: list[str] = []
     for batch in sorted(state.get("imagined", []), key=lambda batch: batch["rank"]):
         for task in batch["tasks"]:
-            superset.setdefault(task.act.describe(), task)
+            if wrong := ctx.view.home.misfit(task.act):
+                dropped.append(f'"{task.act.describe()}" was dropped: {wrong}')
+            else:
+                superset.setdefault(task.act.describe(), task)
     known = _known(state, ctx.view)
     asked = [example(known, intention=t.intention, task=t.act.describe()) for t in superset.values()]
     probabilities = _verdicts(ctx, "task", asked)
-    fallbacks = [] if superset else ["no valid task was imagined: the robot only watches"]
+    watches = [] if superset else ["no valid task was imagined: the robot only watches"]
     tasks = [
         task.model_copy(update={"probability": p, "accepted": p >= 0.5})
         for task, p in zip(superset.values(), probabilities, strict=True)
     ]
-    return {"tasks": tasks, "fallbacks": fallbacks}
+    return {"tasks": tasks, "fallbacks": [*dict.fromkeys(dropped), *watches]}
 
 
 def act(state: RobotState, runtime: Runtime[Context]) -> dict[str, Any]:

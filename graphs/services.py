@@ -140,6 +140,7 @@ class Services:
             player=self.player,
             model=self.person,
             sizes=self.sizes,
+            agent=self.human_agent,
         )
 
     def relative(self, path: Path) -> str:

@@ -110,6 +110,12 @@ _FULL: dict[str, Any] = {
         "teapot_1": [61, "kitchen"],
     },
     "motions": ["sit and read", "stretch both arms", "lean forward", "reach up", "walk in a circle"],
+    "can": {
+        "armchair_1": ["sit and read", "put on headphones"],
+        "bookshelf_1": ["put things away on a shelf", "dust the shelves"],
+        "desk_1": ["write by hand", "wipe the surface"],
+    },
+    "states": {"coffee_table_1": "dirty", "mug_1": "dirty, with tea in it"},
     "n_tasks": 5,
     "steps": ["get my book from the shelf", "sit in the armchair and read"],
     "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 5 tasks, not 4."],
@@ -126,6 +132,7 @@ _FULL: dict[str, Any] = {
         "motion": "stand and turn something over",
         "in_hand": "book",
         "visible": ["armchair_1", "bookshelf_1", "coffee_table_1"],
+        "states": {"coffee_table_1": "dirty"},
         "caption": "In the living room, the person seems to stand and turn something over at the bookshelf, "
         "holding something like a book.",
     },
@@ -147,6 +154,7 @@ _BARE: dict[str, Any] = {
     "recalled_intentions": [],
     "recalled_tasks": [],
     "findings": [],
+    "states": {},
     "steps": [],
     "percept": None,
     "profile_2": "",

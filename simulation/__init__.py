@@ -11,10 +11,22 @@ from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.simulation.acts.agents import PersonAgent, RobotAgent
+    from coopera.simulation.acts.goals.judging import holds, met
+    from coopera.simulation.acts.goals.reading import read_goal
     from coopera.simulation.homes.scene import Scene, list_scenes, load_scene
     from coopera.simulation.world import World
 
-__all__ = ["PersonAgent", "RobotAgent", "Scene", "World", "list_scenes", "load_scene"]
+__all__ = [
+    "PersonAgent",
+    "RobotAgent",
+    "Scene",
+    "World",
+    "holds",
+    "list_scenes",
+    "load_scene",
+    "met",
+    "read_goal",
+]
 
 _HOMES = {
     "PersonAgent": "coopera.simulation.acts.agents",
@@ -23,6 +35,9 @@ _HOMES = {
     "list_scenes": "coopera.simulation.homes.scene",
     "load_scene": "coopera.simulation.homes.scene",
     "World": "coopera.simulation.world",
+    "holds": "coopera.simulation.acts.goals.judging",
+    "met": "coopera.simulation.acts.goals.judging",
+    "read_goal": "coopera.simulation.acts.goals.reading",
 }
 
 __getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -11,10 +11,13 @@ from collections.abc import Callable
 
 from langchain_core.tools import BaseTool, StructuredTool
 
+from coopera.core.affordances import Relation
 from coopera.core.household import ROBOT, AgentId, FreeMotion, HandOver
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.state import PersonState
 from coopera.simulation.world import World
+
+_DOOR, _SWITCH = ("closed", "open"), ("off", "on")
 
 
 def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
@@ -30,7 +33,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     world.state.agent(agent)
 
     def look_around() -> str:
-        """See where you and the others are, what you hold, and which objects are in your room."""
+        """See where you and the others are, what you hold, and which objects are in your room, in which state."""
         return json.dumps(_seen_by(world, agent))
 
     def list_objects(room: str = "") -> str:
@@ -39,16 +42,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         Args:
             room: Only this room; empty for the whole home.
         """
-        if room and room not in world.rooms:
-            return f"There is no room {room!r}; there are {', '.join(world.rooms)}."
-        listed = {
-            name: {
-                "furniture": [thing for thing, (_, where) in world.objects("fixed").items() if where == name],
-                "things": world.things_on(name),
-            }
-            for name in ([room] if room else world.rooms)
-        }
-        return json.dumps(listed)
+        return _listed(world, room)
 
     def go_to(target: str) -> str:
         """Go to a room, a piece of furniture or a thing.
@@ -61,24 +55,45 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
     def pick(thing: str) -> str:
         """Go to a movable thing and take it into your hand, which must be empty.
 
+        What another one holds is asked for. What a thing is in is opened for it, and closed again.
+
         Args:
             thing: Its name, such as "mug_1".
         """
         return _said(world.pick(agent, thing), f"You hold {thing}.")
 
-    def place(receptacle: str) -> str:
-        """Carry what you hold to a piece of furniture and put it down there.
+    def place(receptacle: str, relation: Relation = "on") -> str:
+        """Carry what you hold to a piece of furniture and put it down there, on top or inside.
 
         Args:
-            receptacle: The furniture's name, such as "dining_table_1".
+            receptacle: The furniture's name, such as "dining_table_1", or that of a basket or a box.
+            relation: "on" it, or "inside", as in a fridge; it is opened for that, and closed again.
         """
-        return _said(world.place(agent, receptacle), f"It is on {receptacle}.")
+        return _said(world.place(agent, receptacle, relation), f"It is {relation} {receptacle}.")
+
+    def set_open(name: str, opens: bool) -> str:
+        """Go to what has a door, a drawer or a lid, and open it or close it.
+
+        Args:
+            name: Its name, such as "fridge_1".
+            opens: True to open it, false to close it.
+        """
+        return _said(world.set_open(agent, name, opens), f"{name} is {_DOOR[opens]}.")
+
+    def switch(name: str, on: bool) -> str:
+        """Go to what can be switched, and switch it on or off.
+
+        Args:
+            name: Its name, such as "television_1".
+            on: True to switch it on, false to switch it off.
+        """
+        return _said(world.switch(agent, name, on), f"{name} is {_SWITCH[on]}.")
 
     def hand_over(thing: str, person: str = "") -> str:
-        """Bring a person any small thing from the magic box.
+        """Bring a person a thing: one of the home, which you fetch or hold, or any small thing from the magic box.
 
         Args:
-            thing: What it is, in words, such as "toothbrush".
+            thing: The name of a thing of the home, such as "mug_1", or else what it is in words, such as "toothbrush".
             person: Who gets it; may be left out where there is only one person.
         """
         receiver = AgentId(person) if person else None
@@ -91,16 +106,29 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         Args:
             target: The furniture's name.
             motion: The motion in words, such as "sit and read".
-            in_hand: The thing in words, such as "book".
+            in_hand: The thing: its name if it is to be that thing of the home, or words such as "book".
         """
         fixed = world.layout.object(target)
         act = FreeMotion(target_id=fixed.id if fixed else 0, target=target, in_hand=in_hand, motion=motion)
         done = world.perform(agent, act)
         return _said(Result(done.ok, done.reason, done.metres), f"You {world.state.person(agent).motion} at {target}.")
 
-    functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place]
+    functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place, set_open, switch]
     functions.append(hand_over if agent in world.robots else move)
     return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
+
+
+def _listed(world: World, room: str) -> str:
+    if room and room not in world.rooms:
+        return f"There is no room {room!r}; there are {', '.join(world.rooms)}."
+    listed = {
+        name: {
+            "furniture": [thing for thing, (_, where) in world.objects("fixed").items() if where == name],
+            "things": world.things_on(name),
+        }
+        for name in ([room] if room else world.rooms)
+    }
+    return json.dumps(listed)
 
 
 def _seen_by(world: World, agent: AgentId) -> dict[str, object]:
@@ -112,6 +140,7 @@ def _seen_by(world: World, agent: AgentId) -> dict[str, object]:
             seen[other] = {"room": world.room_of(other), "holding": state.thing, **doing}
     seen["furniture"] = [name for name, (_, where) in world.objects("fixed").items() if where == room]
     seen["things"] = world.things_on(room)
+    seen["states"] = world.states(room)
     return seen
 
 

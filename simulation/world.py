@@ -11,21 +11,24 @@ import numpy as np
 from PIL import Image
 from pydantic import ValidationError
 
+from coopera.core.affordances import Relation, in_words
 from coopera.core.errors import SimulationError
 from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
 from coopera.simulation.acts import predicates, primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.acts.first_places import first_states
+from coopera.simulation.acts.fitting import check_hands_over, check_moves, misfit
 from coopera.simulation.acts.navigation import Navigator
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.skills import hand_over, pick_place
+from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
 from coopera.simulation.acts.state import HomeState, named_from_box, room_of_thing
+from coopera.simulation.acts.truth import wrong
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.homes.scene import Scene
-from coopera.simulation.motions.library import Library, load_library
+from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
@@ -51,7 +54,7 @@ class World:
         frame_size: tuple[int, int] = (320, 240),
         renderer: Renderer = "tiny",
         motions: Library | None = None,
-        match: Callable[[str], str] | None = None,
+        match: Rank | None = None,
         errors: PerceptErrors | None = None,
     ) -> None:
         """Set up a home in its initial state.
@@ -64,7 +67,8 @@ class World:
             frame_size: Width and height of the pictures in pixels.
             renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
             motions: What the person's body can do; the shipped library without it.
-            match: Finds the caption of `motions` that a free-form text means; without it words are compared.
+            match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
+                words are compared.
             errors: How often and how far the percept errs.
 
         Raises:
@@ -115,7 +119,12 @@ class World:
         """The object-room mapping as things now stand, sorted by name."""
         if kind == "fixed":
             return {thing.name: (thing.id, thing.room) for thing in self.layout.fixed}
-        return {thing.name: (thing.id, room_of_thing(self.layout, self.state, thing)) for thing in self.layout.movable}
+        things = [thing for thing in self.state.objects(self.layout) if not self._is_in_use(thing.name)]
+        return {thing.name: (thing.id, room_of_thing(self.layout, self.state, thing)) for thing in things}
+
+    def _is_in_use(self, name: str) -> bool:
+        """Whether a thing out of the magic box is with somebody, so that it is no thing of the home."""
+        return name in self.state.box and self.state.bearer(name) is not None
 
     def as_scene(self) -> Scene:
         """The home as things now stand, as a home of its own: to be checked, drawn or written to a file.
@@ -169,13 +178,55 @@ class World:
         except UnableError as unable:
             if watch is not None:  # there is still the person to be seen, doing what they were doing
                 plan = stay(self._ground, before, watch.person, watch)
-                self._record(plan, agent, watch, plan.state.person(watch.person).thing)
+                self._record(plan, agent, watch)
             return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
         if watch is not None:
-            in_hand = act.object if isinstance(act, PickPlace) else plan.state.person(watch.person).thing
-            self._record(plan, agent, watch, in_hand)
+            self._record(plan, agent, watch)
         self.state = plan.state
-        return Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3))
+        meant = plan.meant
+        return Outcome(
+            agent=agent,
+            act=act,
+            ok=True,
+            metres=round(plan.metres, 3),
+            motion=None if meant is None else meant.caption,
+            cosine=None if meant is None or self._ground.rank is None else round(meant.likeness, 3),
+            fetched=tuple(plan.fetched),
+            opened=tuple(dict.fromkeys(plan.opened)),
+        )
+
+    def misfit(self, agent: AgentId, act: Act) -> str:
+        """What stands against an act whatever the moment, as a sentence that says what would do; empty if it fits.
+
+        It asks after objects and their ids, and what can be done where and with what. Whether somebody stands in the
+        way, or the table is full, is found out by doing it.
+
+        Raises:
+            SimulationError: If there is no such agent.
+        """
+        self.state.agent(agent)
+        return misfit(self._ground, self.state, agent, act)
+
+    def states(self, room: str | None = None) -> dict[str, str]:
+        """{object: its states in words} of all that is not as at first and can be seen, in a room or everywhere.
+
+        Sorted by name. What is inside something closed is not seen.
+        """
+        found = {}
+        for name, condition in self.state.conditions.items():
+            thing = self.state.find(self.layout, name)
+            if thing is None or not self.can_be_seen(thing):
+                continue
+            where = thing.room if thing.fixed else room_of_thing(self.layout, self.state, thing)
+            if room is None or where == room:
+                found[name] = in_words(condition)
+        return found
+
+    def can_be_seen(self, thing: SceneObject) -> bool:
+        """Whether an object is not inside something closed."""
+        within = None if thing.fixed else self.state.thing(thing).inside
+        container = None if within is None else self.state.find(self.layout, within)
+        return container is None or self.state.condition(container).get("open") is not False
 
     def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:
         """Who watches whom while an agent acts."""
@@ -204,9 +255,17 @@ class World:
         """Let an agent go to a thing and take it into its hand."""
         return self._step(agent, lambda: primitives.pick(self._ground, self.state, agent, thing))
 
-    def place(self, agent: AgentId, receptacle: str) -> Result:
-        """Let an agent carry what it took to a piece of furniture and put it down there."""
-        return self._step(agent, lambda: primitives.place(self._ground, self.state, agent, receptacle))
+    def place(self, agent: AgentId, receptacle: str, relation: Relation = "on") -> Result:
+        """Let an agent carry what it has in hand to furniture, or a thing that holds others, and put it down there."""
+        return self._step(agent, lambda: primitives.place(self._ground, self.state, agent, receptacle, relation))
+
+    def set_open(self, agent: AgentId, name: str, opens: bool) -> Result:
+        """Let an agent go to what has a door, a drawer or a lid, and open or close it."""
+        return self._step(agent, lambda: set_open(self._ground, self.state, agent, name, opens=opens))
+
+    def switch(self, agent: AgentId, name: str, on: bool) -> Result:
+        """Let an agent go to what can be switched, and switch it on or off."""
+        return self._step(agent, lambda: switch(self._ground, self.state, agent, name, on=on))
 
     def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
         self.state.agent(agent)
@@ -222,15 +281,21 @@ class World:
         return self.layout.room_at(*self.state.agent(agent).place).name
 
     def things_on(self, room: str) -> dict[str, str]:
-        """The movable things of a room, sorted: {thing: the furniture under it, or "floor"}."""
+        """The movable things of a room that can be seen: {thing: the furniture under it, who has it, or "floor"}."""
         there = {name for name, (_, where) in self.objects("movable").items() if where == room}
-        things = (thing for thing in self.layout.movable if thing.name in there)
-        return {thing.name: self.state.thing(thing).on or "floor" for thing in things}
+        things = [thing for thing in self.state.objects(self.layout) if thing.name in there]
+        return {thing.name: self._whereabouts(thing) for thing in things if self.can_be_seen(thing)}
 
-    def _record(self, plan: Plan, agent: AgentId, watch: Onlooker, in_hand: str | None) -> None:
+    def _whereabouts(self, thing: SceneObject) -> str:
+        bearer = self.state.bearer(thing.name)
+        where = self.state.thing(thing)
+        return bearer or where.on or (f"inside {where.inside}" if where.inside is not None else "floor")
+
+    def _record(self, plan: Plan, agent: AgentId, watch: Onlooker) -> None:
         before = self.state.model_copy(update={"box": {**plan.state.box, **self.state.box}})
         recording = Filming(self._ground, before, watch.robot, watch.person).film(plan.steps, agent)
-        recording.near, recording.in_hand = plan.at, in_hand
+        known = before.box.get(plan.in_hand or "")
+        recording.near, recording.in_hand = plan.at, plan.in_hand if known is None else known.text
         self._recording = recording
         self.state = plan.state
 
@@ -239,11 +304,9 @@ class World:
         if isinstance(act, PickPlace):
             return pick_place(self._ground, self.state, agent, act, seen)
         if isinstance(act, HandOver):
-            if agent not in self._ground.robots:
-                raise UnableError("only the robot hands things over")
+            check_hands_over(self._ground, self.state, agent, act.object)
             return hand_over(self._ground, self.state, agent, act)
-        if agent not in self._ground.people:
-            raise UnableError("only the person moves freely")
+        check_moves(self._ground, agent)
         return free_motion(self._ground, self.state, agent, act, seen)
 
     def _watching(self) -> Watcher:
@@ -334,9 +397,8 @@ class World:
             )
         if snapshot.get("version") != 3:
             state = named_from_box(self.layout, state)
-        strange = sorted(set(state.moved) - {thing.name for thing in state.objects(self.layout)})
-        if strange:
-            raise SimulationError(f"The snapshot moves {strange[0]!r}, which this home does not have.")
+        if (damage := next(wrong(self.layout, state), None)) is not None:
+            raise SimulationError(f"The snapshot of the home cannot be used: {damage}")
         self.state = state.model_copy(update={"agents": {agent: state.agents[agent] for agent in self._start.agents}})
         self._recording = None
 

@@ -9,9 +9,10 @@ from typing import Any, Literal
 import numpy as np
 from langchain_core.embeddings import Embeddings
 
+from coopera.core.affordances import affordances
 from coopera.core.asks import ASKS
 from coopera.core.hour import Evening, Example, HourRecord, ModelCall
-from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, PickPlace, SceneId
+from coopera.core.household import HUMAN, Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PickPlace, SceneId
 from coopera.core.people import BigFive, Persona, PersonId
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
@@ -45,7 +46,7 @@ class LetterEmbeddings(Embeddings):
 
 
 class FakeHome:
-    """Three fixed and three movable objects in two rooms; whatever is asked for works, unless `broken`."""
+    """Three fixed and three movable objects in two rooms; what fits, and is not `unfit`, works unless `broken`."""
 
     scene = SceneId("toy")
     rooms = ["kitchen", "study"]
@@ -57,12 +58,40 @@ class FakeHome:
         self._built = dict(self.movable)
         self.performed: list[tuple[AgentId, Act, bool]] = []
         self.broken: set[str] = set()
+        self.said: dict[str, str] = {}
+        self.unfit: set[tuple[str, str]] = set()
 
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
         return dict(sorted((self.fixed if kind == "fixed" else self.movable).items()))
 
     def class_of(self, name: str) -> str:
         return name.rsplit("_", 1)[0]
+
+    def misfit(self, agent: AgentId, act: Act) -> str:
+        if isinstance(act, HandOver):
+            if agent == HUMAN:
+                return "Only the robot hands things over."
+            return f"The {act.object} is furniture." if act.object in self.fixed else ""
+        if isinstance(act, PickPlace):
+            if wrong := _no_object(act.object, act.object_id, self.movable, "movable"):
+                return wrong
+            places = self.fixed if act.relation == "on" else {**self.fixed, **self.movable}
+            if wrong := _no_object(act.receptacle, act.receptacle_id, places, "fixed"):
+                return wrong
+            holds = act.relation == "on" or affordances().contains(self.class_of(act.receptacle))
+            return "" if holds else f"Nothing can be put into the {act.receptacle}."
+        if wrong := _no_object(act.target, act.target_id, self.fixed, "fixed"):
+            return wrong
+        suits = affordances().suits(act.motion, self.class_of(act.target))
+        fits = suits and (act.motion, act.target) not in self.unfit
+        return "" if fits else f"Nobody can {act.motion} at the {act.target}."
+
+    def states(self, room: str | None = None) -> dict[str, str]:
+        places = {**self.fixed, **self.movable}
+        return {name: said for name, said in sorted(self.said.items()) if room in (None, places[name][1])}
+
+    def room_of(self, agent: AgentId) -> str:
+        return "kitchen"
 
     def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         self.performed.append((agent, act, record))
@@ -88,6 +117,12 @@ class FakeHome:
     def restore(self, snapshot: Mapping[str, Any]) -> None:
         places = snapshot["movable"] if snapshot else self._built
         self.movable = {name: (place[0], place[1]) for name, place in places.items()}
+
+
+def _no_object(name: str, number: int, objects: ObjectMap, kind: str) -> str:
+    if name not in objects:
+        return f'There is no {kind} object "{name}".'
+    return f'"{name}" has the id {objects[name][0]}, not {number}.' if objects[name][0] != number else ""
 
 
 Answer = Callable[[dict[str, Any]], dict[str, Any]]

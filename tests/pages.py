@@ -49,7 +49,7 @@ def blocks(*languages: str) -> Iterator[Block]:
 
 
 def furnish(folder: Path, base_url: str) -> None:
-    """Put what the pages name into a folder: conversations, clips, prompts, a grid, a home of HSSD, our folders."""
+    """Put what the pages name into a folder: conversations, clips, prompts, a grid, goals, a home, our folders."""
     for name in ("conversations.csv", "synthetic_persona_chat_valid.csv"):
         with (folder / name).open("w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
@@ -64,6 +64,8 @@ def furnish(folder: Path, base_url: str) -> None:
     shutil.copy(ROOT / "prompts" / "human" / "intention.md", folder / "my-prompts" / "human")
     grid = next(block for block in blocks("yaml") if block.page.name == "benchmark.md")
     (folder / "my-grid.yaml").write_text(grid.text.replace(SERVER, base_url), encoding="utf-8")
+    goals = next(block for block in blocks("yaml") if block.page.name == "goals.md")
+    (folder / "goals.yaml").write_text(goals.text, encoding="utf-8")
     own = (ROOT / "coopera" / "personas" / "amara.yaml").read_text(encoding="utf-8")
     (folder / "me.yaml").write_text(own.replace("id: amara", "id: me"), encoding="utf-8")
     home = (ROOT / "simulation" / "scenes" / "maple.json").read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""`coopera analyse`: checks on the simulated people, and the scoring of the user studies."""
+"""`coopera analyse`: checks on the simulated people, the scoring of the user studies, and goals for days."""
 
 from __future__ import annotations
 
@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coopera.commands.options import AsJson
+from coopera.commands.options import AsJson, RunPath
 
 if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings
 
     from coopera.evaluation.people.figures import Figure
     from coopera.evaluation.people.learners import Learner
+    from coopera.studies.goals import After, JudgedDay
 
-app = typer.Typer(help="Checks on the simulated people, as in the paper.", no_args_is_help=True)
+app = typer.Typer(help="Checks on the simulated people, as in the paper, and goals for days.", no_args_is_help=True)
 
 
 @app.command("humans")
@@ -108,6 +109,55 @@ def score(
     if not answers:
         raise ConfigError("ANSWERS: name at least one file of answers.")
     _tell(score_answers(right, read_participants(answers, right.study)), as_json=as_json)
+
+
+@app.command("goals")
+def analyse_goals(
+    run: RunPath,
+    file: Annotated[Path, typer.Argument(metavar="GOALS.yaml", help="Goals by name; see docs/goals.md.")],
+    as_json: AsJson = False,
+) -> None:
+    """Say which goals each day of a run met, and after which act it met them first.
+
+    The run's acts are done again from its trace, as by `coopera replay`.
+    """
+    from coopera.rundir.directory import RunDir
+    from coopera.simulation.acts.goals.files import read_goals
+    from coopera.studies.goals import judge_days
+
+    found, goals = RunDir.open(run), read_goals(file)
+    days = list(judge_days(found, goals, str(file)))
+    for difference in (sentence for day in days for sentence in day.differences):
+        typer.echo(f"{difference} The end of the hour is taken from the trace.", err=True)
+    if as_json:
+        typer.echo(json.dumps({"goals": {name: str(goal) for name, goal in goals.items()}, "days": _as_data(days)}))
+        return
+    from coopera.report.tables import print_table
+
+    rows = [
+        [str(day.day), day.person, day.scene, one.goal, "yes" if one.met else "no", _in_words(one.first)]
+        for day in days
+        for one in day.goals
+    ]
+    print_table(["day", "person", "home", "goal", "met", "first met"], rows)
+    for name in goals:
+        count = sum(one.met for day in days for one in day.goals if one.goal == name)
+        typer.echo(f"{name}: met on {count} of {len(days)} days")
+
+
+def _as_data(days: Sequence[JudgedDay]) -> list[dict[str, object]]:
+    return [
+        day._asdict()
+        | {"goals": {one.goal: {"met": one.met, "first": one.first and one.first._asdict()} for one in day.goals}}
+        for day in days
+    ]
+
+
+def _in_words(first: After | None) -> str:
+    if first is None:
+        return "never"
+    done = f"after act {first.act} ({first.agent}: {first.did})" if first.act else "at the hour's end"
+    return f"{first.hour}:00, {done}"
 
 
 @contextmanager

@@ -9,10 +9,10 @@ from rich.table import Table
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print rows under their columns; in a pipe, too, nothing is cut off."""
-    console = Console(highlight=False)
+    """Print rows under their columns, letter by letter; in a pipe, too, nothing is cut off."""
+    console = Console(highlight=False, markup=False)
     if not console.is_terminal:
-        console = Console(highlight=False, width=400)
+        console = Console(highlight=False, markup=False, width=400)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for column in columns:
         table.add_column(column, overflow="fold")

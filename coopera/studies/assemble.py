@@ -37,8 +37,8 @@ from coopera.models.transport import wait
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_earlier_life
-from coopera.simulation import World, load_scene
-from coopera.simulation.motions.library import Library
+from coopera.simulation import Scene, World, load_scene
+from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.studies.catalogues import tuned_model
 
@@ -184,9 +184,9 @@ def _own_robot(config: Config, method: Method) -> MakeRobot | None:
 
 def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path) -> World:
     """Open one of a run's homes as it was built, the run's own copy if it has one; it is to be closed after use."""
-    layout = load_scene(scene, [config.data_dir / "scenes", run / "scenes"])
+    layout = open_layout(config, scene, run)
     motions = load_motions(config.motions)
-    match = _nearest_motion(embeddings, motions)
+    match = _nearest_motions(embeddings, motions)
     return World(
         layout,
         robot=config.robot,
@@ -196,6 +196,11 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path)
         match=match,
         errors=config.perception,
     )
+
+
+def open_layout(config: Config, scene: SceneId, run: Path) -> Scene:
+    """One of a run's homes as data, the run's own copy if it has one."""
+    return load_scene(scene, [config.data_dir / "scenes", run / "scenes"])
 
 
 class _Interruptible:
@@ -263,7 +268,7 @@ def _classifier(
     )
 
 
-def _nearest_motion(embeddings: Embeddings, motions: Library) -> Callable[[str], str]:
-    """The library motion whose caption is most similar to a free-form text."""
+def _nearest_motions(embeddings: Embeddings, motions: Library) -> Rank:
+    """Ranks the captions of the library by how similar they are to a free-form text."""
     search = Search(embeddings, motions.captions)
-    return lambda text: search.top(text, 1)[0][0]
+    return lambda text: search.top(text, len(motions.captions))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.hour import HourRecord
@@ -17,20 +17,28 @@ from coopera.core.household import Outcome, SceneId
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes
 from coopera.simulation import World
-from coopera.simulation.acts.state import digest, today
+from coopera.simulation.acts.state import HomeState, digest, today
 from coopera.studies.assemble import open_embeddings, open_home
 
 
 class Replayed(NamedTuple):
-    """How one hour came out: the first difference as a sentence, empty where there is none."""
+    """How one hour came out: the first difference as a sentence, empty where there is none, and the home after it.
+
+    Where there is a difference, the home is as the trace has it.
+    """
 
     day: int
     hour: int
     acts: int
     difference: str
+    home: HomeState
 
 
-def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None) -> Iterator[Replayed]:
+Look: TypeAlias = Callable[[HourRecord, World], None]
+Each: TypeAlias = Callable[[HourRecord, Outcome, World], None]
+
+
+def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> Iterator[Replayed]:
     """Do all acts of a run again, hour by hour; every episode begins with its homes as they were built.
 
     The homes are not set from the trace, so each hour builds on all hours before it. There is one exception: after an
@@ -39,6 +47,7 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
     Args:
         run: The run, open for reading.
         look: Called after each hour's first act, while its recording is there.
+        each: Called after each act with what came of it now.
 
     Raises:
         RunError: If the run has no hours yet, or its people lived their hours in another run.
@@ -61,10 +70,10 @@ def replay(run: RunDir, look: Callable[[HourRecord, World], None] | None = None)
             if record.scene not in homes:
                 home = open_home(run.config, record.scene, embeddings, run.root)
                 homes[record.scene] = stack.enter_context(home)
-            yield _hour(homes[record.scene], record, look)
+            yield _hour(homes[record.scene], record, look, each)
 
 
-def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], None] | None) -> Replayed:
+def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None) -> Replayed:
     expected = _in_order(record)
     watched = record.world.get("watched", record.robot is not None)
     difference = ""
@@ -72,6 +81,8 @@ def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], N
         now = home.perform(then.agent, then.act, record=watched and number == 0)
         if look is not None and watched and number == 0:
             look(record, home)
+        if each is not None:
+            each(record, now, home)
         if now != then and not difference:
             what = f"act {number + 1} ({then.agent}: {then.act.describe()})"
             difference = f"{what} came out as {_said(now)}, not {_said(then)}"
@@ -81,7 +92,7 @@ def _hour(home: World, record: HourRecord, look: Callable[[HourRecord, World], N
     if digest(home.snapshot()) != (wanted or digest(poses)):
         difference = difference or "the home is not as it was left"
         home.restore(poses)
-    return Replayed(record.day, record.hour, len(expected), difference)
+    return Replayed(record.day, record.hour, len(expected), difference, home.state)
 
 
 def _in_order(record: HourRecord) -> list[Outcome]:
@@ -95,7 +106,7 @@ def _said(outcome: Outcome) -> str:
     return f"done in {outcome.metres} m" if outcome.ok else f"failed: {outcome.reason}"
 
 
-def film_into(folder: Path, frames: int) -> Callable[[HourRecord, World], None]:
+def film_into(folder: Path, frames: int) -> Look:
     """Return a `look` that renders each recording into folder/day-DD/hour-HH.
 
     Raises:

@@ -22,7 +22,7 @@ from coopera.core.hour import (
     SearchSizes,
     Task,
 )
-from coopera.core.household import Collab
+from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
@@ -48,6 +48,7 @@ class HumanState(HumanInput, total=False):
     today: list[dict[str, Any]]  # by recall; this day's intentions so far, in order
     intention: Intention  # by propose
     found: Found  # by search
+    can: dict[str, list[str]]  # by search; {furniture: what can be done there, the nearest to the intention first}
     tasks: list[Task]  # by decompose, then revised by the reflections
     stated: bool  # by decompose: a real person has said what the tasks are
     reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
@@ -68,6 +69,8 @@ class HumanContext:
     player: Player
     model: PersonModel = FULL
     sizes: SearchSizes = SearchSizes()
+    agent: AgentId = HUMAN
+    """Whose body in the home the person has."""
 
     @property
     def collab(self) -> Collab:

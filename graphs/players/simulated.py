@@ -20,7 +20,7 @@ from coopera.core.replies import (
 )
 from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
-from coopera.graphs.players.variables import as_tasks, known, when, who
+from coopera.graphs.players.variables import as_tasks, known, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
@@ -90,7 +90,7 @@ class Simulated:
 def ask_for_tasks(state: HumanState, ctx: HumanContext, steps: Sequence[str] = ()) -> Sequence[Draft]:
     """Ask the model to break the intention into tasks, or to read the steps that a person gave in their own words."""
     found = state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else {"motions": found.motions}
+    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state)
     reply = ctx.ask(
         f"human/tasks_type{ctx.collab}",
         TASKS_REPLY[ctx.collab],
@@ -100,6 +100,7 @@ def ask_for_tasks(state: HumanState, ctx: HumanContext, steps: Sequence[str] = (
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,
+            "states": ctx.home.states(),
             "n_tasks": len(steps) or Numbers.HUMAN_TASKS[ctx.collab],
             "steps": list(steps),
         },
@@ -113,7 +114,7 @@ def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
         "human/intention",
         IntentionReply,
         at=Address(ctx.persona.id, clock.day, clock.hour, "propose"),
-        variables={**known(state, ctx), "rooms": ctx.home.rooms, "today": state["today"]},
+        variables={**known(state, ctx), "rooms": ctx.home.rooms, "states": ctx.home.states(), "today": state["today"]},
     )
 
 

@@ -32,6 +32,11 @@ def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}
 
 
+def motions_here(state: HumanState) -> dict[str, Any]:
+    """The motions that were found, and those that can be done at each of the furniture."""
+    return {"motions": state["found"].motions, "can": state["can"]}
+
+
 def as_tasks(tasks: Sequence[Task]) -> list[dict[str, Any]]:
     """Tasks as prompts read them."""
     return [

@@ -6,8 +6,8 @@ judge's model, or see what the person intends.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, Protocol
 
@@ -15,7 +15,7 @@ from coopera.core.asks import ASKS
 from coopera.core.clock import Clock
 from coopera.core.errors import RunError
 from coopera.core.hour import Observation
-from coopera.core.household import Collab, ObjectMap, SceneId
+from coopera.core.household import Act, AgentId, Collab, ObjectMap, SceneId
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Ask, Home, Reply
 from coopera.core.randomness import Address
@@ -46,7 +46,7 @@ class RobotAsk(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class HomeView:
-    """A home as it stands while the robot thinks: what can be looked at, as data."""
+    """A home as it stands while the robot thinks: what can be looked at, as data, and whether an act fits it."""
 
     scene: SceneId
     rooms: list[str]
@@ -56,11 +56,19 @@ class HomeView:
     fixed: ObjectMap
     movable: ObjectMap
     classes: Mapping[str, str]
+    states: Mapping[str, str]
+    """{object: its states in words} of what is not as at first and can be seen from the room that the robot is in."""
+    misfit: Callable[[Act], str] = field(compare=False)
+    """What stands against an act of the robot's, as a sentence; empty where it can be tried: see `Home.misfit`."""
 
     @classmethod
-    def of(cls, home: Home) -> HomeView:
-        """Look at a home."""
+    def of(cls, home: Home, robot: AgentId) -> HomeView:
+        """Look at a home as a robot that lives there."""
         fixed, movable = home.objects("fixed"), home.objects("movable")
+
+        def misfit(act: Act) -> str:
+            return home.misfit(robot, act)
+
         return cls(
             scene=home.scene,
             rooms=list(home.rooms),
@@ -68,6 +76,8 @@ class HomeView:
             fixed=fixed,
             movable=movable,
             classes={name: home.class_of(name) for name in (*fixed, *movable)},
+            states=home.states(home.room_of(robot)),
+            misfit=misfit,
         )
 
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
@@ -177,6 +187,16 @@ class RobotView:
     guesses: ReadMemories
     ask: RobotAsk
     looks: bool
+
+    @property
+    def states(self) -> dict[str, str]:
+        """{object: its states in words} of all that the robot can know not to be as at first: here, and as it was seen.
+
+        What it sees now counts more than what perception reported.
+        """
+        percept = self.observation.percept
+        known = {**(percept.states if percept else {}), **self.home.states}
+        return {name: known[name] for name in sorted(known)}
 
 
 def robots_door(ask: Ask) -> RobotAsk:

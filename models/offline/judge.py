@@ -46,7 +46,7 @@ class Judge:
         )
 
     def _judge(self, offer: Want, intention: str, activity: Activity, needed: Sequence[Want]) -> VerdictReply:
-        what = offer.thing if offer.spot is None else f"{offer.thing} on the {offer.spot}"
+        what = offer.thing if offer.spot is None else f"{offer.thing} for the {offer.spot}"
         task = self._task_served(offer, activity, needed)
         if task is not None:
             return VerdictReply(yes=True, reason=clip(f"The {what} serves whoever is about to {task.text}.", 400))

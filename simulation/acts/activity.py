@@ -1,4 +1,4 @@
-"""The place of a person's body for a motion at a piece of furniture: the seat, the spot and the heights."""
+"""A person's free-form task: what it is done with is fetched, the body takes its place at the furniture, and moves."""
 
 from __future__ import annotations
 
@@ -6,9 +6,13 @@ import math
 
 import numpy as np
 
+from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion, plain
+from coopera.simulation.acts import effects
 from coopera.simulation.acts.agents import named
-from coopera.simulation.acts.navigation import Disc, Stand, clearance, obstacle_boxes
+from coopera.simulation.acts.equipment import Workplace, bring_tool, gather, take_in_hand, undress
+from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, motion_meant
+from coopera.simulation.acts.navigation import Stand, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import (
     Ground,
     Placed,
@@ -18,67 +22,73 @@ from coopera.simulation.acts.plans import (
     Watch,
     all_clear_of,
     clear_of,
+    stand_up,
     taken_by_others,
 )
-from coopera.simulation.acts.skills import emptied
+from coopera.simulation.acts.resting import SEAT_NEAR, bed_for, fits, gap_between, seat_for, used_by_others
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk_to_deed
 from coopera.simulation.bodies.humanoid import forward
-from coopera.simulation.homes.catalogue import Rest, blocks, lying_place, seat, surfaces
+from coopera.simulation.homes.catalogue import Rest, blocks, surfaces
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.shapes.rotations import wrapped
 
-STEPPED_ON = ("treadmill", "shower", "rug")
-"""Furniture that the person acts on, not in front of."""
-_SEAT_NEAR = 0.9
-"""A seat this near to a table or an instrument serves it (metres between their rectangles)."""
-_SEAT_FAR = 5.0
-"""A seat this near serves what is only looked at or listened to."""
-_LOOKS_AT = math.radians(70)
-"""A seat serves a table only if one looks at it from there."""
+ROOM_REACH = 1.5
+"""Farthest from the furniture at which one does what takes free floor (metres)."""
 _WORKTOP = (0.45, 1.3)
 _KEYS = 0.61  # a piano's keyboard, as a share of its height
-_ROOMY = ("exercise", "move around to music", "work near the floor")
-_LIE_ON_WIDTH = ("sofa", "bench")
-_OFF = 0.1
-"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
-_SITTING, _LYING = 0.5, 0.9
-"""Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
 _STANDS, _ANY = 12, 1000
 """From how many places at a piece of furniture one chooses, and from how many where those are taken."""
-_ASIDE = 0.6
-"""How far beside the middle of a wide seat another one sits (metres)."""
 
 
 def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotion, watch: Watch | None = None) -> Plan:
-    """Plan a free-form task: go to the furniture, take its place there (sit, lie, step on, stand) and do the motion.
+    """Plan a free-form task: fetch what it takes, go to the furniture, take one's place there, and do the motion.
 
-    The thing in hand is kept if the person has it; else they take it from the magic box, and what they held from
-    there goes back.
+    What is named by the name of a thing of the home is that thing, and is fetched; any other words mean a thing from
+    the magic box. The motion changes what `coopera.core.affordances` says.
 
     Raises:
-        UnableError: With the reason why it cannot be done.
+        UnableError: With the reason why it cannot be done; where it does not fit, with what would.
     """
-    plan = Plan(state)
-    target = ground.fixed(act.target)
-    motion = ground.motions.match(act.motion, ground.search)
-    person, used = _placed(ground, plan, agent, target, motion)
-    pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
-    walk_to_deed(ground, plan, agent, Placed(*person.place, person.yaw, pose), person.spot, watch, act.in_hand)
-    spot = plan.state.agents[agent].spot
-    place = spot if person.place == person.spot else person.place
-    plan.state = emptied(plan.state, agent).out_of_box(ground.scene, agent, act.in_hand)
+    target = ground.fixed(act.target, act.target_id)
+    meant = motion_meant(ground, act.motion, target)
+    motion, done = ground.motions[meant.caption], affordances().of(meant.caption)
+    check_place(ground, motion, target)
+    check_in_hand(ground, state, act)
+    check_tools(ground, state, act, meant.caption)
+    plan = Plan(stand_still(ground, state, agent), meant=meant)
+    if done.undresses:
+        undress(ground, plan, agent, watch)
+    body, used_furniture = _placed(ground, plan, agent, target, motion)
+    hands = _hands(body, motion)
+    at = Workplace(target, body, hands)
+    if done.gathers is not None:
+        gather(ground, plan, agent, done.gathers, at, watch)
+    tool = bring_tool(ground, plan, agent, act, done, at, watch)
+    take_in_hand(ground, plan, agent, act.in_hand, watch)
     held = plan.state.agents[agent].thing
-    person = person.model_copy(update={"spot": spot, "place": place, "motion": motion.caption, "thing": held})
-    plan.steps.append(Play(agent, person, motion))
-    plan.state = plan.state.put(agent, person)
-    hands = _hands(person, motion)
-    things = [target] if used is target else [target, used]
+    pose = pose_at(motion, 0.0, Setting(body.support, body.worktop, body.posture))
+    walk_to_deed(ground, plan, agent, Placed(*body.place, body.yaw, pose), body.spot, watch, held)
+    now = plan.state.person(agent)
+    place = now.spot if body.place == body.spot else body.place
+    kept = {"spot": now.spot, "place": place, "motion": motion.caption, "thing": held, "worn": now.worn}
+    body = body.model_copy(update=kept)
+    plan.steps.append(Play(agent, body, motion))
+    plan.in_hand = held
+    plan.state = effects.after(ground, plan.state.put(agent, body), agent, done, target, tool)
+    things = [target] if used_furniture is target else [target, used_furniture]
     plan.at = [thing.name for thing in sorted(things, key=lambda thing: round(thing.bounds.distance(*hands), 3))]
     return plan
+
+
+def stand_still(ground: Ground, state: HomeState, agent: AgentId) -> HomeState:
+    """The home as a person leaves off, still where they are: what they had switched on for it goes off."""
+    person = state.person(agent)
+    off = stand_up(ground, state, agent, person.spot)
+    return off.put(agent, person.model_copy(update={"switched": ()}))
 
 
 def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan:
@@ -88,7 +98,7 @@ def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan
     pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(agent, person, motion))
-    plan.at = [person.at] if person.at is not None else []
+    plan.at, plan.in_hand = [person.at] if person.at is not None else [], person.thing
     return plan
 
 
@@ -104,20 +114,33 @@ def _hands(person: PersonState, motion: Motion) -> Point:
 def _placed(
     ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion
 ) -> tuple[PersonState, SceneObject]:
-    """Choose where the body goes, and the furniture that it uses for that."""
-    used = _used_by_others(plan.state, agent)
-    if motion.posture == "sit" and (found := _seat_for(ground, target, used)) is not None:
+    """Choose where the body goes, and the furniture that it uses for that.
+
+    Raises:
+        UnableError: If the seat or the bed is taken, or there is no place near enough.
+    """
+    used = used_by_others(plan.state, agent)
+    if motion.posture == "sit" and target.cls != "rug":
+        found = seat_for(ground, target, used)
+        if found is None and not affordances().of(motion.caption).seated:
+            return _upright(ground, plan, agent, target, motion), target
+        if found is None:
+            raise UnableError(f"somebody sits at the {plain(target.name)} already")
         chair, rest = found
-        worktop = _worktop(target) if chair is not target and _gap(chair, target) <= _SEAT_NEAR else None
+        near = chair is not target and gap_between(chair, target) <= SEAT_NEAR
         spot = _stand(ground, plan, agent, chair, (rest.x, rest.y))
-        return _resting(rest, spot, target, worktop, "sit"), chair
-    if motion.posture == "lie" and (found := _bed_for(ground, target, used)) is not None:
-        bed, rest = found
+        return _resting(rest, spot, target, _worktop(target) if near else None, "sit"), chair
+    if motion.posture == "lie" and target.cls != "rug":
+        lying = bed_for(target, used)
+        if lying is None:
+            raise UnableError(f"somebody is on the {plain(target.name)} already")
+        bed, rest = lying
         spot = _stand(ground, plan, agent, bed, None)
         return _resting(rest, spot, target, None, "lie"), bed
-    if motion.posture in ("floor", "lie"):
+    if motion.posture != "stand":
         x, y, yaw = _open_floor(ground, plan, agent, target)
-        return PersonState(spot=(x, y), place=(x, y), yaw=yaw, posture=motion.posture, at=target.name), target
+        posture = "lie" if motion.posture == "lie" else "floor"
+        return PersonState(spot=(x, y), place=(x, y), yaw=yaw, posture=posture, at=target.name), target
     return _upright(ground, plan, agent, target, motion), target
 
 
@@ -133,73 +156,6 @@ def _resting(rest: Rest, spot: Stand, target: SceneObject, worktop: float | None
             "at": target.name,
         }
     )
-
-
-def _gap(one: SceneObject, two: SceneObject) -> float:
-    a, b = one.bounds, two.bounds
-    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
-
-
-def _used_by_others(state: HomeState, agent: AgentId) -> list[Disc]:
-    """The furniture that other people are on: the places of their bodies, and how near to them nobody else fits."""
-    people = [state.person(one) for one in state.ids("person") if one != agent]
-    on_it = [person for person in people if math.dist(person.spot, person.place) > _OFF]
-    return [Disc(*person.place, _LYING if person.posture == "lie" else _SITTING) for person in on_it]
-
-
-def _fits(place: Point, used: list[Disc]) -> bool:
-    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius for disc in used)
-
-
-def _seat_on(thing: SceneObject, used: list[Disc]) -> Rest | None:
-    """Where one sits on a thing: in its middle, or beside who sits there; None where one does not, or it is taken."""
-    middle = seat(thing)
-    if middle is None:
-        return None
-    cos, sin = math.cos(thing.yaw), math.sin(thing.yaw)
-    for aside in (0.0, _ASIDE, -_ASIDE):
-        rest = middle._replace(x=middle.x + aside * cos, y=middle.y + aside * sin)
-        if (aside == 0.0 or thing.size[0] >= 2 * _ASIDE + _SITTING) and _fits((rest.x, rest.y), used):
-            return rest
-    return None
-
-
-def _seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
-    """The target itself where one sits on it; else the seat of its room that is near and looks at it best."""
-    own = _seat_on(target, used)
-    if own is not None:
-        return target, own
-    far = _SEAT_FAR if target.cls in ("television", "tv_stand", "fireplace", "curtain", "rug") else _SEAT_NEAR
-    found: list[tuple[float, str, SceneObject, Rest]] = []
-    for thing in ground.scene.fixed:
-        rest = _seat_on(thing, used)
-        if rest is None or thing.room != target.room or thing.cls in ("toilet", "bathtub"):
-            continue
-        gap = _gap(thing, target)
-        if gap <= far:
-            off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))
-            if off <= _LOOKS_AT or far == _SEAT_FAR:
-                found.append((round(gap + 0.6 * off, 6), thing.name, thing, rest))
-    if not found:
-        return None
-    _, _, chair, rest = min(found, key=lambda row: row[:2])
-    return chair, rest
-
-
-def _bed_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
-    """The target where one lies on it (along a sofa, too); else a bed of the same room."""
-    beds = [thing for thing in ground.scene.fixed if thing.room == target.room and thing.cls == "bed"]
-    sofas = [thing for thing in ground.scene.fixed if thing.room == target.room and thing.cls == "sofa"]
-    for thing in (target, *beds, *sofas):
-        if any(thing.bounds.distance(disc.x, disc.y) <= 0 for disc in used):
-            continue
-        rest = lying_place(thing)
-        if rest is not None:
-            return thing, rest
-        sitting = seat(thing)
-        if sitting is not None and thing.cls in _LIE_ON_WIDTH and thing.size[0] > 1.5:
-            return thing, sitting._replace(heading=thing.yaw)
-    return None
 
 
 def _worktop(target: SceneObject) -> float | None:
@@ -237,7 +193,7 @@ def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near
 def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
     """Standing at the target, on it where one steps on it, or near it with elbow room for large motions."""
     worktop = _worktop(target)
-    if target.cls in STEPPED_ON and _fits(target.xy, _used_by_others(plan.state, agent)):
+    if target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
         stand = _stand(ground, plan, agent, target, target.xy)
         yaw = target.facing + (math.pi if target.cls == "treadmill" else 0.0)
         height = target.position[2] + min(surfaces(target)[0].z, 0.2)
@@ -245,7 +201,7 @@ def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, mo
         place = target.xy if blocks(target) else spot
         support = height if blocks(target) else 0.0
         return PersonState(spot=spot, place=place, yaw=wrapped(yaw), support=support, at=target.name)
-    if motion.cls in _ROOMY:
+    if affordances().of(motion.caption).roomy:
         x, y, yaw = _open_floor(ground, plan, agent, target)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, worktop=worktop, at=target.name)
     stand = _stand(ground, plan, agent, target, None)
@@ -264,7 +220,11 @@ def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject)
     room = np.minimum(ground.navigator.clearance_in(target.room), 0.9)
     score = room - 0.25 * np.maximum(gap - 0.5, 0.0)
     taken = taken_by_others(plan.state, agent)
-    best = int(np.where(all_clear_of(cells, taken), score, score - 5.0).argmax())
+    on_it = (gap <= 0.0) & (not blocks(target))
+    fits_there = all_clear_of(cells, taken) & (on_it if on_it.any() else gap <= ROOM_REACH)
+    if not fits_there.any():
+        raise UnableError(f"{named(agent)} finds no free floor at the {plain(target.name)}")
+    best = int(np.where(fits_there, score, -np.inf).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])
     headings = np.arange(16) * math.pi / 8
     along = np.array((-0.9, -0.5, 0.5, 0.8))

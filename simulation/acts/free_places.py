@@ -1,4 +1,4 @@
-"""Where a thing can be put down now: free places on a piece of furniture, nothing overlapping, nothing floating."""
+"""Where a thing can be put down now: free places on or inside a receptacle, nothing overlapping, nothing floating."""
 
 from __future__ import annotations
 
@@ -6,27 +6,33 @@ import math
 
 import numpy as np
 
+from coopera.core.affordances import Relation
 from coopera.core.household import plain
 from coopera.simulation.acts.state import HomeState
-from coopera.simulation.homes.catalogue import surfaces
+from coopera.simulation.homes.catalogue import interiors, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.homes.spots import Spot, furniture_on, spots, taken_at
+from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at
 
 
-def free_places(scene: Scene, state: HomeState, thing: SceneObject, receptacle: SceneObject) -> list[Spot]:
-    """Free places for a thing on a piece of furniture: usual surface first, then those nearest to its front."""
+def free_places(
+    scene: Scene, state: HomeState, thing: SceneObject, receptacle: SceneObject, relation: Relation = "on"
+) -> list[Spot]:
+    """Free places for a thing on or inside a receptacle: usual surface first, then those nearest to its front.
+
+    Furniture is a receptacle, and so is a thing that holds others; that one is where it stands now.
+    """
+    inside = relation == "inside"
+    receptacle = where_it_is(state, receptacle)
     around = receptacle.bounds.grown(max(thing.size[:2]))  # a long thing hangs over the edge
-    taken = furniture_on(scene, receptacle)
-    for other in scene.movable:
-        where = state.thing(other)
-        space = taken_at(Spot(*where.position, where.yaw), other.size)
-        if other.name != thing.name and space.bounds.overlaps(around):
-            taken.append(space)
-    free = spots(receptacle, thing.size, taken)
+    taken = [] if inside else furniture_on(scene, receptacle)
+    taken += [_space(state, other) for other in _beside(scene, state, thing, receptacle, inside)]
+    taken = [space for space in taken if inside or space.bounds.overlaps(around)]
+    free = spots(receptacle, thing.size, taken, inside=inside)
     if not free:
         return []
     x, y, z, _ = np.array(free).T
-    levels = np.round([receptacle.position[2] + surface.z for surface in surfaces(receptacle)], 3)
+    rows = interiors(receptacle) if inside else surfaces(receptacle)
+    levels = np.round([receptacle.position[2] + surface.z for surface in rows], 3)
     level = np.abs(z[:, None] - levels).argmin(axis=1)
     cos, sin = math.cos(receptacle.yaw), math.sin(receptacle.yaw)
     dx, dy = x - receptacle.position[0], y - receptacle.position[1]
@@ -34,6 +40,33 @@ def free_places(scene: Scene, state: HomeState, thing: SceneObject, receptacle: 
     return [free[i] for i in np.lexsort((aside, np.abs(aside), -ahead, level))]
 
 
-def full(receptacle: SceneObject, thing: SceneObject) -> str:
+def where_it_is(state: HomeState, thing: SceneObject) -> SceneObject:
+    """An object as it stands now: furniture as it is, a thing at its present place."""
+    if thing.fixed:
+        return thing
+    now = state.thing(thing)
+    return thing.model_copy(update={"position": now.position, "yaw": now.yaw})
+
+
+def _beside(
+    scene: Scene, state: HomeState, thing: SceneObject, receptacle: SceneObject, inside: bool
+) -> list[SceneObject]:
+    """The things that may be in the way: what is inside with it, or what is not inside of anything."""
+    others = [other for other in state.objects(scene) if other.name != thing.name]
+    if inside:
+        return [other for other in others if state.thing(other).inside == receptacle.name]
+    return [other for other in others if state.thing(other).inside is None and state.bearer(other.name) is None]
+
+
+def _space(state: HomeState, thing: SceneObject) -> Taken:
+    where = state.thing(thing)
+    return taken_at(Spot(*where.position, where.yaw), thing.size)
+
+
+def full(receptacle: SceneObject, thing: SceneObject, relation: Relation = "on") -> str:
     """Say that a thing has no place there."""
-    return f"there is no free place for the {plain(thing.name)} on the {plain(receptacle.name)}"
+    return f"there is no free place for the {plain(thing.name)} {_where(relation)} the {plain(receptacle.name)}"
+
+
+def _where(relation: Relation) -> str:
+    return "on" if relation == "on" else "inside"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from coopera.core.affordances import affordances
 from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, Stand
@@ -18,7 +19,7 @@ from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.motions.library import Library, Motion
+from coopera.simulation.motions.library import Library, Meant, Motion, Rank
 from coopera.simulation.shapes.rotations import Array
 
 APART = 0.60
@@ -74,7 +75,7 @@ class Open:
 
 @dataclass(frozen=True, slots=True)
 class Give:
-    """A robot stands before a person and hands over a thing from the magic box at a point."""
+    """A robot stands before a person and hands over a thing at a point; `back`: it takes the thing instead."""
 
     agent: AgentId
     receiver: AgentId
@@ -82,6 +83,7 @@ class Give:
     posture: Array
     point: tuple[float, float, float]
     thing: str
+    back: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,11 +120,23 @@ class Placed(NamedTuple):
     pose: Array
 
 
+class Mark(NamedTuple):
+    """How far a plan had got."""
+
+    state: HomeState
+    steps: int
+    metres: float
+    at: int
+    fetched: int
+    opened: int
+
+
 @dataclass(slots=True)
 class Plan:
     """Steps in order, the home afterwards, the distance the acting agent goes, and the furniture it acts at.
 
-    `blocked` names what last kept the robot's arm from a posture that it could otherwise have taken.
+    `blocked` names what last kept the robot's arm from a posture that it could otherwise have taken. `in_hand` is what
+    the act is done with; `fetched` and `opened` are what that took; `meant` is the motion of a free-form task.
     """
 
     state: HomeState
@@ -130,15 +144,19 @@ class Plan:
     metres: float = 0.0
     at: list[str] = field(default_factory=list)
     blocked: str | None = None
+    in_hand: str | None = None
+    fetched: list[str] = field(default_factory=list)
+    opened: list[str] = field(default_factory=list)
+    meant: Meant | None = None
 
-    def mark(self) -> tuple[HomeState, int, float]:
+    def mark(self) -> Mark:
         """Remember where the plan stands."""
-        return self.state, len(self.steps), self.metres
+        return Mark(self.state, len(self.steps), self.metres, len(self.at), len(self.fetched), len(self.opened))
 
-    def rewind(self, mark: tuple[HomeState, int, float]) -> None:
+    def rewind(self, mark: Mark) -> None:
         """Forget all that was planned since a mark."""
-        self.state, count, self.metres = mark
-        del self.steps[count:]
+        self.state, self.metres = mark.state, mark.metres
+        del self.steps[mark.steps :], self.at[mark.at :], self.fetched[mark.fetched :], self.opened[mark.opened :]
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,24 +169,27 @@ class Ground:
     people: tuple[AgentId, ...]
     robots: Mapping[AgentId, RobotBody]
     room: Elbowroom
-    search: Callable[[str], str] | None = None
+    rank: Rank | None = None
 
-    def fixed(self, name: str) -> SceneObject:
-        """The piece of furniture of that name."""
-        found = self.scene.object(name)
-        if found is None:
-            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+    def fixed(self, name: str, number: int | None = None) -> SceneObject:
+        """The piece of furniture of that name, and of that id if one is said."""
+        found = _known(self.scene.object(name), name, number)
         if not found.fixed:
             raise UnableError(f"the {plain(name)} is no piece of furniture")
         return found
 
-    def movable(self, name: str) -> SceneObject:
-        """The movable thing of that name."""
-        found = self.scene.object(name)
-        if found is None:
-            raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+    def movable(self, state: HomeState, name: str, number: int | None = None) -> SceneObject:
+        """The movable thing of that name, and of that id if one is said; it may be out of the magic box."""
+        found = _known(state.find(self.scene, name), name, number)
         if found.fixed:
             raise UnableError(f"the {plain(name)} cannot be carried")
+        return found
+
+    def receptacle(self, state: HomeState, name: str, number: int | None = None) -> SceneObject:
+        """The furniture, or the thing that holds others, of that name."""
+        found = _known(state.find(self.scene, name), name, number)
+        if not found.fixed and not affordances().contains(found.cls):
+            raise UnableError(f"the {plain(name)} is no piece of furniture")
         return found
 
 
@@ -204,6 +225,23 @@ def all_clear_of(places: Array, taken: list[Disc]) -> NDArray[np.bool_]:
     return clear
 
 
-def stand_up(person: PersonState, spot: Point) -> PersonState:
-    """The person standing about at a spot, with what they hold."""
-    return PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing)
+def _known(found: SceneObject | None, name: str, number: int | None) -> SceneObject:
+    if found is None:
+        raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+    if number is not None and found.id != number:
+        raise UnableError(f"{name} has the id {found.id}, not {number}")
+    return found
+
+
+def stand_up(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> HomeState:
+    """The home with a person standing about at a spot, with what they hold and wear.
+
+    What they had switched on for what they were doing goes off.
+    """
+    person = state.person(agent)
+    for name in person.switched:
+        thing = state.find(ground.scene, name)
+        if thing is not None:
+            state = state.with_condition(thing, {"powered": False})
+    risen = PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing, worn=person.worn)
+    return state.put(agent, risen)

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from coopera.core.affordances import Relation
 from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.agents import named
+from coopera.simulation.acts.fitting import check_receptacle
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, taken_by_others
-from coopera.simulation.acts.skills import put, take
+from coopera.simulation.acts.skills import There, put, take
 from coopera.simulation.acts.state import HomeState
 from coopera.simulation.acts.walking import walk
-from coopera.simulation.homes.scene import SceneObject
 
 
 class Result(NamedTuple):
@@ -36,7 +37,7 @@ def go_to(ground: Ground, state: HomeState, agent: AgentId, target: str) -> Plan
         middle = ground.navigator.middle_of(room.name)
         goals = [middle] if middle is not None else []
     else:
-        thing = ground.scene.object(target)
+        thing = state.find(ground.scene, target)
         if thing is None:
             raise UnableError(f"there is no room and no object {target!r} in this home")
         where = state.thing(thing)
@@ -57,36 +58,30 @@ def go_to(ground: Ground, state: HomeState, agent: AgentId, target: str) -> Plan
 
 
 def pick(ground: Ground, state: HomeState, agent: AgentId, thing: str) -> Plan:
-    """Plan to go to a thing and take it; it is then in the agent's hand.
+    """Plan to go to a thing and take it; it is then in the agent's hand. What another one holds is asked for.
 
     Raises:
         UnableError: If the hand is full or the thing is out of reach.
     """
-    held = state.agents[agent].thing
+    wanted, held = ground.movable(state, thing), state.agents[agent].thing
     if held is not None:
         raise UnableError(f"{named(agent)} already holds the {plain(held)}")
-    plan, wanted = Plan(state), ground.movable(thing)
+    plan = Plan(state)
     take(ground, plan, agent, wanted)
-    plan.state = plan.state.with_held(agent, wanted.name)
     return plan
 
 
-def place(ground: Ground, state: HomeState, agent: AgentId, receptacle: str) -> Plan:
-    """Plan to carry what is in the agent's hand to a piece of furniture and put it down there.
+def place(ground: Ground, state: HomeState, agent: AgentId, receptacle: str, relation: Relation = "on") -> Plan:
+    """Plan to carry what is in the agent's hand to furniture, or a thing that holds others, and put it down there.
 
     Raises:
         UnableError: If the hand is empty, or the furniture full or out of reach.
     """
-    plan, thing = Plan(state), _own(ground, state, agent)
-    put(ground, plan, agent, thing, ground.fixed(receptacle))
-    return plan
-
-
-def _own(ground: Ground, state: HomeState, agent: AgentId) -> SceneObject:
     held = state.agents[agent].thing
     if held is None:
         raise UnableError(f"{named(agent)} holds nothing")
-    thing = ground.scene.object(held)
-    if thing is None:
-        raise UnableError(f"the {plain(held)} is from the magic box, and can only be used or handed over")
-    return thing
+    plan, thing, there = Plan(state), ground.movable(state, held), ground.receptacle(state, receptacle)
+    how: Relation = relation if there.fixed else "inside"
+    check_receptacle(ground, thing, there, how)
+    put(ground, plan, agent, thing, There(there, how))
+    return plan

@@ -1,4 +1,4 @@
-"""What people and robots can do: take a thing, put it down, hand it over.
+"""What people and robots do with things: take one, put it down, open what it is in, put one away.
 
 A skill is planned completely before anything changes: the plan holds the steps (which a recording plays) and the
 home as it will be afterwards. What cannot be planned raises `UnableError`, and the home stays as it was.
@@ -7,192 +7,336 @@ home as it will be afterwards. What cannot be planned raises `UnableError`, and 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from itertools import islice
+from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
-from coopera.core.household import HUMAN, AgentId, HandOver, PickPlace, plain
+from coopera.core.affordances import Relation, affordances
+from coopera.core.household import AgentId, HandOver, PickPlace, plain
 from coopera.simulation.acts.agents import named
-from coopera.simulation.acts.free_places import free_places, full
+from coopera.simulation.acts.fitting import check_receptacle
+from coopera.simulation.acts.free_places import free_places, full, where_it_is
+from coopera.simulation.acts.handing import ask_for, give, receiver_of
+from coopera.simulation.acts.handling import FAR_REACH, Errand, go_to_reach, grip, why
 from coopera.simulation.acts.home_check import FLOOR_REACH
-from coopera.simulation.acts.navigation import RADIUS, REACH, Stand
-from coopera.simulation.acts.plans import (
-    APART,
-    Give,
-    Ground,
-    Handle,
-    Placed,
-    Plan,
-    UnableError,
-    Watch,
-    clear_of,
-    taken_by_others,
-)
-from coopera.simulation.acts.state import HomeState, PersonState, ThingState
-from coopera.simulation.acts.walking import walk, walk_to_deed
-from coopera.simulation.bodies.humanoid_reach import reaching
-from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.acts.navigation import REACH, Stand
+from coopera.simulation.acts.plans import Ground, Handle, Open, Plan, UnableError, Watch
+from coopera.simulation.acts.state import HomeState, ThingState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
-from coopera.simulation.shapes.rotations import Array, about_z
+from coopera.simulation.homes.spots import Spot
+from coopera.simulation.shapes.rotations import Array
 
-_FAR_REACH = 1.0
-_TRIES = 24
-_POSTURES = 8
-HANDING = (APART, 1.25)
-"""Nearest and farthest distance from the person's middle at which the robot hands over a thing."""
-_COMFORTABLE = 0.85
-
-
-class Errand(NamedTuple):
-    """A point that a hand should get to, the furniture it lies on, what is carried there, and how often to try.
-
-    `reaches`: how far from the point one may stand (metres), the preferred distance first.
-    """
-
-    point: tuple[float, float, float]
-    on: SceneObject | None
-    carries: str | None = None
-    tries: int = _TRIES
-    reaches: tuple[float, ...] = (REACH, _FAR_REACH)
-
-
-def to_body(stand: Stand, point: tuple[float, float, float]) -> Array:
-    """A point of the world in the frame of a body that stands there."""
-    cos, sin = math.cos(stand.yaw), math.sin(stand.yaw)
-    dx, dy = point[0] - stand.x, point[1] - stand.y
-    return np.array((dx * cos + dy * sin, dy * cos - dx * sin, point[2]))
-
-
-def posture_for(ground: Ground, plan: Plan, agent: AgentId, stand: Stand, errand: Errand) -> Array | None:
-    """How an agent that stands there gets its hand to a point of the world; None if it cannot.
-
-    A robot's arm must keep clear of furniture and walls; what it would hit is noted in the plan.
-    """
-    target = to_body(stand, errand.point)
-    body = ground.robots.get(agent)
-    return reaching(target) if body is None else _arm_posture(ground, plan, body, stand, target, errand.on)
-
-
-def _arm_posture(
-    ground: Ground, plan: Plan, body: RobotBody, stand: Stand, target: Array, on: SceneObject | None
-) -> Array | None:
-    """A robot's first posture that reaches a point of its body frame and keeps the arm clear."""
-    heading, place = about_z(stand.yaw).T, np.array((stand.x, stand.y, 0.0))
-    for posture in islice(body.reach(target), _POSTURES):
-        hit = ground.room.hit(body.arm(posture) @ heading + place, target @ heading + place, on)
-        if hit is None:
-            return posture
-        plan.blocked = hit
-    return None
-
-
-def grip(thing: SceneObject, position: tuple[float, float, float]) -> tuple[float, float, float]:
-    """Where a thing that stands at a position is held."""
-    return position[0], position[1], position[2] + max(0.6 * thing.size[2], 0.02)
-
-
-def stands_for(ground: Ground, plan: Plan, agent: AgentId, errand: Errand) -> Iterator[Stand]:
-    """Yield places to stand at to reach a point: clear of the others first, near ones before stretched ones."""
-    taken = taken_by_others(plan.state, agent)
-    start = plan.state.agents[agent].spot
-    later: list[Stand] = []
-    on, point = errand.on, errand.point[:2]
-    for reach in errand.reaches:
-        found = (
-            ground.navigator.approach(point, start, reach=reach)
-            if on is None
-            else ground.navigator.approach(on, start, point=point, reach=reach)
-        )
-        for stand in found:
-            if clear_of((stand.x, stand.y), taken):
-                yield stand
-            else:
-                later.append(stand)
-    yield from later
-
-
-def go_to_reach(
-    ground: Ground, plan: Plan, agent: AgentId, errand: Errand, watch: Watch | None = None
-) -> tuple[Stand, Array] | None:
-    """Add a walk to where an agent's hand gets to a point; with `watch`, a robot goes first to see the act.
-
-    Returns:
-        The place, and the posture in which the point is reached; None if there is no such place.
-    """
-    for tries, stand in enumerate(stands_for(ground, plan, agent, errand)):
-        if tries >= errand.tries:
-            break
-        posture = posture_for(ground, plan, agent, stand, errand)
-        if posture is None:
-            continue
-        mark = plan.mark()
-        try:
-            if agent in ground.people:
-                deed = Placed(stand.x, stand.y, stand.yaw, posture)
-                walk_to_deed(ground, plan, agent, deed, (stand.x, stand.y), watch, errand.carries)
-            else:
-                walk(ground, plan, agent, (stand.x, stand.y), carries=errand.carries)
-        except UnableError:
-            plan.rewind(mark)
-            continue
-        plan.state = plan.state.with_agent(agent, yaw=stand.yaw)
-        return stand, posture
-    return None
+_BESIDE = 0.35
+_PLACES = 8
+"""How many of the free places are tried, spread over all of them."""
+_PUT_AWAY = 6
+"""On how many pieces of furniture one tries to put away what is in hand."""
 
 
 def take(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: Watch | None = None) -> None:
-    """Add to a plan: go to a thing and take it.
+    """Add to a plan: go to a thing and take it in hand, which must be empty unless it is there already.
+
+    What it is in is opened for it and closed again. What another one holds is asked for; what one wears is taken off.
 
     Raises:
-        UnableError: If there is no place to stand, or the arm gets there from none, or another one holds the thing.
+        UnableError: If there is no place to stand, or the arm gets there from none, or another one will not give it.
     """
-    holder = plan.state.holder(thing.name)
-    if holder is not None and holder != agent:
-        raise UnableError(f"{named(holder)} holds the {plain(thing.name)}")
-    where = plan.state.thing(thing)
-    carrier = ground.scene.object(where.on) if where.on else None
+    state = plan.state
+    if state.agents[agent].thing == thing.name:
+        return
+    _refuse_full_hand(ground, state, agent)
+    if thing.name in state.agents[agent].worn:
+        plan.state = state.with_held(agent, thing.name)
+        return
+    holder = state.bearer(thing.name)
+    if holder is not None:
+        ask_for(ground, plan, agent, holder, thing)
+        return
+    where = state.thing(thing)
+    container = _container(ground, state, where)
+    if container is not None and (bearer := state.bearer(container.name)) is not None:
+        raise UnableError(f"the {plain(thing.name)} is inside the {plain(container.name)}, which {named(bearer)} has")
+    carrier = _carrier(ground, state, container if container is not None else thing)
     found = go_to_reach(ground, plan, agent, Errand(grip(thing, where.position), carrier), watch)
     if found is None:
-        raise UnableError(f"{named(agent)} cannot reach the {plain(thing.name)}{_why(plan)}")
-    plan.steps.append(Handle(agent, *found, thing.name, None))
+        raise UnableError(f"{named(agent)} cannot reach the {plain(thing.name)}{why(plan)}")
+
+    def grasp() -> None:
+        plan.steps.append(Handle(agent, *found, thing.name, None))
+        plan.state = plan.state.with_held(agent, thing.name)
+
+    _opening(plan, agent, container, found, grasp)
     if carrier is not None:
         plan.at.append(carrier.name)
 
 
+class There(NamedTuple):
+    """Where a thing is to be put: on or inside a receptacle, furniture or a thing that holds others.
+
+    `near` is a point on the floor plan to which it should come as near as there is a place; `apart` is where a body is
+    about to sit or lie, so that nothing is put there.
+    """
+
+    receptacle: SceneObject
+    relation: Relation = "on"
+    near: Point | None = None
+    apart: Point | None = None
+
+
 def put(
-    ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, receptacle: SceneObject, watch: Watch | None = None
+    ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, there: There, watch: Watch | None = None
 ) -> None:
-    """Add to a plan: carry a thing in hand to a piece of furniture and put it down there.
+    """Add to a plan: carry a thing in hand somewhere and put it down; what is closed is opened and closed again.
 
     Raises:
-        UnableError: If the furniture is full or cannot be reached.
+        UnableError: If it is full or cannot be reached.
     """
+    receptacle, relation = there.receptacle, there.relation
     places = [
         place
-        for place in free_places(ground.scene, plan.state, thing, receptacle)
+        for place in free_places(ground.scene, plan.state, thing, receptacle, relation)
         if not _sat_upon(plan.state, receptacle, place[:2])
+        and (there.apart is None or math.dist(place[:2], there.apart) >= _BESIDE)
     ]
     if not places:
-        raise UnableError(full(receptacle, thing))
-    for far in (False, True):  # first where the other one can take it, too
-        for place in places[:: max(1, len(places) // 8)]:
-            reach = _FAR_REACH if far else FLOOR_REACH if place.z < 0.1 else REACH
-            errand = Errand(grip(thing, place[:3]), receptacle, thing.name, tries=8, reaches=(reach,))
-            found = go_to_reach(ground, plan, agent, errand, watch)
-            if found is not None:
-                there = ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
-                plan.steps.append(Handle(agent, *found, thing.name, there))
-                plan.state = plan.state.with_thing(thing.name, there)
-                plan.at.append(receptacle.name)
-                return
-    raise UnableError(f"{named(agent)} cannot reach a free place on the {plain(receptacle.name)}{_why(plan)}")
+        raise UnableError(full(receptacle, thing, relation))
+    container = receptacle if relation == "inside" else None
+    carrier = _carrier(ground, plan.state, receptacle)
+    for place, reach in _tried(places, there.near):
+        errand = Errand(grip(thing, place[:3]), carrier, thing.name, tries=8, reaches=(reach,))
+        found = go_to_reach(ground, plan, agent, errand, watch)
+        if found is not None:
+            lies = _laid(plan.state, receptacle, place, relation)
+
+            def release(found: tuple[Stand, Array] = found, place: Spot = place, lies: ThingState = lies) -> None:
+                seen = ThingState(position=place[:3], yaw=place.yaw, on=lies.on, inside=lies.inside)
+                plan.steps.append(Handle(agent, *found, thing.name, seen))
+                plan.state = _known_place(plan.state, receptacle).with_thing(thing.name, lies)
+
+            _opening(plan, agent, container, found, release)
+            plan.at.append(receptacle.name)
+            return
+    where = "inside" if relation == "inside" else "on"
+    raise UnableError(f"{named(agent)} cannot reach a free place {where} the {plain(receptacle.name)}{why(plan)}")
 
 
-def _why(plan: Plan) -> str:
-    return f": its arm would hit the {plain(plan.blocked)}" if plan.blocked else ""
+def pick_place(ground: Ground, state: HomeState, agent: AgentId, act: PickPlace, watch: Watch | None = None) -> Plan:
+    """Plan a pick-and-place: go, take, go, put. What a hand has from the magic box goes back there first.
+
+    Another thing that a person has in hand is put away first; a robot must have put it down itself.
+
+    Raises:
+        UnableError: With the reason why it cannot be done.
+    """
+    thing = ground.movable(state, act.object, act.object_id)
+    receptacle = ground.receptacle(state, act.receptacle, act.receptacle_id)
+    relation: Relation = act.relation if receptacle.fixed else "inside"
+    check_receptacle(ground, thing, receptacle, relation)
+    plan = Plan(state)
+    empty_hand(ground, plan, agent, watch, keep=thing.name)
+    plan.in_hand = thing.name
+    take(ground, plan, agent, thing, watch)
+    put(ground, plan, agent, thing, There(receptacle, relation), watch)
+    plan.at.reverse()
+    return plan
+
+
+def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -> Plan:
+    """Plan a hand-over: the robot has, fetches or gets from the magic box a thing, goes to a person, and gives it.
+
+    The name of a thing of the home means that thing, and any other words one from the box. What the person held from
+    the box goes back into it.
+
+    Raises:
+        UnableError: If the thing or the person cannot be reached, it is not clear who that is, or a hand is full.
+    """
+    receiver = receiver_of(state, act)
+    wanted = state.find(ground.scene, act.object)
+    if wanted is not None and wanted.fixed:
+        raise UnableError(f"the {plain(act.object)} cannot be carried")
+    has = state.agents[receiver].thing
+    if has is not None and (has == act.object or has not in state.box):
+        raise UnableError(f"{named(receiver)} has the {plain(has)} in hand")
+    plan = Plan(state)
+    held = state.agents[agent].thing
+    ready = held in state.box and wanted is None and state.box[held].text == act.object
+    empty_hand(ground, plan, agent, keep=held if ready else act.object)
+    if wanted is not None:
+        take(ground, plan, agent, wanted)
+    elif not ready:
+        plan.state = plan.state.out_of_box(ground.scene, agent, act.object)
+    if has is not None:
+        plan.state = plan.state.into_box(has)
+    plan.in_hand = str(plan.state.agents[agent].thing)
+    give(ground, plan, agent, receiver, plan.in_hand)
+    return plan
+
+
+def set_open(
+    ground: Ground, state: HomeState, agent: AgentId, name: str, *, opens: bool, watch: Watch | None = None
+) -> Plan:
+    """Plan to go to furniture or a thing and open or close it; what is so already stays so.
+
+    Raises:
+        UnableError: If it has no door, drawer or lid, or cannot be reached, or the agent's hand is full.
+    """
+    plan = Plan(state)
+    thing = _with_state(ground, state, name, "open", "opened or closed")
+    if state.condition(thing)["open"] != opens:
+        found = _reach(ground, plan, agent, thing, watch)
+        _swing(plan, agent, thing, found, opens=opens)
+    return plan
+
+
+def switch(
+    ground: Ground, state: HomeState, agent: AgentId, name: str, *, on: bool, watch: Watch | None = None
+) -> Plan:
+    """Plan to go to furniture or a thing and switch it on or off; what is so already stays so.
+
+    Raises:
+        UnableError: If it cannot be switched, or cannot be reached, or the agent's hand is full.
+    """
+    plan = Plan(state)
+    thing = _with_state(ground, state, name, "powered", "switched on or off")
+    if state.condition(thing)["powered"] != on:
+        _reach(ground, plan, agent, thing, watch)
+        plan.state = plan.state.with_condition(thing, {"powered": on})
+    return plan
+
+
+def empty_hand(
+    ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = None, *, keep: str | None = None
+) -> None:
+    """Add to a plan that a hand becomes empty, unless it has `keep` (a thing's name) in it.
+
+    What came out of the magic box goes back into it. A person puts another thing away; a robot, which others plan for,
+    must be told where to.
+
+    Raises:
+        UnableError: If a robot holds a thing of the home, or there is no place to put it.
+    """
+    held = plan.state.agents[agent].thing
+    if held is None or held == keep:
+        return
+    if held in plan.state.box:
+        plan.state = plan.state.into_box(held)
+    elif agent in ground.robots:
+        raise UnableError(f"{named(agent)} must first put down the {plain(held)}")
+    else:
+        put_away(ground, plan, agent, watch)
+
+
+def put_away(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = None) -> None:
+    """Add to a plan: put what is in hand on the nearest furniture that has a place for it.
+
+    Raises:
+        UnableError: If there is none.
+    """
+    thing = ground.movable(plan.state, str(plan.state.agents[agent].thing))
+    x, y = plan.state.agents[agent].place
+    room = ground.scene.room_at(x, y).name
+    near = sorted(ground.scene.fixed, key=lambda one: (one.room != room, round(one.bounds.distance(x, y), 3), one.name))
+    for furniture in near[:_PUT_AWAY]:
+        mark = plan.mark()
+        try:
+            put(ground, plan, agent, thing, There(furniture), watch)
+        except UnableError:
+            plan.rewind(mark)
+            continue
+        return
+    raise UnableError(f"{named(agent)} finds no place nearby to put down the {plain(thing.name)}")
+
+
+def _refuse_full_hand(ground: Ground, state: HomeState, agent: AgentId) -> None:
+    held = state.agents[agent].thing
+    if held is not None:
+        thing = state.find(ground.scene, held)
+        raise UnableError(f"{named(agent)} already holds the {plain(thing.name if thing is not None else held)}")
+
+
+def _tried(places: list[Spot], near: Point | None) -> list[tuple[Spot, float]]:
+    """Places in the order in which they are tried, each with how far it may be from the body.
+
+    First those within everybody's reach, then those that one has to stretch for.
+    """
+    if near is not None:
+        places = sorted(places, key=lambda place: round(math.dist(place[:2], near), 3))[: 2 * _PLACES : 2]
+    else:
+        places = places[:: max(1, len(places) // _PLACES)]
+    close = [(place, FLOOR_REACH if place.z < 0.1 else REACH) for place in places]
+    return [*close, *((place, FAR_REACH) for place in places)]
+
+
+def _carrier(ground: Ground, state: HomeState, thing: SceneObject) -> SceneObject | None:
+    """The furniture that an object is, or stands on; None for what stands on the floor."""
+    if thing.fixed:
+        return thing
+    return ground.scene.object(state.thing(thing).on or "")
+
+
+def _container(ground: Ground, state: HomeState, where: ThingState) -> SceneObject | None:
+    return None if where.inside is None else state.find(ground.scene, where.inside)
+
+
+def _opening(
+    plan: Plan, agent: AgentId, container: SceneObject | None, found: tuple[Stand, Array], deed: Callable[[], None]
+) -> None:
+    """Do something with the hand in a container: open it for that if it is closed, and close it again."""
+    shut = container is not None and plan.state.condition(container).get("open") is False
+    if container is not None and shut:
+        _swing(plan, agent, container, found, opens=True)
+        plan.opened.append(container.name)
+    deed()
+    if container is not None and shut:
+        _swing(plan, agent, container, found, opens=False)
+
+
+def _swing(plan: Plan, agent: AgentId, thing: SceneObject, found: tuple[Stand, Array], *, opens: bool) -> None:
+    plan.steps.append(Open(agent, *found, thing.name, opens))
+    plan.state = plan.state.with_condition(thing, {"open": opens})
+
+
+def _with_state(ground: Ground, state: HomeState, name: str, which: str, how: str) -> SceneObject:
+    thing = state.find(ground.scene, name)
+    if thing is None:
+        raise UnableError(f"there is no {plain(name)} ({name}) in this home")
+    if which not in affordances().first(thing.cls):
+        raise UnableError(f"the {plain(name)} cannot be {how}")
+    return thing
+
+
+def _reach(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: Watch | None) -> tuple[Stand, Array]:
+    """Add a walk to where a hand gets to an object's front, at a comfortable height."""
+    _refuse_full_hand(ground, plan.state, agent)
+    bearer = plan.state.bearer(thing.name)
+    if bearer is not None and bearer != agent:
+        raise UnableError(f"{named(bearer)} has the {plain(thing.name)}")
+    now = where_it_is(plan.state, thing)
+    height = min(max(0.6 * now.size[2], 0.02), 0.95 - min(now.position[2], 0.9))
+    x, y, z = now.to_world(0.0, now.size[1] / 2 if now.fixed else 0.0, height)
+    found = go_to_reach(ground, plan, agent, Errand((x, y, z), _carrier(ground, plan.state, thing)), watch)
+    if found is None:
+        raise UnableError(f"{named(agent)} cannot reach the {plain(thing.name)}{why(plan)}")
+    return found
+
+
+def _laid(state: HomeState, receptacle: SceneObject, place: Spot, relation: Relation) -> ThingState:
+    """Where a thing is once it lies there: inside a thing that can be carried, in that thing's frame."""
+    if relation == "on":
+        return ThingState(position=place[:3], yaw=place.yaw, on=receptacle.name)
+    if receptacle.fixed:
+        return ThingState(position=place[:3], yaw=place.yaw, on=None, inside=receptacle.name)
+    now = where_it_is(state, receptacle)
+    x, y = now.to_local(place.x, place.y)
+    within = (round(x, 4), round(y, 4), round(place.z - now.position[2], 4))
+    return ThingState(position=within, yaw=round(place.yaw - now.yaw, 4), on=None, inside=receptacle.name)
+
+
+def _known_place(state: HomeState, receptacle: SceneObject) -> HomeState:
+    """Write down where a thing stands that now holds another one: its contents' places are given in its frame."""
+    if receptacle.fixed or receptacle.name in state.moved:
+        return state
+    return state.with_thing(receptacle.name, state.thing(receptacle))
 
 
 def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:
@@ -203,115 +347,3 @@ def _sat_upon(state: HomeState, receptacle: SceneObject, place: Point) -> bool:
             if math.dist(place, person.place) < near:
                 return True
     return False
-
-
-def pick_place(ground: Ground, state: HomeState, agent: AgentId, act: PickPlace, watch: Watch | None = None) -> Plan:
-    """Plan a pick-and-place: go, take, go, put. What the agent held from the magic box goes back there.
-
-    Raises:
-        UnableError: With the reason why it cannot be done.
-    """
-    thing, receptacle = ground.movable(act.object), ground.fixed(act.receptacle)
-    if agent in ground.robots:
-        _refuse_full_gripper(ground, state, agent)
-    plan = Plan(emptied(state, agent))
-    take(ground, plan, agent, thing, watch)
-    put(ground, plan, agent, thing, receptacle, watch)
-    plan.at.reverse()
-    return plan
-
-
-def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -> Plan:
-    """Plan a hand-over: a thing appears from the magic box in a gripper, goes to a person, and is given.
-
-    What the person held from the box vanishes back into it.
-
-    Raises:
-        UnableError: If the robot cannot get within handing distance of the person, or it is not clear who that is.
-    """
-    receiver = _receiver(state, act)
-    _refuse_full_gripper(ground, state, agent)
-    plan = Plan(emptied(state, agent).out_of_box(ground.scene, agent, act.object))
-    name = str(plan.state.agents[agent].thing)
-    person, body = state.person(receiver), ground.robots[agent]
-    for stand in _before_person(ground, state, agent, receiver):
-        point = handing_point(person, stand)
-        posture = _arm_posture(ground, plan, body, stand, to_body(stand, point), None)
-        if posture is None:
-            continue
-        mark = plan.mark()
-        try:
-            walk(ground, plan, agent, (stand.x, stand.y), carries=name)
-        except UnableError:
-            plan.rewind(mark)
-            continue
-        plan.steps.append(Give(agent, receiver, stand, posture, point, name))
-        plan.state = emptied(plan.state.with_agent(agent, yaw=stand.yaw), receiver).with_held(receiver, name)
-        return plan
-    whom = "the person" if receiver == HUMAN else receiver
-    raise UnableError(f"{named(agent)} cannot get within handing distance of {whom}")
-
-
-def emptied(state: HomeState, agent: AgentId) -> HomeState:
-    """The home with what an agent held from the magic box back in it."""
-    held = state.agents[agent].thing
-    return state.into_box(held) if held in state.box else state
-
-
-def _receiver(state: HomeState, act: HandOver) -> AgentId:
-    """Who is to get it: the person that the act names, or else the only one."""
-    people = state.ids("person")
-    if act.receiver in people:
-        return act.receiver
-    if act.receiver is None and len(people) == 1:
-        return people[0]
-    wrong = "it is not said to whom" if act.receiver is None else f"there is no person {act.receiver!r}"
-    raise UnableError(f"{wrong}; the people here are {', '.join(people) or 'none'}")
-
-
-def _refuse_full_gripper(ground: Ground, state: HomeState, agent: AgentId) -> None:
-    """What a robot took by a single step (see primitives) does not go back by itself."""
-    held = state.agents[agent].thing
-    if held is not None and ground.scene.object(held) is not None:
-        raise UnableError(f"{named(agent)} must first put down the {plain(held)}")
-
-
-def _before_person(ground: Ground, state: HomeState, agent: AgentId, receiver: AgentId) -> Iterator[Stand]:
-    """Places within handing distance of a person, in their room: at a comfortable distance, ahead, and near first."""
-    here = _where_it_is(ground, state, agent, receiver)
-    if here is not None:
-        yield here
-    person, robot = state.person(receiver), state.agents[agent]
-    cells = ground.navigator.cells_in(ground.scene.room_at(*person.place).name)
-    cells = cells[(np.abs(cells - np.array(person.place)) <= HANDING[1]).all(axis=1)]
-    gap = np.hypot(*(cells - np.array(person.place)).T)
-    near = (gap >= HANDING[0]) & (gap <= HANDING[1])
-    for disc in taken_by_others(state, agent):
-        near &= np.hypot(*(cells - np.array((disc.x, disc.y))).T) >= disc.radius + RADIUS
-    cells, gap = cells[near], gap[near]
-    towards = np.arctan2(person.place[1] - cells[:, 1], person.place[0] - cells[:, 0])
-    side = np.abs(np.remainder(towards - person.yaw, math.tau) - math.pi)  # 0 straight ahead of the person
-    drive = np.hypot(*(cells - np.array(robot.spot)).T)
-    cost = np.round(np.abs(gap - _COMFORTABLE) + 0.2 * side + 0.1 * drive, 6)
-    order = np.argsort(cost, kind="stable")
-    for i in order[:: max(1, len(order) // _TRIES)]:
-        yield Stand(float(cells[i, 0]), float(cells[i, 1]), float(towards[i]), float(drive[i]), float(gap[i]))
-
-
-def _where_it_is(ground: Ground, state: HomeState, agent: AgentId, receiver: AgentId) -> Stand | None:
-    """A robot's own place, if it is already before the person, in the same room and within handing distance."""
-    (x, y), person = state.agents[agent].spot, state.person(receiver)
-    gap = math.dist((x, y), person.place)
-    together = ground.scene.room_at(x, y) == ground.scene.room_at(*person.place)
-    if not (together and HANDING[0] <= gap <= HANDING[1]):
-        return None
-    return Stand(x, y, math.atan2(person.place[1] - y, person.place[0] - x), 0.0, gap)
-
-
-def handing_point(person: PersonState, stand: Stand) -> tuple[float, float, float]:
-    """Where a thing changes hands: in front of the person, towards the robot, at chest height."""
-    x, y = person.place
-    away = math.atan2(stand.y - y, stand.x - x)
-    gap = min(0.42, math.dist((x, y), (stand.x, stand.y)) - 0.35)
-    height = 1.0 if person.posture == "stand" else person.support + 0.45
-    return x + gap * math.cos(away), y + gap * math.sin(away), height

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 from collections.abc import Mapping
 from functools import lru_cache
@@ -79,7 +80,8 @@ AgentState = Annotated[PersonState | RobotState, Field(discriminator="kind")]
 class ThingState(Frozen):
     """Where a movable thing is: the centre of its base, its turn, and what carries it.
 
-    It is `on` a piece of furniture, `inside` furniture or another thing, or, with neither, on the floor.
+    It is `on` a piece of furniture, `inside` furniture or another thing, or, with neither, on the floor. Inside another
+    thing, position and turn are in that thing's frame, since it may be carried about.
     """
 
     position: tuple[float, float, float]
@@ -92,6 +94,13 @@ class ThingState(Frozen):
         if self.on is not None and self.inside is not None:
             raise ValueError(f"a thing is on {self.on} or inside {self.inside}, not both")
         return self
+
+    def seen_from(self, container: ThingState) -> ThingState:
+        """A place in a container's frame as one in the home."""
+        cos, sin = math.cos(container.yaw), math.sin(container.yaw)
+        (x, y, z), (at_x, at_y, at_z) = self.position, container.position
+        place = (round(at_x + x * cos - y * sin, 4), round(at_y + x * sin + y * cos, 4), round(at_z + z, 4))
+        return self.model_copy(update={"position": place, "yaw": self.yaw + container.yaw})
 
 
 class BoxThing(Frozen):
@@ -182,9 +191,13 @@ class HomeState(Frozen):
         if bearer is not None:
             return ThingState(position=(*self.agents[bearer].place, _CARRIED), yaw=0.0, on=None)
         where = self.moved.get(initial.name) or at_first(initial)
-        if where.inside is not None and (within := self.bearer(where.inside)) is not None:
+        if where.inside is None:
+            return where
+        within = self.bearer(where.inside)
+        if within is not None:
             return where.model_copy(update={"position": (*self.agents[within].place, _CARRIED)})
-        return where
+        container = self.moved.get(where.inside)
+        return where if container is None else where.seen_from(container)
 
     def bearer(self, thing: str) -> AgentId | None:
         """Who holds or wears a thing."""
@@ -199,7 +212,7 @@ class HomeState(Frozen):
             return scene.movable
         return (*scene.movable, *(from_box(name, known) for name, known in sorted(self.box.items())))
 
-    def object(self, scene: Scene, name: str) -> SceneObject | None:
+    def find(self, scene: Scene, name: str) -> SceneObject | None:
         """The furniture or thing of that name, out of the magic box or not; None where there is none."""
         known = self.box.get(name)
         return scene.object(name) if known is None else from_box(name, known)

@@ -72,7 +72,7 @@ def problems(scene: Scene, state: HomeState, navigator: Navigator | None = None)
         if navigator is not None and not navigator.can_stand(*body.spot):
             yield f"{_start(agent)} stands at ({body.spot[0]:.2f}, {body.spot[1]:.2f}), where no body fits."
     for name, said in state.conditions.items():
-        owner = state.object(scene, name)
+        owner = state.find(scene, name)
         first = affordances().first(owner.cls) if owner is not None else {}
         if not said or any(first[key] == value for key, value in said.items()):
             yield f"The conditions of {name} hold what is as at first."
@@ -196,7 +196,7 @@ def _held_up(scene: Scene, state: HomeState, thing: SceneObject, where: ThingSta
     """What is wrong with what carries or holds a thing, and with the room that it lies in."""
     x, y, z = where.position
     space = taken_at(Spot(x, y, z, where.yaw), thing.size)
-    carrier = state.object(scene, where.on or where.inside or "")
+    carrier = state.find(scene, where.on or where.inside or "")
     room = scene.room_at(x, y)
     if carrier is not None and carrier.fixed:
         room = scene.room(carrier.room) or room

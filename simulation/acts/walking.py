@@ -44,7 +44,7 @@ def walk(
     start = plan.state.agents[agent].spot
     if math.dist(start, goal) < _THERE:
         if agent in ground.people:
-            plan.state = _arrived(plan.state, agent, start)
+            plan.state = _arrived(ground, plan.state, agent, start)
         return
     straight = ground.navigator.route(start, goal)
     if straight.points is None:
@@ -59,7 +59,7 @@ def walk(
             if backs and _let_past(ground, plan, one, agent, straight, goal, carries):
                 return
             raise UnableError(f"{named(one)} stands in the way and has nowhere to step aside")
-    _go(plan, agent, route, carries)
+    _go(ground, plan, agent, route, carries)
     plan.metres += route.length
 
 
@@ -81,11 +81,11 @@ def walk_to_deed(
         watch(plan, deed, goal)
 
 
-def _arrived(state: HomeState, agent: AgentId, spot: Point) -> HomeState:
+def _arrived(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> HomeState:
     """The home with an agent standing at a spot; a robot keeps its heading."""
     body = state.agents[agent]
     if isinstance(body, PersonState):
-        return state.put(agent, stand_up(body, spot))
+        return stand_up(ground, state, agent, spot)
     return state.with_agent(agent, spot=spot)
 
 
@@ -134,7 +134,7 @@ def _step_aside(ground: Ground, plan: Plan, agent: AgentId, route: Route) -> boo
     """Let an agent in the way go where the walker passes it, past nobody's body; False where it cannot."""
     way = next(_ways_aside(ground, plan, agent, route, floor_of_others(plan.state, agent)), None)
     if way is not None:
-        _go(plan, agent, way)
+        _go(ground, plan, agent, way)
     return way is not None
 
 
@@ -148,9 +148,9 @@ def _let_past(
         back = next(_ways_aside(ground, plan, walker, way, floor), None)
         if back is None:
             continue
-        _go(plan, walker, back, carries)
+        _go(ground, plan, walker, back, carries)
         plan.metres += back.length
-        _go(plan, agent, way)
+        _go(ground, plan, agent, way)
         try:
             walk(ground, plan, walker, goal, carries, backs=False)
         except UnableError:
@@ -173,9 +173,9 @@ def _ways_aside(
             yield free
 
 
-def _go(plan: Plan, agent: AgentId, route: Route, carries: str | None = None) -> None:
+def _go(ground: Ground, plan: Plan, agent: AgentId, route: Route, carries: str | None = None) -> None:
     plan.steps.append(Walk(agent, route.points or [], carries))
-    plan.state = _arrived(plan.state, agent, _end(route))
+    plan.state = _arrived(ground, plan.state, agent, _end(route))
 
 
 def _end(route: Route) -> Point:

@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 
 from coopera.simulation.homes.catalogue import parts_of
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.shapes.kit import Part
-from coopera.simulation.shapes.rotations import Array, matrix
+from coopera.simulation.shapes.rotations import Array
 
 _THICK = 0.045
 """Half the thickness of an arm, in metres."""
@@ -29,7 +28,7 @@ class Elbowroom:
         for thing in scene.fixed:
             for part in parts_of(thing.cls, thing.size, thing.rgb):
                 self.names.append(thing.name)
-                rows.append((*thing.to_world(*part.position), *_half(part), thing.yaw))
+                rows.append((*thing.to_world(*part.position), *part.around, thing.yaw))
         for wall in scene.walls():
             b = wall.bounds
             self.names.append("wall")
@@ -76,16 +75,3 @@ def _inside(points: Array, boxes: Array, margin: Array) -> NDArray[np.bool_]:
     within &= np.abs(dy * cos - dx * sin) < boxes[:, 4] + margin
     within &= np.abs(points[:, 2:] - boxes[:, 2]) < boxes[:, 5] + margin
     return np.asarray(within)
-
-
-def _half(part: Part) -> tuple[float, float, float]:
-    """Half extents of the box around a part, in the furniture's frame."""
-    if part.kind == "box":
-        half = part.half
-    else:
-        long = part.length / 2 + (part.radius if part.kind == "capsule" else 0.0)
-        half = (part.radius, part.radius, part.radius if part.kind == "sphere" else long)
-    if abs(part.orientation[3]) > 1 - 1e-9:
-        return half
-    x, y, z = (np.abs(matrix(part.orientation)) @ np.array(half)).tolist()
-    return x, y, z

@@ -7,7 +7,7 @@ box with a flat top.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, NamedTuple, TypeAlias
 
 import yaml
 from pydantic import Field, ValidationError, model_validator
@@ -34,6 +34,8 @@ STANDS = ("wall", "outer", "centre", "floor")
 RELATIONS = ("around", "front", "beside", "opposite", "on")
 
 Metres = Annotated[float, Field(gt=0, le=5)]
+Row: TypeAlias = tuple[float, float, float, float, float, float]
+"""A rectangle for things, as catalogue.yaml writes it: see its head."""
 Hex = Annotated[str, Field(pattern=r"^#[0-9a-f]{6}$")]
 
 
@@ -45,7 +47,8 @@ class FixedClass(Frozen):
     colours: list[Hex] = Field(min_length=1)
     rooms: list[str] = Field(min_length=1)
     stands: str
-    surfaces: list[tuple[float, float, float, float, float, float]] = Field(min_length=1)
+    surfaces: list[Row] = Field(min_length=1)
+    inside: list[Row] = []
     seat: float | None = Field(None, gt=0, le=1)
     lie: float | None = Field(None, gt=0, le=1)
 
@@ -64,6 +67,7 @@ class MovableClass(Frozen):
     size: tuple[Metres, Metres, Metres]
     colours: list[Hex] = Field(min_length=1)
     put: list[str] = Field(min_length=1)
+    inside: list[Row] = []
     ycb: str | None = None
 
 
@@ -113,7 +117,7 @@ class Catalogue(Frozen):
 
 
 class Surface(NamedTuple):
-    """A place for things on an object, in that object's frame: a rectangle at height z above its base.
+    """A place for things on or in an object, in that object's frame: a rectangle at height z above its base.
 
     `clear` is the free height above it, in metres.
     """
@@ -163,9 +167,18 @@ def read_catalogue(path: Path) -> Catalogue:
 
 def surfaces(thing: SceneObject) -> list[Surface]:
     """Places where things are put on a fixed object, the usual one first; an unknown class has its top."""
-    w, d, h = thing.size
     known = catalogue().fixed.get(thing.cls)
-    rows = known.surfaces if known else [(1.0, -0.48, 0.48, -0.48, 0.48, 9.0)]
+    return _in_metres(known.surfaces if known else [(1.0, -0.48, 0.48, -0.48, 0.48, 9.0)], thing.size)
+
+
+def interiors(thing: SceneObject) -> list[Surface]:
+    """Places where things are put within furniture or a thing, the usual one first; empty where nothing is."""
+    known = catalogue().fixed.get(thing.cls) or catalogue().movable.get(thing.cls)
+    return _in_metres(known.inside if known else [], thing.size)
+
+
+def _in_metres(rows: list[Row], size: Size) -> list[Surface]:
+    w, d, h = size
     return [Surface(z * h, x0 * w, x1 * w, y0 * d, y1 * d, clear) for z, x0, x1, y0, y1, clear in rows]
 
 

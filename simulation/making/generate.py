@@ -17,7 +17,7 @@ from coopera.core.randomness import rng_at
 from coopera.simulation.acts.navigation import RADIUS, REACH, Navigator
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import ID, Room, Scene, SceneObject
-from coopera.simulation.homes.spots import Spot, Taken, furniture_on, is_free, spots, taken_at, taken_by
+from coopera.simulation.homes.spots import Spot, Taken, furniture_on, is_free, spots, stands_through, taken_at, taken_by
 from coopera.simulation.making.furnish import Piece, RoomPlan
 from coopera.simulation.making.layout import USUAL_ROOMS, Layout, lay_out
 from coopera.simulation.making.proof import prove
@@ -197,6 +197,7 @@ def _place_things(scene: Scene, wanted: Sequence[str], rng: np.random.Generator)
                 on=carrier.name if carrier is not None else None,
             )
         )
+    placed = [_freed(scene, navigator, thing, placed) for thing in placed]
     placed.sort(key=lambda thing: thing.name)
     first = len(scene.objects)
     return [thing.model_copy(update={"id": first + i}) for i, thing in enumerate(placed)]
@@ -238,11 +239,27 @@ def _reachable_spot(
 ) -> Spot | None:
     stands = navigator.approach(carrier, most=40)
     ranked = []
-    for spot in spots(carrier, size, taken):
+    for spot in spots(carrier, size, taken, through=True):
         near = min((math.dist((spot.x, spot.y), (stand.x, stand.y)) for stand in stands), default=math.inf)
         if near <= REACH - 0.04:
             ranked.append((max(0.0, near - _COMFORTABLE) * 20 + float(rng.uniform()), spot))
     return min(ranked, default=(0.0, None))[1]
+
+
+def _freed(scene: Scene, navigator: Navigator, thing: SceneObject, placed: Sequence[SceneObject]) -> SceneObject:
+    """A thing moved on its carrier so that it sticks in none of the carrier's parts.
+
+    That is done when all have their places: so a seed gives the home that it always gave, but for such things.
+    """
+    carrier = scene.object(thing.on) if thing.on else None
+    if carrier is None or not stands_through(carrier, Spot(*thing.position, thing.yaw), thing.size):
+        return thing
+    beside = [taken_by(other) for other in placed if other.on == thing.on and other.name != thing.name]
+    free = spots(carrier, thing.size, furniture_on(scene, carrier) + beside)
+    stands = navigator.approach(carrier, most=40)
+    near = [spot for spot in free if any(math.dist((spot.x, spot.y), stand[:2]) <= REACH - 0.04 for stand in stands)]
+    spot = min(near, key=lambda spot: round(math.dist(spot[:3], thing.position), 3), default=None)
+    return thing if spot is None else thing.model_copy(update={"position": spot[:3], "yaw": spot.yaw})
 
 
 def _on_floor(

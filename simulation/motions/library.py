@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import yaml
@@ -22,6 +22,7 @@ from coopera.simulation.shapes.rotations import Array
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
 Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
+Frame: TypeAlias = Literal["surface", "mouth", "head", "chest", "hips", "body"]
 Triple: TypeAlias = tuple[float, float, float]
 Path3: TypeAlias = Triple | list[Triple]
 
@@ -35,15 +36,24 @@ _WORD = re.compile(r"[a-z]+")
 
 
 class HandPath(Frozen):
-    """Where a hand goes: points in a frame, written in the file as one list, the frame first."""
+    """Where a hand goes: points, each in a frame; written in the file as one list, a frame before its points."""
 
-    frame: Literal["surface", "mouth", "head", "chest", "hips", "body"]
+    frames: list[Frame] = Field(min_length=1)
     points: list[Triple] = Field(min_length=1)
 
     @model_validator(mode="before")
     @classmethod
     def _from_list(cls, data: Any) -> Any:
-        return {"frame": data[0], "points": data[1:]} if isinstance(data, list) and data else data
+        if not isinstance(data, list) or not data:
+            return data
+        frames, points = [data[0]], []
+        for entry in data[1:]:
+            if isinstance(entry, str):
+                frames[-1] = entry
+            else:
+                points.append(entry)
+                frames.append(frames[-1])
+        return {"frames": frames[: max(len(points), 1)], "points": points}
 
 
 class Keys(Frozen):
@@ -74,6 +84,17 @@ class Motion(Frozen):
     keys: Keys
 
 
+class Meant(NamedTuple):
+    """A motion that a text may mean: its caption, and how alike the two are (a cosine, or the share of words)."""
+
+    caption: str
+    likeness: float
+
+
+Rank: TypeAlias = Callable[[str], Sequence[tuple[str, float]]]
+"""Ranks captions by how near they are in meaning to a text: (caption, cosine), the nearest first."""
+
+
 class Library:
     """All motions, in the order of the file."""
 
@@ -102,20 +123,27 @@ class Library:
         """The other classes that some motion in the same posture has: what a recogniser may mistake it for."""
         return sorted({other.cls for other in self.motions if other.posture == motion.posture} - {motion.cls})
 
-    def match(self, text: str, search: Callable[[str], str] | None = None) -> Motion:
-        """Find the motion that a free-form text means.
+    def match(self, text: str) -> Motion:
+        """Find the motion that shares most words with a text; "stand and wait" where none shares any.
 
-        A caption means itself. For another text `search` decides, if it is given and answers with a caption. Otherwise
-        the caption with the most words of the text decides; rare words count more, and ties go to the first listed.
+        Rare words count more, and ties go to the first listed.
+        """
+        best = self.ranked(text)[0]
+        return self._by_caption[best.caption if best.likeness > 0 else FALLBACK]
+
+    def ranked(self, text: str, rank: Rank | None = None) -> list[Meant]:
+        """The motions that a free-form text may mean, the likeliest first.
+
+        A caption means itself. For another text `rank` decides, if it is given. Otherwise shared words do.
         """
         plain = " ".join(text.lower().split())
         if plain in self._by_caption:
-            return self._by_caption[plain]
-        if search is not None and (found := search(text)) in self._by_caption:
-            return self._by_caption[found]
+            return [Meant(plain, 1.0)]
+        if rank is not None:
+            return [Meant(caption, likeness) for caption, likeness in rank(text) if caption in self._by_caption]
         words = _words(text)
-        best = max(self.motions, key=lambda motion: round(self._overlap(words, motion), 9))
-        return best if self._overlap(words, best) > 0 else self._by_caption[FALLBACK]
+        found = [Meant(motion.caption, round(self._overlap(words, motion), 9)) for motion in self.motions]
+        return sorted(found, key=lambda one: -one.likeness)
 
     @cached_property
     def _rarity(self) -> dict[str, float]:

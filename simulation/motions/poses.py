@@ -10,7 +10,7 @@ import numpy as np
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.simulation.bodies.humanoid import ANKLE, MOUTH, SIDES, STANDING, Aim, Frames, Side, solve
-from coopera.simulation.motions.library import Clip, HandPath, Keys, Motion, Posture, along
+from coopera.simulation.motions.library import Clip, Frame, HandPath, Keys, Motion, Posture, Triple, along
 from coopera.simulation.shapes.rotations import Array
 
 WORKTOP = 0.9
@@ -18,6 +18,8 @@ WORKTOP = 0.9
 _LAP = 0.19  # the top of the thighs above the seat
 _SEATED = 0.10  # the pelvis's middle above the seat
 _LYING = 0.12
+_UPRIGHT, _STOOP = 0.8, 0.5
+"""Over a surface this high one works standing upright; over one lower by the second, bent as far as goes (metres)."""
 
 
 class Setting(NamedTuple):
@@ -25,12 +27,15 @@ class Setting(NamedTuple):
 
     The body sits or lies at the height `support` (0: on the floor). The hands work at the height `worktop`; with None
     they work on the lap, or at WORKTOP when the person stands. `posture` replaces the posture of the motion: a person
-    without a seat stands.
+    without a seat stands. `step` is how far somebody who stands steps up to the surface, and `reach` how much farther
+    ahead and to the left than usual the hands work on it (metres).
     """
 
     support: float = 0.0
     worktop: float | None = None
     posture: Posture = "stand"
+    step: float = 0.0
+    reach: tuple[float, float] = (0.0, 0.0)
 
 
 @made_once()
@@ -70,10 +75,16 @@ def pose_at(motion: Motion, seconds: float, setting: Setting) -> Array:
     for side in SIDES:
         foot = keys.right_foot if side == "right" else keys.left_foot
         aim.feet[side] = aim.feet[side] + along(foot, share)
+    hands = _hands(keys)
+    if setting.posture == "stand" and any("surface" in path.frames for path in hands.values()):
+        _stoop(aim, working_height(setting))
     frames = aim.frames()
-    for side, path in _hands(keys).items():
-        aim.hands[side] = _hand(path, share, frames, _worktop(setting))
-    return solve(aim)[0]
+    origin = np.array((*setting.reach, working_height(setting)))
+    for side, path in hands.items():
+        aim.hands[side] = _hand(path, share, frames, origin)
+    pose = solve(aim)[0]
+    pose[0] += setting.step
+    return pose
 
 
 def _recorded(clip: Clip, seconds: float, setting: Setting, posture: Posture) -> Array:
@@ -92,23 +103,40 @@ def _hands(keys: Keys) -> dict[Side, HandPath]:
     return {side: path for side, path in paths.items() if path is not None}
 
 
-def _worktop(setting: Setting) -> float:
+def _stoop(aim: Aim, worktop: float) -> None:
+    """Bend down to a surface that is too low for standing upright."""
+    effort = min(max((_UPRIGHT - worktop) / _STOOP, 0.0), 1.0)
+    drop = 0.5 * effort
+    aim.pelvis = (aim.pelvis[0] - 0.16 * effort, aim.pelvis[1], aim.pelvis[2] - drop)
+    aim.hips = _sum(aim.hips, np.array((52.0 * effort, 0.0, 0.0)))
+    aim.knees += 0.3 * effort
+
+
+def working_height(setting: Setting) -> float:
+    """The height at which the hands work: of the worktop, the lap, or that of a usual worktop for who stands."""
     if setting.worktop is not None:
         return setting.worktop
     return WORKTOP if setting.posture == "stand" else setting.support + _LAP
 
 
-def _hand(path: HandPath, share: float, frames: Frames, worktop: float) -> Array:
-    """Where a hand goes, in the body frame."""
-    where = path.frame
-    x, y, z = (float(value) for value in along(path.points, share))
-    if where == "surface":
-        return np.array((x, y, z + worktop))
-    if where == "body":
-        return np.array((x, y, z))
-    if where == "mouth":
-        return frames.point("head", x + MOUTH[0], y + MOUTH[1], z + MOUTH[2])
-    return frames.point("pelvis" if where == "hips" else where, x, y, z)
+def _hand(path: HandPath, share: float, frames: Frames, origin: Array) -> Array:
+    """Where a hand goes, in the body frame; `origin` is where the paths over the surface begin."""
+    places = [_placed(frame, point, frames, origin) for frame, point in zip(path.frames, path.points, strict=True)]
+    return along(places, share)
+
+
+def _placed(frame: Frame, point: Triple, frames: Frames, origin: Array) -> Triple:
+    """A point of a hand's path in the body frame."""
+    x, y, z = point
+    if frame == "surface":
+        return x + float(origin[0]), y + float(origin[1]), z + float(origin[2])
+    if frame == "body":
+        return point
+    if frame == "mouth":
+        found = frames.point("head", x + MOUTH[0], y + MOUTH[1], z + MOUTH[2])
+    else:
+        found = frames.point("pelvis" if frame == "hips" else frame, x, y, z)
+    return float(found[0]), float(found[1]), float(found[2])
 
 
 def _sum(base: tuple[float, float, float], by: Array) -> tuple[float, float, float]:

@@ -23,6 +23,9 @@ from coopera.simulation.shapes.kit import (
     shade,
 )
 
+BURNERS = ((-0.23, -0.22), (-0.23, 0.22), (0.23, -0.22), (0.23, 0.22))
+"""The middles of a stove's burners, as shares of its width and depth."""
+
 
 def floor_lamp(kit: Kit) -> None:
     """Draw a standing lamp: foot, pole, a small tray half way up, and a shade."""
@@ -140,9 +143,8 @@ def stove(kit: Kit) -> None:
     w, d, h = kit.w, kit.d, kit.h
     kit.box((0, -0.01, 0), (w, d - 0.02, h - 0.02))
     kit.box((0, 0, h - 0.02), (w, d, 0.014), BLACK)
-    for x in (-0.23, 0.23):
-        for y in (-0.22, 0.22):
-            kit.tube((x * w, y * d, h - 0.006), 0.08 if y < 0 else 0.1, 0.006, (0.55, 0.14, 0.1))
+    for x, y in BURNERS:
+        kit.tube((x * w, y * d, h - 0.006), 0.08 if y < 0 else 0.1, 0.006, (0.55, 0.14, 0.1))
     kit.box((0, d / 2 - 0.005, h * 0.2), (w * 0.84, 0.02, h * 0.42), BLACK)
     kit.box((0, d / 2 - 0.002, h * 0.28), (w * 0.62, 0.02, h * 0.24), (0.5, 0.3, 0.12))
     kit.box((0, d / 2 + 0.02, h * 0.66), (w * 0.8, 0.03, 0.025), STEEL)

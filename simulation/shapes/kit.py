@@ -10,6 +10,10 @@ import math
 from collections.abc import Callable
 from typing import Literal, NamedTuple, TypeAlias
 
+import numpy as np
+
+from coopera.simulation.shapes.rotations import matrix
+
 MOST_PARTS = 16
 """pybullet crashes on a visual shape array of more parts (measured on 3.2.7)."""
 
@@ -56,6 +60,19 @@ class Part(NamedTuple):
     position: tuple[float, float, float]
     orientation: tuple[float, float, float, float]
     rgba: tuple[float, float, float, float]
+
+    @property
+    def around(self) -> tuple[float, float, float]:
+        """Half extents of the box around it, along the axes of its object."""
+        if self.kind == "box":
+            half = self.half
+        else:
+            long = self.length / 2 + (self.radius if self.kind == "capsule" else 0.0)
+            half = (self.radius, self.radius, self.radius if self.kind == "sphere" else long)
+        if abs(self.orientation[3]) > 1 - 1e-9:
+            return half
+        x, y, z = (np.abs(matrix(self.orientation)) @ np.array(half)).tolist()
+        return x, y, z
 
 
 class Kit:

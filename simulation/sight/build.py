@@ -59,6 +59,20 @@ class BuiltHome:
         self.move(name, (0.0, 0.0, -50.0), 0.0)
         return body
 
+    def show_only(self, name: str, parts: list[Part]) -> int:
+        """Add a body that is seen and stops no ray, such as an open door, to be moved into sight; returns it."""
+        body = int(
+            pybullet.createMultiBody(
+                baseMass=0,
+                baseCollisionShapeIndex=-1,
+                baseVisualShapeIndex=self.visual(parts),
+                basePosition=[0.0, 0.0, -50.0],
+                physicsClientId=self.client,
+            )
+        )
+        self.bodies[name] = body
+        return body
+
     def visual(self, parts: list[Part]) -> int:
         """What a body of some parts looks like, for pybullet."""
         return _visual(self.client, parts) if self.drawn else _UNSEEN

@@ -115,13 +115,14 @@ def visible_from_robot(stage: Stage, scene: Scene, recording: Recording, moment:
     """
     camera = _eyes(stage, recording, moment)
     eye, ahead = np.array(camera.eye), np.array(camera.target) - np.array(camera.eye)
-    in_hands = {moment.held[agent].name for agent in moment.held if agent not in stage.robots}
+    with_people = {moment.held[agent].name for agent in moment.held if agent not in stage.robots}
+    with_people = with_people.union(*moment.worn.values())
     names, points = [], []
-    for thing in scene.objects:
-        if thing.name in in_hands:
+    for thing in (*scene.fixed, *recording.state.objects(scene)):
+        if thing.name in with_people:
             continue
-        where = moment.moved.get(thing.name) or recording.state.thing(thing)
-        x, y, z = thing.position if thing.fixed else where.position
+        where = None if thing.fixed else moment.moved.get(thing.name) or recording.state.thing(thing)
+        x, y, z = thing.position if where is None else where.position
         for height in (0.5 * thing.size[2], 0.95 * thing.size[2]):
             names.append(thing.name)
             points.append((x, y, z + height))

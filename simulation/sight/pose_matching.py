@@ -135,7 +135,7 @@ def _takes(motion: Motion) -> list[Take]:
         steps = min(max(round(recorded.seconds / 0.1), _STEPS), 4 * _STEPS)
         moments = np.arange(steps) * recorded.seconds / steps
         return [Take(motion, np.array([skeleton(recorded.at(float(t))) for t in moments]), recorded.seconds)]
-    works = any(path is not None and path.frame == "surface" for path in (keys.right, keys.left))
+    works = any(path is not None and "surface" in path.frames for path in (keys.right, keys.left))
     heights = _WORKTOPS.get(motion.posture, (None,)) if works else (None,)
     supports = _SUPPORTS.get(motion.posture, (0.0,))
     settings = [Setting(support, height, motion.posture) for support in supports for height in heights]

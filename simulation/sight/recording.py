@@ -10,21 +10,23 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
 from coopera.core.household import AgentId
+from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.navigation import Stand
-from coopera.simulation.acts.plans import Give, Ground, Handle, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.skills import to_body
-from coopera.simulation.acts.state import HomeState, PersonState, ThingState
+from coopera.simulation.acts.plans import Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
+from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
+from coopera.simulation.acts.workplace import working
 from coopera.simulation.bodies.humanoid import SLICES, blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.floorplan import Point
-from coopera.simulation.motions.library import Hold
-from coopera.simulation.motions.poses import Setting, clip, pose_at
+from coopera.simulation.motions.holding import CARRIED, Grip
+from coopera.simulation.motions.poses import clip, pose_at
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 
 TICKS = 30
@@ -41,15 +43,20 @@ class Held(NamedTuple):
     """What someone holds, by its name or its text, and how."""
 
     name: str
-    hold: Hold = "right"
+    grip: Grip = CARRIED
 
 
 class Moment(NamedTuple):
-    """One tick: everybody's body, what those hold who hold something, and the things that were moved by then."""
+    """One tick: everybody's body, what those hold who hold something, and the things that were moved by then.
+
+    `worn` is what people wear, `opened` which furniture is open.
+    """
 
     bodies: Mapping[AgentId, Placed]
     held: Mapping[AgentId, Held]
     moved: Mapping[str, ThingState]
+    worn: Mapping[AgentId, tuple[str, ...]] = MappingProxyType({})
+    opened: frozenset[str] = frozenset()
 
 
 @dataclass(slots=True)
@@ -93,8 +100,9 @@ def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
     """An agent between two acts."""
     body = state.agents[agent]
     if isinstance(body, PersonState):
-        setting = Setting(body.support, body.worktop, body.posture)
-        return Placed(*body.place, body.yaw, pose_at(ground.motions[body.motion], 0.0, setting))
+        motion = ground.motions[body.motion]
+        setting, _ = working(ground.scene, state, body, motion)
+        return Placed(*body.place, body.yaw, pose_at(motion, 0.0, setting))
     robot = ground.robots[agent]
     return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
 
@@ -148,10 +156,12 @@ class Filming:
 
     def __init__(self, ground: Ground, start: HomeState, robot: AgentId, person: AgentId) -> None:
         """Begin with everybody as they are; `robot` will see it, and `person` is looked at."""
-        self.robots = ground.robots
+        self.ground, self.robots = ground, ground.robots
         self.bodies = {agent: still(ground, start, agent) for agent in start.agents}
-        self.held = {agent: Held(body.thing) for agent, body in start.agents.items() if body.thing}
+        self.held = {agent: _holds(ground, start, body) for agent, body in start.agents.items() if body.thing}
         self.moved: Mapping[str, ThingState] = {}
+        self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
+        self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
         self.recording = Recording(start, robot, person)
         self._walk: Walk | None = None
         self._actor = person
@@ -166,9 +176,11 @@ class Filming:
                 self.bodies[step.agent] = self.bodies[step.agent]._replace(yaw=step.yaw)
             elif isinstance(step, Handle):
                 self._handle(step)
+            elif isinstance(step, Open):
+                self._open(step)
             elif isinstance(step, Play):
                 self._play(step)
-            else:
+            elif isinstance(step, Give):
                 self._give(step)
         return self.recording
 
@@ -203,19 +215,37 @@ class Filming:
 
     def _handle(self, step: Handle) -> None:
         """Walk up, turn, reach, take or put, and straighten up."""
+        thing = Held(step.name)
+        if step.put is None:
+            self._reach(step, None, thing, self.moved, self.opened)
+        else:
+            self._reach(step, thing, None, {**self.moved, step.name: step.put}, self.opened)
+
+    def _open(self, step: Open) -> None:
+        """Walk up, turn, reach, open or close, and straighten up; what is in hand stays there."""
+        opened = self.opened | {step.name} if step.opens else self.opened - {step.name}
+        thing = self.held.get(step.agent)
+        self._reach(step, thing, thing, self.moved, opened)
+
+    def _reach(
+        self,
+        step: Handle | Open,
+        before: Held | None,
+        after: Held | None,
+        moved: Mapping[str, ThingState],
+        opened: frozenset[str],
+    ) -> None:
+        """Walk up, turn and reach; there the hand, the things and the doors become as said."""
         agent = step.agent
         walk_ticks, walk_at = self._approach(agent)
         came, between = walk_at(walk_ticks), self._blend(agent)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(agent, step.put is not None))
-        after = here._replace(pose=self._idle(agent, step.put is None))
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(agent, before is not None))
+        away = here._replace(pose=self._idle(agent, after is not None))
         bent = here._replace(pose=step.posture)
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + _HOLD
-        total = done + _BACK
-        hand_before, hand_after = (None, Held(step.name)) if step.put is None else (Held(step.name), None)
-        moved_after = self.moved if step.put is None else {**self.moved, step.name: step.put}
         others = self._frozen(agent)
-        moved_before = self.moved
+        first, then = (before, self.moved, self.opened), (after, moved, opened)
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -225,12 +255,13 @@ class Filming:
             elif tick < reached:
                 body = between(here, bent, (tick - turned) / _REACH)
             else:
-                body = between(bent, after, (tick - done) / _BACK)
-            late = tick >= reached + _HOLD // 2
-            return others(body, hand_after if late else hand_before, moved_after if late else moved_before)
+                body = between(bent, away, (tick - done) / _BACK)
+            held, places, doors = then if tick >= reached + _HOLD // 2 else first
+            return others(body, held, places)._replace(opened=doors)
 
-        self.recording.shots.append(Shot(total, at, reached + _HOLD // 2 - 1))
-        self._finish(agent, after, hand_after, moved_after)
+        self.recording.shots.append(Shot(done + _BACK, at, reached + _HOLD // 2 - 1))
+        self.opened = opened
+        self._finish(agent, away, after, moved)
 
     def _play(self, step: Play) -> None:
         """Walk up, get into the posture, and do the motion."""
@@ -238,8 +269,8 @@ class Filming:
         walk_ticks, walk_at = self._approach(agent)
         came, between = walk_at(walk_ticks), self._blend(agent)
         person, motion = step.person, step.motion
-        setting = Setting(person.support, person.worktop, person.posture)
-        held = Held(person.thing, motion.keys.hold) if person.thing else None
+        setting, grip = working(self.ground.scene, self.recording.state, person, motion, self.moved)
+        held = Held(person.thing, grip) if person.thing else None
         carried = Held(person.thing) if person.thing else None
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
@@ -256,19 +287,22 @@ class Filming:
             return others(body, held, moved)
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
+        self.worn = {**self.worn, agent: person.worn}
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
     def _give(self, step: Give) -> None:
-        """Drive up, hold out the thing, and let the person take it."""
+        """Drive up, hold out the thing, and let the person take it; or take from the person what they hold out."""
         walk_ticks, walk_at = self._approach(step.agent)
-        came, body = walk_at(walk_ticks), self.robots[step.agent]
+        came = walk_at(walk_ticks)
         moves, bends = self._blend(step.agent), self._blend(step.receiver)
-        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, body.carrying)
-        out, empty = here._replace(pose=step.posture), here._replace(pose=body.tucked)
+        here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(step.agent, holds=not step.back))
+        out, after = here._replace(pose=step.posture), here._replace(pose=self._idle(step.agent, holds=step.back))
         turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
         done = reached + 2 * _HOLD
         waiting, moved = self.bodies[step.receiver], self.moved
-        offer, before = Held(step.thing), self.held.get(step.receiver)
+        thing, other = Held(step.thing), self.held.get(step.receiver)
+        robots = (None, thing) if step.back else (thing, None)
+        persons = (thing, None) if step.back else (other, thing)
         stands = self.recording.state.person(step.receiver).posture == "stand"
         taking = _receiving(waiting, step) if stands else waiting
         others = self._frozen(step.agent)
@@ -281,28 +315,28 @@ class Filming:
             elif tick < reached:
                 robot = moves(here, out, (tick - turned) / _REACH)
             else:
-                robot = moves(out, empty, (tick - done) / _BACK)
+                robot = moves(out, after, (tick - done) / _BACK)
             share = (tick - turned) / _REACH if tick < done else 1 - (tick - done) / _BACK
             given = tick >= reached + _HOLD
             person = bends(waiting, taking, share)
-            moment = others(robot, None if given else offer, moved)
-            held = _with(moment.held, step.receiver, offer if given else before)
+            moment = others(robot, robots[given], moved)
+            held = _with(moment.held, step.receiver, persons[given])
             return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
         self.recording.shots.append(Shot(done + _BACK, at, reached))
-        self._finish(step.agent, empty, None, moved)
-        self.held[step.receiver] = offer
+        self._finish(step.agent, after, robots[1], moved)
+        self.held = _with(self.held, step.receiver, persons[1])
 
     def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
-        bodies, all_held = dict(self.bodies), dict(self.held)
+        bodies, all_held, worn, opened = dict(self.bodies), dict(self.held), dict(self.worn), self.opened
         robot, person = self.recording.robot, self.recording.person
 
         def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
             now = {**bodies, agent: body}
             if agent != robot:
                 now[robot] = watching(self.robots[robot], now[robot], now[person])
-            return Moment(now, _with(all_held, agent, held), moved)
+            return Moment(now, _with(all_held, agent, held), moved, worn, opened)
 
         return moment
 
@@ -320,6 +354,13 @@ class Filming:
         self.moved = moved
         self.bodies[agent] = body
         self.held = _with(self.held, agent, held)
+
+
+def _holds(ground: Ground, state: HomeState, body: PersonState | RobotState) -> Held:
+    """What an agent has in hand between two acts, and how."""
+    if not isinstance(body, PersonState):
+        return Held(body.thing or "")
+    return Held(body.thing or "", working(ground.scene, state, body, ground.motions[body.motion])[1])
 
 
 def _with(held: Mapping[AgentId, Held], agent: AgentId, thing: Held | None) -> dict[AgentId, Held]:

@@ -14,27 +14,25 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.core.household import AgentId
+from coopera.core.household import AgentId, plain
 from coopera.simulation.sight.engine import Renderer, load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.state import HomeState, ThingState
-from coopera.simulation.bodies.humanoid import JOINTS, SLICES, Frames, forward
+from coopera.simulation.acts.workplace import thing_of
+from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
-from coopera.simulation.homes.scene import Scene
+from coopera.simulation.homes.opened import opened
+from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.motions.holding import held_at, worn_at
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import build  # after the engine: whoever imports pybullet first makes it print
 from coopera.simulation.sight.recording import Held, Moment
 
 BODIES = Path(__file__).parents[1] / "bodies"
-_FAR_BELOW = -50.0
+_AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
-_THIN = 0.08
-_TOOL = 0.17
-_LONG = 0.7
-_FINE = 0.125
-_BULKY = 0.35
 _NEAR, _FAR = 0.05, 30.0
 Image = NDArray[np.uint8]
 
@@ -73,6 +71,8 @@ class Stage:
         }
         self._box: dict[str, Shape] = {}
         self._carried: set[str] = set()
+        self._unused: set[str] = set()
+        self._doors: set[str] = set()
 
     def close(self) -> None:
         """Give the client back; a second time does nothing."""
@@ -88,25 +88,69 @@ class Stage:
 
     def show(self, state: HomeState, moment: Moment) -> None:
         """Put everything where it is at a moment."""
-        self._things(state, moment)
         for agent, placed in moment.bodies.items():
             if agent in self.robots:
                 self._put_robot(agent, placed)
             else:
                 self._put_person(agent, placed)
-        for name in sorted(self._carried):
-            self.home.move(name, (0.0, 0.0, _FAR_BELOW), 0.0)
-        self._carried.clear()
+        self._unused, self._carried = self._carried, set()
+        held = {held.name for held in moment.held.values()}
+        self._things(state, moment, held.union(*moment.worn.values()))
         for agent, placed in moment.bodies.items():
             if agent in moment.held:
-                self._carry(state, agent, moment.held[agent], placed)
+                self._carry(state, moment.held[agent], agent, placed)
+            for name in moment.worn.get(agent, ()):
+                self._wear(state, name, placed)
+        for name in sorted(self._unused - self._carried):
+            self.home.move(name, _AWAY, 0.0)
+        self._open(moment.opened)
 
-    def _things(self, state: HomeState, moment: Moment) -> None:
-        for thing in self.scene.movable:
-            where = moment.moved.get(thing.name) or state.thing(thing)
-            if self._shown.get(thing.name) != where:
-                self.home.move(thing.name, where.position, where.yaw)
-                self._shown[thing.name] = where
+    def _things(self, state: HomeState, moment: Moment, with_people: set[str]) -> None:
+        """Put down all that nobody has: the things of the scene, and those out of the magic box.
+
+        What is in a hand but not shown there is out of sight, and so is what is inside a thing that is carried.
+        """
+        borne = {name for body in state.agents.values() for name in (body.thing, *body.worn) if name}
+        borne = borne - {*moment.moved} | with_people
+        for thing in state.objects(self.scene):
+            name = thing.name
+            where = moment.moved.get(name) or (None if name in borne else state.thing(thing))
+            if where is not None and where.inside in borne:
+                where = None
+            if name in with_people or (name in state.box and where is None):
+                continue
+            if where is None:
+                self._shown.pop(name, None)
+                self.home.move(name, _AWAY, 0.0)
+            elif name in state.box:
+                self.home.move(self._body(state, name)[0], where.position, where.yaw)
+            elif self._shown.get(name) != where:
+                self.home.move(name, where.position, where.yaw)
+                self._shown[name] = where
+
+    def _wear(self, state: HomeState, name: str, placed: Placed) -> None:
+        """Show a hat or headphones on the head; other clothes are not shown, neither on the body nor elsewhere."""
+        thing = thing_of(self.scene, state, name)
+        worn = worn_at(placed.pose, _looks(state, thing), thing.size)
+        if worn is not None:
+            self._attach(self._body(state, name)[0], placed, *worn)
+        elif name in self.home.bodies:
+            self.home.move(name, _AWAY, 0.0)
+            self._shown.pop(name, None)
+
+    def _open(self, names: frozenset[str]) -> None:
+        """Show doors and drawers of open furniture; open things that are carried look as ever."""
+        for name in sorted(self._doors - names):
+            self.home.move(_door(name), _AWAY, 0.0)
+        self._doors &= names
+        for name in sorted(names - self._doors):
+            thing = self.scene.object(name)
+            parts = opened(thing) if thing is not None else []
+            if thing is not None and parts:
+                if _door(name) not in self.home.bodies:
+                    self.home.show_only(_door(name), parts)
+                self.home.move(_door(name), thing.position, thing.yaw)
+                self._doors.add(name)
 
     def _put_person(self, agent: AgentId, person: Placed) -> None:
         heading = about_z(person.yaw)
@@ -129,17 +173,15 @@ class Stage:
             body, self._joints[agent], [[float(v)] for v in robot.pose], physicsClientId=self.client
         )
 
-    def _carry(self, state: HomeState, agent: AgentId, held: Held, placed: Placed) -> None:
+    def _carry(self, state: HomeState, held: Held, agent: AgentId, placed: Placed) -> None:
         """Attach a thing to a hand or the gripper: it just follows."""
-        initial = state.object(self.scene, held.name)
-        if initial is not None and held.name not in state.box:
-            name, size = held.name, initial.size
-            self._shown.pop(name, None)
+        name, size = self._body(state, held.name)
+        if agent in self.robots:
+            self._attach(name, placed, *self._in_gripper(agent, placed, size))
         else:
-            known = state.box.get(held.name)
-            name, size = self._from_box(known.text if known else held.name)
-            self._carried.add(name)
-        place, turn = self._in_gripper(agent, placed, size) if agent in self.robots else _in_hand(placed, held, size)
+            self._attach(name, placed, *held_at(placed.pose, size, held.grip))
+
+    def _attach(self, name: str, placed: Placed, place: Array, turn: Array) -> None:
         heading = about_z(placed.yaw)
         at = heading @ place + np.array((placed.x, placed.y, 0.0))
         self.home.move_to(name, (float(at[0]), float(at[1]), float(at[2])), quaternion(heading @ turn))
@@ -148,26 +190,35 @@ class Stage:
         place = self.robots[agent].gripper(robot.pose).place
         return place - np.array((0.0, 0.0, min(0.6 * size[2], 0.5 * size[2] + 0.03))), np.eye(3)
 
-    def _from_box(self, text: str) -> tuple[str, Point3]:
-        """A body of a thing from the magic box that nobody holds yet; the newest few are kept."""
-        shape = shape_of(text)
-        name, number = f"box:{shape.cls}", 1
-        while name in self._carried:
-            number += 1
-            name = f"box:{shape.cls}:{number}"
-        if name not in self._box:
-            unused = [known for known in self._box if known not in self._carried]
-            if len(self._box) >= _KEPT and unused:
-                del self._box[unused[0]]
-                self.home.remove(unused[0])
+    def _body(self, state: HomeState, name: str) -> tuple[str, Point3]:
+        """The body of a thing, by its name, to be put somewhere at once; those of the magic box are made when needed.
+
+        The newest few of the magic box are kept.
+        """
+        thing = self.scene.object(name)
+        if thing is not None and name not in state.box:
+            self._shown.pop(name, None)
+            return name, thing.size
+        known = state.box.get(name)
+        shape = shape_of(known.text if known else plain(name))
+        if self._box.get(name) != shape:
+            self._forget(name)
             self.home.add(name, shape.cls, shape.size, shape.rgb)
             self._box[name] = shape
-        return name, self._box[name].size
+            for old in [one for one in self._box if one not in self._carried and one != name][:-_KEPT]:
+                self._forget(old)
+        self._carried.add(name)
+        return name, shape.size
+
+    def _forget(self, name: str) -> None:
+        if self._box.pop(name, None) is not None:
+            self._unused.discard(name)
+            self.home.remove(name)
 
     def hide(self, names: Sequence[str]) -> None:
         """Move furniture out of the way of rays; `unhide` brings it back."""
         for name in names:
-            self.home.move(name, (0.0, 0.0, _FAR_BELOW), 0.0)
+            self.home.move(name, _AWAY, 0.0)
 
     def unhide(self, names: Sequence[str]) -> None:
         """Put hidden furniture back."""
@@ -217,88 +268,11 @@ class Stage:
         return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
 
 
-def _in_hand(person: Placed, held: Held, size: Point3) -> tuple[Array, Array]:
-    """Place and turn of a held thing in the body frame."""
-    frames = forward(person.pose)
-    right, left = frames.place["right_hand"], frames.place["left_hand"]
-    ahead = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))  # the thing's front away from the body
-    if held.hold == "floor" and size[0] > _LONG:
-        return _long_tool(right, left, size)
-    if held.hold == "beside" and max(size) > _BULKY:
-        return np.array((0.0, -0.75, 0.0)), ahead
-    if held.hold == "head":
-        return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ ahead
-    if held.hold == "surface" and max(size[:2]) > _TOOL:
-        return _on_surface((right + left) / 2, size)
-    if held.hold == "both":
-        if size[0] > _LONG:
-            return _across(right, left, size)
-        return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
-    if held.hold != "left" and size[0] > 1.7 * size[1] and size[2] < _FINE:
-        return _handled(frames, size)
-    hand = left if held.hold == "left" else right
-    lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
-    return hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower)), ahead
+def _door(name: str) -> str:
+    return f"{name}:open"
 
 
-def _between(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
-    """A bulky thing between the two hands; a long one points from the right hand past the left."""
-    line = left - right
-    if size[2] > 0.6 and float(line @ line) > 0.05:
-        up = line / math.sqrt(float(line @ line))
-        front = np.array((1.0, 0.0, 0.0)) - up * up[0]
-        front /= math.sqrt(float(front @ front))
-        turn = np.stack((np.cross(front, up), front, up), axis=1)
-        return right - up * 0.22 * size[2], turn
-    turn = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
-    return (right + left) / 2 + np.array((0.03, 0.0, -0.5 * size[2])), turn
-
-
-def _across(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
-    """A long thing held like a guitar: its thick end (-x) at the right hand, its top away from the body."""
-    across = left - right
-    across = across / math.sqrt(float(across @ across))
-    top = np.array((1.0, 0.0, 0.0)) - across * across[0]
-    top = top / math.sqrt(float(top @ top))
-    turn = np.stack((across, np.cross(top, across), top), axis=1)
-    return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
-
-
-def _handled(frames: Frames, size: Point3) -> tuple[Array, Array]:
-    """A tool held at its handle (+x): a thin one goes on where the forearm points, a pan stays level."""
-    arm = frames.turn["right_hand"] @ np.array((0.0, 0.0, -1.0))
-    if size[1] > _FINE:
-        arm = np.array((1.0, 0.0, 0.0))
-    up = np.array((0.0, 0.0, 1.0)) if abs(float(arm[2])) < 0.95 else np.array((1.0, 0.0, 0.0))
-    up = up - arm * float(up @ arm)
-    up = up / math.sqrt(float(up @ up))
-    turn = np.stack((-arm, np.cross(up, -arm), up), axis=1)
-    return frames.place["right_hand"] + arm * (0.5 * size[0] - 0.07) - up * 0.5 * size[2], turn
-
-
-def _on_surface(hands: Array, size: Point3) -> tuple[Array, Array]:
-    """A thing that lies where the hands work, its front towards the person."""
-    turn = np.array(((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
-    return np.array((float(hands[0]) + 0.02, 0.0, max(float(hands[2]) - 0.06 - min(size[2], 0.08) / 2, 0.0))), turn
-
-
-def _before_eyes(frames: Frames, middle: Array, size: Point3) -> tuple[Array, Array]:
-    """A thin thing held up between both hands, its top towards the face."""
-    up = frames.place["head"] - middle
-    up = up / math.sqrt(float(up @ up))
-    across = np.array((0.0, 1.0, 0.0)) - up * up[1]
-    across = across / math.sqrt(float(across @ across))
-    turn = np.stack((across, np.cross(up, across), up), axis=1)
-    return middle + 0.03 * up, turn
-
-
-def _long_tool(right: Array, left: Array, size: Point3) -> tuple[Array, Array]:
-    """A broom from both hands down to the floor in front; the end at -x sweeps."""
-    low, high = (right, left) if right[2] < left[2] else (left, right)
-    slope = (low - high) / max(float(high[2] - low[2]), 0.05)
-    foot = low + slope * float(low[2])
-    foot = np.array((min(max(float(foot[0]), 0.35), 0.9), float(foot[1]), 0.0))
-    up = (high - foot) / math.sqrt(float((high - foot) @ (high - foot)))
-    across = np.array((0.0, 1.0, 0.0)) - up * up[1]
-    across = across / math.sqrt(float(across @ across))
-    return foot + up * 0.5 * size[0], np.stack((up, across, np.cross(up, across)), axis=1)
+def _looks(state: HomeState, thing: SceneObject) -> str:
+    """The class that a thing looks like."""
+    known = state.box.get(thing.name)
+    return thing.cls if known is None else shape_of(known.text).cls

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from coopera.core.affordances import Relation
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import Counts, Help, Intention, Task, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver, Outcome, PickPlace
@@ -57,6 +58,13 @@ def test_type_1_matches_by_class_and_not_by_instance() -> None:
     assert not predicate.matches(FakeHome(), candidate(place("book_1", "desk_1")), [task])
 
 
+def test_type_1_tells_apart_what_is_put_on_and_what_is_put_inside() -> None:
+    predicate = Predicate(LetterEmbeddings())
+    task = Task(id="9.2", thought="", act=place("plate_1", "dishwasher_1", "inside"))
+    assert predicate.matches(FakeHome(), candidate(place("plate_2", "dishwasher_1", "inside")), [task])
+    assert not predicate.matches(FakeHome(), candidate(place("plate_2", "dishwasher_1")), [task])
+
+
 def test_type_2_matches_a_thing_as_near_as_the_threshold() -> None:
     predicate = Predicate(LetterEmbeddings())
     task = Task(id="9.2", thought="", act=FreeMotion(target_id=1, target="desk_1", in_hand="novel", motion="read"))
@@ -95,8 +103,8 @@ def test_what_was_done_is_measured_against_the_persons_tasks_and_not_against_the
     assert success.help == Help(remaining=2, helped=1, done=1, metres=4, saved_metres=4)
 
 
-def place(thing: str, receptacle: str) -> PickPlace:
-    return PickPlace(object_id=0, object=thing, receptacle_id=0, receptacle=receptacle)
+def place(thing: str, receptacle: str, relation: Relation = "on") -> PickPlace:
+    return PickPlace(object_id=0, object=thing, receptacle_id=0, receptacle=receptacle, relation=relation)
 
 
 def candidate(act: PickPlace | HandOver) -> TaskCandidate:

@@ -7,7 +7,7 @@ import pytest
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, SearchSizes
-from coopera.core.household import SceneId
+from coopera.core.household import Act, AgentId, FreeMotion, SceneId
 from coopera.graphs import HumanContext, build_human_graph
 from coopera.graphs.human import human_hour
 from tests.fakes import MARA, STIR, FakeHome, ScriptedAsk, moving, placing, type2_answers
@@ -81,7 +81,7 @@ def test_the_second_reflection_comes_again_while_code_finds_something_wrong_but_
     answers["human/reflect_profile_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
     answers["human/reflect_scene_type2"] = stubborn
     hour = live(person(make_services, ask=ScriptedAsk(answers)))
-    assert heard == [['Task 9.1: there is no fixed object "oven_1".']] * 2
+    assert heard == [['Task 9.1: There is no fixed object "oven_1".']] * 2
     assert hour.repairs == []
     answers["human/reflect_scene_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
     ask = ScriptedAsk(answers)
@@ -138,15 +138,22 @@ def test_a_task_that_no_reflection_touched_keeps_its_reasons(make_services: Make
 
 def test_the_second_reflection_is_told_what_code_found(make_services: MakeServices) -> None:
     answers = type2_answers()
-    wrong = [moving("oven_1", "spoon", "stir a pot"), moving("stove_1", "none", "stir a pot", 99), *STIR[2:]]
+    wrong = [
+        moving("oven_1", "spoon", "stir a pot"),
+        moving("stove_1", "ladle", "stir a pot", 99),
+        moving("stove_1", "none", "stir a pot", 3),
+        moving("sofa_1", "sponge", "wipe the surface", 2),
+        STIR[4],
+    ]
     answers["human/reflect_profile_type2"] = lambda v: {"verdicts": [{"yes": True}], "tasks": wrong}
     ask = ScriptedAsk(answers)
     live(person(make_services, ask=ask))
     [variables] = ask.variables_of("human/reflect_scene_type2")
     assert variables["findings"] == [
-        'Task 9.1: there is no fixed object "oven_1".',
+        'Task 9.1: There is no fixed object "oven_1".',
         'Task 9.2: "stove_1" has the id 3, not 99.',
-        'Task 9.2: the thing in hand cannot be "none".',
+        'Task 9.3: The thing in hand cannot be "none".',
+        "Task 9.4: Nobody can wipe the surface at the sofa_1.",
     ]
 
 
@@ -161,6 +168,97 @@ def test_what_is_still_wrong_is_mended_to_the_nearest_object_and_said(make_servi
         "Task 9.2 was dropped",
         "Task 9.6 was dropped",
     ]
+
+
+def mended(make_services: MakeServices, home: FakeHome, *tasks: dict[str, Any], collab: int = 2) -> Any:
+    """The hour of a person whose model insists on these tasks."""
+    answers = type2_answers()
+    for prompt in (f"tasks_type{collab}", f"reflect_profile_type{collab}", f"reflect_scene_type{collab}"):
+        verdicts = {"verdicts": [{"yes": True}]} if "reflect" in prompt else {}
+        answers[f"human/{prompt}"] = lambda v, more=verdicts: {**more, "tasks": list(tasks)}  # type: ignore[misc]
+    return live(person(make_services, collab=collab, ask=ScriptedAsk(answers), home=home))
+
+
+def test_what_cannot_be_done_at_its_furniture_goes_where_it_can_in_the_same_room_first(
+    make_services: MakeServices,
+) -> None:
+    wipe, stir = moving("sofa_1", "sponge", "wipe the surface", 2), moving("sofa_1", "ladle", "stir a pot", 2)
+    hour = mended(make_services, FakeHome(), wipe, stir)
+    assert [(task.act.target, task.act.target_id) for task in hour.tasks] == [("desk_1", 1), ("stove_1", 3)]
+    assert hour.repairs[0] == (
+        "Task 9.1: wipe the surface at the sofa with the sponge in hand -> wipe the surface at the desk with the "
+        "sponge in hand. Nobody can wipe the surface at the sofa_1."
+    )
+
+
+def test_what_can_be_done_nowhere_is_done_with_what_it_needs(make_services: MakeServices) -> None:
+    class Potless(FakeHome):
+        def misfit(self, agent: AgentId, act: Act) -> str:
+            potless = isinstance(act, FreeMotion) and "pot" in act.motion and "pot" not in act.in_hand
+            return "That needs a pot." if potless else super().misfit(agent, act)
+
+    hour = mended(make_services, Potless(), moving("stove_1", "spoon", "stir a pot", 3))
+    assert [task.act.describe() for task in hour.tasks] == ["stir a pot at the stove with the cooking pot in hand"]
+    assert hour.repairs[0].endswith("That needs a pot.")
+
+
+def test_what_can_be_done_nowhere_becomes_another_motion_of_its_posture_or_is_dropped(
+    make_services: MakeServices,
+) -> None:
+    home = FakeHome()
+    home.fixed = {"sofa_1": (2, "study")}
+    tasks = [moving("sofa_1", "sponge", "wipe the surface", 2), moving("sofa_1", "novel", "sit and read", 2)]
+    hour = mended(make_services, home, *tasks)
+    assert [task.act.motion for task in hour.tasks] == ["sit and read"]
+    assert hour.repairs == ["Task 9.1 was dropped: Nobody can wipe the surface at the sofa_1."]
+    home.motions = ["lie down", "fold clothes", "sit and read", "wipe the surface"]
+    hour = mended(make_services, home, *tasks)
+    assert [task.act.describe() for task in hour.tasks] == [
+        "fold clothes at the sofa with the sponge in hand",
+        "sit and read at the sofa with the novel in hand",
+    ]
+
+
+def test_what_cannot_go_inside_goes_on_top(make_services: MakeServices) -> None:
+    inside = placing("mug_1", "desk_1", 5, 1)
+    inside["act"]["relation"] = "inside"
+    hour = mended(make_services, FakeHome(), inside, collab=1)
+    assert [task.act.describe() for task in hour.tasks] == ["put the mug on the desk"]
+    assert hour.repairs == [
+        "Task 9.1: put the mug in the desk -> put the mug on the desk. Nothing can be put into the desk_1."
+    ]
+
+
+def test_the_person_is_told_what_can_be_done_where_and_how_things_are_in_the_whole_home(
+    make_services: MakeServices,
+) -> None:
+    home = FakeHome()
+    home.said = {"desk_1": "dirty", "mug_1": "with tea in it"}
+    home.fixed["sofa_2"] = (7, "kitchen")
+    home.fixed["shelf_1"] = (8, "study")  # no motion is said to be done at one
+    home.unfit = {("sit and read", "sofa_2")}
+    ask = ScriptedAsk(type2_answers())
+    live(person(make_services, ask=ask, home=home))
+    for prompt in ("human/tasks_type2", "human/reflect_scene_type2"):
+        [variables] = ask.variables_of(prompt)
+        assert {name: sorted(motions) for name, motions in variables["can"].items()} == {
+            "desk_1": ["sit and read", "wipe the surface"],
+            "sofa_1": ["sit and read"],
+            "stove_1": ["stir a pot", "wipe the surface"],
+        }
+        assert variables["states"] == home.said
+    assert ask.variables_of("human/intention")[0]["states"] == home.said
+
+
+def test_things_may_go_into_what_is_carried_if_it_holds_things(make_services: MakeServices) -> None:
+    home = FakeHome()
+    home.movable["laundry_basket_1"] = (9, "study")
+    into = [placing("book_1", "laundry_basket_1", 4, 99), placing("book_1", "mug_1", 4, 5)]
+    into[0]["act"]["relation"] = "inside"
+    hour = mended(make_services, home, *into, collab=1)
+    assert hour.tasks[0].act.describe() == "put the book in the laundry basket"
+    assert hour.tasks[0].act.receptacle_id == 9
+    assert hour.tasks[1].act.receptacle in home.fixed
 
 
 def test_in_type_1_tasks_use_the_movable_objects_of_the_home(make_services: MakeServices) -> None:

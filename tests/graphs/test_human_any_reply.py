@@ -14,7 +14,7 @@ from coopera.core.asks import ASKS
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, ModelCall
-from coopera.core.household import SceneId
+from coopera.core.household import HUMAN, SceneId
 from coopera.core.randomness import Address
 from coopera.core.replies import REPLIES
 from coopera.graphs import build_human_graph
@@ -91,7 +91,7 @@ def test_tasks_that_leave_can_be_tried_or_the_hour_fails_with_a_reason(
             return
         left.append(hour)
         assert 1 <= len(hour.tasks) <= 5
-        assert findings(hour.tasks, home, len(hour.tasks)) == []
+        assert findings(hour.tasks, home, HUMAN, len(hour.tasks)) == []
 
     live()
     assert left  # some hours must have been lived, or nothing was shown

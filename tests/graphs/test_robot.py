@@ -203,7 +203,50 @@ def test_a_robot_looks_at_the_home_and_neither_acts_in_it_nor_reads_its_state(ma
     assert view.objects("movable") == FakeHome().movable
     assert [view.class_of(name) for name in ("mug_2", "no_such_thing")] == ["mug", "no_such_thing"]
     public = {name for name in dir(HomeView) if not name.startswith("_")}
-    assert public == {"classes", "class_of", "fixed", "motions", "movable", "objects", "of", "rooms", "scene"}
+    assert public == {
+        *("classes", "class_of", "fixed", "misfit", "motions", "movable", "objects", "of", "rooms", "scene", "states"),
+    }
+
+
+def test_a_candidate_that_cannot_be_done_in_the_home_is_dropped_before_it_is_judged_and_that_is_said(
+    make_services: MakeServices,
+) -> None:
+    answers = type2_answers()
+    acts = [placing("mug_9", "desk_1", 9, 1), placing("mug_2", "desk_1", 66, 1), placing("mug_1", "desk_1", 5, 1)]
+    answers["robot/tasks_type1"] = lambda v: {"tasks": acts}
+    hour = watch(robot(make_services, collab=1, ask=ScriptedAsk(answers)))
+    assert [(task.act.object, task.accepted) for task in hour.tasks] == [("mug_1", True)]
+    assert hour.fallbacks == [
+        '"put the mug on the desk" was dropped: "mug_2" has the id 6, not 66.',
+        '"put the mug on the desk" was dropped: There is no movable object "mug_9".',
+    ]
+
+
+def test_anything_can_be_brought_but_furniture(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    things = ("anvil", "sofa_1")
+    answers["robot/tasks_type2"] = lambda v: {"tasks": [{"thought": "so", "act": {"object": t}} for t in things]}
+    hour = watch(robot(make_services, ask=ScriptedAsk(answers)))
+    assert [task.act.object for task in hour.tasks] == ["anvil"]
+    assert hour.fallbacks == ['"bring the sofa" was dropped: The sofa_1 is furniture.']
+
+
+@pytest.mark.parametrize("collab", [1, 2])
+def test_the_robot_knows_how_things_are_where_it_is_and_in_what_it_saw_and_nowhere_else(
+    make_services: MakeServices, collab: int
+) -> None:
+    answers = type2_answers()
+    answers["robot/tasks_type1"] = lambda v: {"tasks": [placing("mug_1", "desk_1", 5, 1)]}
+    home, ask = FakeHome(), ScriptedAsk(answers)
+    home.said = {"mug_1": "dirty", "stove_1": "on", "desk_1": "dirty", "book_1": "cut"}
+    percept = Percept(room="study", near=["desk_1"], motion="", states={"desk_1": "dirty", "stove_1": "off"})
+    watch(robot(make_services, collab, Observation(percept=percept), ask=ask, home=home))
+    assert ask.variables_of(f"robot/tasks_type{collab}")[0]["states"] == {
+        "desk_1": "dirty",
+        "mug_1": "dirty",
+        "stove_1": "on",
+    }
+    assert ask.variables_of("robot/intentions")[0]["percept"]["states"] == percept.states
 
 
 def test_a_robot_asks_with_its_own_prompts_alone(make_services: MakeServices) -> None:

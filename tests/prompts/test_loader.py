@@ -102,6 +102,24 @@ def test_the_robot_is_asked_about_the_pictures_only_where_there_is_no_percept(sh
     assert "pictures" not in shipped.render("robot/intentions", blind).text
 
 
+def test_a_person_reads_what_can_be_done_at_which_furniture(shipped: PromptLibrary) -> None:
+    for name in ("human/tasks_type2", "human/reflect_scene_type2"):
+        lines = shipped.render(name, examples(name)[0]).text.splitlines()
+        assert "- armchair_1 (id 2) in the living room: sit and read, put on headphones" in lines
+        assert "- coffee_table_1 (id 3) in the living room" in lines  # nothing is said of it
+
+
+def test_people_and_robots_read_how_things_are_where_that_is_not_as_usual(shipped: PromptLibrary) -> None:
+    told = [name for name, spec in PROMPTS.items() if "states" in spec.variables]
+    assert "robot/tasks_type2" in told
+    for name in told:
+        full = examples(name)[0]
+        assert "- mug_1: dirty, with tea in it" in shipped.render(name, full).text.splitlines()
+        assert "not as usual" not in shipped.render(name, {**full, "states": {}}).text
+    seen = examples("robot/intentions")[0]
+    assert "Not as usual: coffee_table_1 (dirty)." in shipped.render("robot/intentions", seen).text
+
+
 def test_a_rendered_prompt_carries_what_the_door_needs(shipped: PromptLibrary) -> None:
     rendered = shipped.render("judge/tasks", examples("judge/tasks")[0])
     raw = (SHIPPED / "judge/tasks.md").read_bytes()

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
+from coopera.core.affordances import Relation
 from coopera.core.household import FreeMotion, HandOver, PickPlace
 from coopera.simulation.homes.scene import Doorway, Room, Scene, SceneObject
 
@@ -51,12 +53,28 @@ def flat() -> Scene:
     )
 
 
-def put(thing: str, receptacle: str) -> PickPlace:
-    return PickPlace(object_id=0, object=thing, receptacle_id=0, receptacle=receptacle)
+def put(thing: str, receptacle: str, relation: Relation = "on", scene: Scene | None = None) -> PickPlace:
+    """An act in a home, by default the flat."""
+    there = _number(receptacle, scene)
+    return PickPlace(
+        object_id=_number(thing, scene), object=thing, receptacle_id=there, receptacle=receptacle, relation=relation
+    )
 
 
-def move(target: str, in_hand: str, motion: str) -> FreeMotion:
-    return FreeMotion(target_id=0, target=target, in_hand=in_hand, motion=motion)
+def move(target: str, in_hand: str, motion: str, scene: Scene | None = None) -> FreeMotion:
+    """An act in a home, by default the flat."""
+    return FreeMotion(target_id=_number(target, scene), target=target, in_hand=in_hand, motion=motion)
+
+
+@cache
+def _flat() -> Scene:
+    return flat()
+
+
+def _number(name: str, scene: Scene | None) -> int:
+    """The id of an object; a name that the home does not have gets one that nothing has."""
+    found = (scene or _flat()).object(name)
+    return 9999 if found is None else found.id
 
 
 def bring(thing: str) -> HandOver:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import FreeMotion, HandOver, Outcome
+from coopera.core.household import HandOver, Outcome
 from coopera.core.protocols import Home
 from coopera.simulation.acts.plans import Walk
 from coopera.simulation.homes.catalogue import surfaces
@@ -134,9 +134,8 @@ def test_the_person_takes_a_thing_from_the_magic_box_when_nobody_brought_it(home
         ("sofa_1", "sit and read", "sit", 0.41),
         ("dining_table_1", "eat a meal", "sit", 0.45),
         ("kitchen_counter_1", "chop vegetables", "stand", 0.0),
-        ("washbasin_1", "sit and rest", "stand", 0.0),
         ("bed_1", "take a nap", "lie", 0.5),
-        ("coffee_table_1", "do push-ups", "floor", 0.0),
+        ("sofa_1", "do push-ups", "floor", 0.0),
     ],
 )
 def test_the_body_takes_the_posture_and_height_of_the_furniture(home, target, motion, posture, height) -> None:
@@ -148,7 +147,7 @@ def test_the_body_takes_the_posture_and_height_of_the_furniture(home, target, mo
 
 
 def test_a_given_search_decides_what_a_free_text_means() -> None:
-    with World(flat(), match=lambda text: "do squats" if "gym" in text else "dance") as world:
+    with World(flat(), match=lambda text: [("do squats" if "gym" in text else "dance", 0.9)]) as world:
         world.perform("human", move("sofa_1", "mug", "go through the gym routine"))
         assert world.state.person().motion == "do squats"
 
@@ -172,7 +171,7 @@ def test_a_snapshot_is_small_plain_json_and_restores_exactly(home) -> None:
         ({"moved": {"unicorn_1": {"position": [0, 0, 0], "yaw": 0, "on": None}}}, "unicorn_1"),
         ({"agents": {"human": {"kind": "person", "spot": ["here", 0]}}}, "agents.human.person.spot"),
         ({"agents": {"ana": {"kind": "robot", "spot": [1, 2]}}}, r"home of ana \(robot\), but .* robot \(robot\)"),
-        ({"version": 3}, "version"),
+        ({"version": 4}, "version"),
     ],
 )
 def test_a_damaged_or_foreign_snapshot_is_refused_and_changes_nothing(home, damage, complaint) -> None:
@@ -244,11 +243,11 @@ def _assert_consistent(world: World) -> None:
 def _random_act(world: World, agent: str, rng: np.random.Generator):
     fixed, movable = list(world.objects("fixed")), list(world.objects("movable"))
     if rng.random() < 0.5:
-        return put(str(rng.choice(movable)), str(rng.choice(fixed)))
+        return put(str(rng.choice(movable)), str(rng.choice(fixed)), scene=world.layout)
     if agent == "robot":
         return HandOver(object=str(rng.choice(["mug", "magic wand", "book"])))
     motion = str(rng.choice(world.motions))
-    return FreeMotion(target_id=0, target=str(rng.choice(fixed)), in_hand="book", motion=motion)
+    return move(str(rng.choice(fixed)), "book", motion, world.layout)
 
 
 def test_a_hundred_random_acts_of_each_leave_the_home_consistent(home) -> None:
@@ -258,7 +257,7 @@ def test_a_hundred_random_acts_of_each_leave_the_home_consistent(home) -> None:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_random_acts_leave_the_shipped_home_consistent(maple, seed) -> None:
     done = _live_at_random(maple, rounds=12, seed=seed)
-    assert done >= 20  # what fails is a full shelf
+    assert done >= 12  # what fails is a full shelf, or a motion that nobody makes there
 
 
 def _live_at_random(world: World, *, rounds: int, seed: int) -> int:
@@ -269,7 +268,7 @@ def _live_at_random(world: World, *, rounds: int, seed: int) -> int:
             outcome = world.perform(agent, act)
             done += outcome.ok
             assert outcome.ok or outcome.reason
-            if isinstance(act, HandOver | FreeMotion):
+            if isinstance(act, HandOver):
                 assert outcome.ok, (act, outcome.reason)
         _assert_consistent(world)
     return done

@@ -23,6 +23,10 @@ FIRST, LAST = 9, 21
 """The hours of day that the activities' curves cover, both inclusive."""
 
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
+_MOVED = (
+    "where a motion can be done now stands in core/affordances.yaml, under motions, for everybody; take the field out "
+    "(a motion that is not in there can be done anywhere)"
+)
 
 Floats = NDArray[np.float64]
 Text = Annotated[str, Field(min_length=2, max_length=200)]
@@ -55,6 +59,7 @@ class Activity(Frozen):
     big_five: Loadings = {}
     source: Text
     assumed: tuple[str, ...] = ()
+    dirty: tuple[Text, ...] = ()
     repeatable: bool = False
     need: bool = False
     closes: bool = False
@@ -88,22 +93,7 @@ class Household(Frozen):
     """All activities, in the file's order: the index of an activity is its place in every array."""
 
     looks_like: Annotated[dict[Text, Text], Field(min_length=1)]
-    done_at: dict[Text, tuple[Text, ...]] = {}
     activities: Annotated[tuple[Activity, ...], Field(min_length=2)]
-
-    def suits(self, motion: str, furniture: str) -> bool:
-        """Whether a motion can sensibly be made at a class of furniture: nobody chops vegetables on a sofa.
-
-        Furniture that the file does not know is given the benefit of the doubt.
-        """
-        places = self.done_at.get(motion)
-        return places is None or furniture in places or furniture not in self.furniture
-
-    @cached_property
-    def furniture(self) -> frozenset[str]:
-        """Every class of furniture that the file speaks of."""
-        spots = {spot for activity in self.activities for spot in (*activity.fixed, *(at for _, at in activity.places))}
-        return frozenset(spots.union(*self.done_at.values()))
 
     @cached_property
     def uses(self) -> dict[str, frozenset[str]]:
@@ -159,7 +149,6 @@ class Extension(Frozen):
 
     extends: Literal["shipped"]
     looks_like: dict[Text, Text] = {}
-    done_at: dict[Text, tuple[Text, ...]] = {}
     activities: tuple[Activity, ...] = ()
 
     def applied(self) -> Household:
@@ -170,7 +159,6 @@ class Extension(Frozen):
         added = tuple(activity for activity in self.activities if activity.id not in known.index)
         return Household(
             looks_like={**known.looks_like, **self.looks_like},
-            done_at={**known.done_at, **self.done_at},
             activities=kept + added,
         )
 
@@ -188,6 +176,8 @@ def load(path: Path = SHIPPED) -> Household:
         data = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
+    if isinstance(data, dict) and "done_at" in data:
+        raise ConfigError(f"{path}: field 'done_at': {_MOVED}")
     if isinstance(data, dict) and "extends" in data:
         extension = _parsed(Extension, data, path)
         _refuse(_double_ids(extension.activities), path)
@@ -245,9 +235,6 @@ def _double_wordings(household: Household) -> Iterator[str]:
 
 
 def _unknowns(household: Household) -> Iterator[str]:
-    for motion in household.done_at:
-        if motion not in household.looks_like:
-            yield f"field 'done_at': {motion!r} is not listed under looks_like"
     for activity in household.activities:
         for other in activity.follows:
             if other not in household.index:

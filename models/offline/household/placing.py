@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
+from coopera.core.affordances import Relation, affordances
 from coopera.core.household import FreeMotion, PickPlace
-from coopera.models.offline.household.knowledge import Activity, Household
+from coopera.models.offline.household.knowledge import Activity
 from coopera.models.offline.household.reading import Piece, Surroundings, room_kind
 from coopera.models.offline.household.sense import CommonSense
 
@@ -21,11 +22,24 @@ class Placement(NamedTuple):
     spot: Piece
     order: int
 
+    @property
+    def relation(self) -> Relation:
+        """Where the thing usually goes: inside the furniture, such as a plate in the dishwasher, or on it."""
+        return affordances().relation(self.thing.cls, self.spot.cls)
+
     def act(self) -> PickPlace:
         """Return it as an act."""
         return PickPlace(
-            object_id=self.thing.id, object=self.thing.name, receptacle_id=self.spot.id, receptacle=self.spot.name
+            object_id=self.thing.id,
+            object=self.thing.name,
+            receptacle_id=self.spot.id,
+            receptacle=self.spot.name,
+            relation=self.relation,
         )
+
+    def words(self) -> str:
+        """Say it in words, such as "the plate in the dishwasher"."""
+        return self.act().describe().removeprefix("put ")
 
 
 def by_name(pieces: Sequence[Piece], _what: str) -> Piece:
@@ -99,9 +113,9 @@ def spots(sense: CommonSense, activity: Activity, fixed: Surroundings) -> dict[s
     return {nearest.cls: [nearest]}
 
 
-def usable(household: Household, activity: Activity, thing: str, furniture: Iterable[str]) -> bool:
+def usable(activity: Activity, thing: str, furniture: Iterable[str]) -> bool:
     """Whether the common motion with a thing of the activity can be made at one of some classes of furniture."""
-    return any(household.suits(activity.things[thing], cls) for cls in furniture)
+    return any(affordances().suits(activity.things[thing], cls) for cls in furniture)
 
 
 def free_motion(spot: Piece, thing: str, motion: str) -> FreeMotion:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from coopera.core.affordances import affordances
 from coopera.core.errors import ModelCallError
 from coopera.core.household import plain
 from coopera.core.replies import FreeMotionDraft, FreeMotionReply, PickPlaceDraft, PickPlaceReply
@@ -14,12 +15,16 @@ from coopera.models.offline.household.placing import Placement, free_motion, spo
 from coopera.models.offline.household.reading import Piece, Surroundings, clip
 from coopera.models.offline.household.sense import CommonSense
 
-_TARGET = re.compile(r"\b(?:on|onto|in|into|at|to|under|by|next to|beside)\s+(?:the\s+|my\s+|a\s+)?(?P<place>[^,]+)$")
+_TARGET = re.compile(
+    r"\b(?P<where>on|onto|in|into|at|to|under|by|next to|beside)\s+(?:the\s+|my\s+|a\s+)?(?P<place>[^,]+)$"
+)
 _WITH = re.compile(r"\bwith\s+(?:the\s+|my\s+|a\s+|an\s+|some\s+)?(?P<thing>\w+(?:\s\w+)?)")
 
 
 def placements(sense: CommonSense, variables: Mapping[str, Any]) -> PickPlaceReply:
     """Make a pick-and-place of each step: the thing that it names, and the place after "on", "in" or the like.
+
+    "On" and "in" are taken at their word, where the place holds things within it.
 
     Raises:
         ModelCallError: If the home has no movable or no fixed object.
@@ -32,7 +37,12 @@ def placements(sense: CommonSense, variables: Mapping[str, Any]) -> PickPlaceRep
         where = _TARGET.search(step)
         place = _named(sense, where["place"] if where else step, fixed.pieces)
         thing = _named(sense, step[: where.start()] if where else step, movable.pieces)
-        drafts.append(PickPlaceDraft(thought=clip(f"I {step}.", 300), act=Placement(thing, place, 0).act()))
+        act = Placement(thing, place, 0).act()
+        if where and where["where"] in ("on", "onto"):
+            act = act.model_copy(update={"relation": "on"})
+        elif where and where["where"] in ("in", "into") and affordances().contains(place.cls):
+            act = act.model_copy(update={"relation": "inside"})
+        drafts.append(PickPlaceDraft(thought=clip(f"I {step}.", 300), act=act))
     return PickPlaceReply(tasks=drafts)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
+from coopera.core.affordances import affordances
 from coopera.core.people import BigFive
 from coopera.core.randomness import rng_at
 from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Floats
@@ -90,7 +91,7 @@ class PrivateLife:
         household, common = self._sense.household, activity.things[thing]
         looks = household.looks_like
         alike = [m for m in activity.all_motions if looks[m] == looks[common] and m in household.uses[thing]]
-        alike = [m for m in alike if any(household.suits(m, spot) for spot in spots)] or [common]
+        alike = [m for m in alike if any(affordances().suits(m, spot) for spot in spots)] or [common]
         own = self._rng("motion", activity.id, thing)
         habit = common if own.random() < 0.7 and common in alike else alike[int(own.integers(len(alike)))]
         return habit if rng.random() < 0.9 else alike[int(rng.integers(len(alike)))]

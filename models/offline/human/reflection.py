@@ -12,6 +12,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from coopera.core.affordances import affordances
 from coopera.core.household import FreeMotion, PickPlace, plain
 from coopera.core.replies import (
     FreeMotionDraft,
@@ -85,7 +86,7 @@ def profile_type2(
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
     options = spots(sense, activity, fixed)
     weights = dict(zip(activity.thing_names, person.thing_weights(activity), strict=True))
-    favourites = _usable_first(sense, activity, sorted(weights, key=lambda thing: (-weights[thing], thing)), options)
+    favourites = _usable_first(activity, sorted(weights, key=lambda thing: (-weights[thing], thing)), options)
     for item in items:
         thing = item.act.in_hand
         if thing in weights and weights[thing] < HARDLY_EVER:
@@ -102,7 +103,7 @@ def profile_type2(
             _move(item, by_name(next(iter(options.values())), activity.id))
     _vary_motions(items, activity, favourites)
     for item in items:
-        _to_a_fitting_place(sense, item, options)
+        _to_a_fitting_place(item, options)
     verdicts = _in_order(items, activity)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     return _moving_reply(items, _why(person, activity, variables, before), verdicts)
@@ -119,7 +120,9 @@ def scene_type1(
         thing = _mend(sense, item, item.act.object, item.act.object_id, movable)
         spot = _mend(sense, item, item.act.receptacle, item.act.receptacle_id, fixed)
         if thing is not None and spot is not None:
-            item.act = Placement(thing, spot, 0).act()
+            as_meant = (item.act.object, item.act.receptacle) == (thing.name, spot.name)
+            act = Placement(thing, spot, 0).act()
+            item.act = act.model_copy(update={"relation": item.act.relation}) if as_meant else act
     _find_repeats(items)
     _heed(items, variables["findings"])
     mended = [item for item in items if item.problems and all(MENDED in said for said in item.problems)]
@@ -147,12 +150,12 @@ def scene_type2(
     _find_repeats(items)
     _heed(items, variables["findings"])
     options = spots(sense, activity, fixed)
-    things = _usable_first(sense, activity, activity.thing_names, options)
+    things = _usable_first(activity, activity.thing_names, options)
     for item in items:
         if any(MENDED not in said for said in item.problems):
             _other_thing(items, item, activity, things)
     for item in items:
-        _to_a_fitting_place(sense, item, options)
+        _to_a_fitting_place(item, options)
     verdicts = [_verdict(item) for item in items]
     del items[count:]
     for thing in things:
@@ -160,7 +163,7 @@ def scene_type2(
             more = _Item(
                 "", "", free_motion(by_name(next(iter(options.values())), thing), thing, activity.things[thing])
             )
-            _to_a_fitting_place(sense, more, options)
+            _to_a_fitting_place(more, options)
             more.thought = f"One more: I {more.act.describe()}."
             items.append(more)
     return _moving_reply(items, _plainly(variables), verdicts)
@@ -250,10 +253,8 @@ def _other_thing(
         item.thought = f"Better: I {item.act.describe()}."
 
 
-def _usable_first(
-    sense: CommonSense, activity: Activity, things: Sequence[str], options: Mapping[str, Sequence[Piece]]
-) -> list[str]:
-    return sorted(things, key=lambda thing: not usable(sense.household, activity, thing, options))
+def _usable_first(activity: Activity, things: Sequence[str], options: Mapping[str, Sequence[Piece]]) -> list[str]:
+    return sorted(things, key=lambda thing: not usable(activity, thing, options))
 
 
 def _vary_motions(items: Sequence[_Item[FreeMotion]], activity: Activity, things: Sequence[str]) -> None:
@@ -267,9 +268,9 @@ def _vary_motions(items: Sequence[_Item[FreeMotion]], activity: Activity, things
             _other_thing(items, item, activity, others)
 
 
-def _to_a_fitting_place(sense: CommonSense, item: _Item[FreeMotion], options: Mapping[str, Sequence[Piece]]) -> None:
+def _to_a_fitting_place(item: _Item[FreeMotion], options: Mapping[str, Sequence[Piece]]) -> None:
     """Go where the motion can be made, if the activity has such a place here."""
-    suits, motion = sense.household.suits, item.act.motion
+    suits, motion = affordances().suits, item.act.motion
     fitting = next((pieces for cls, pieces in options.items() if suits(motion, cls)), None)
     if fitting is not None and not suits(motion, class_of(item.act.target)):
         item.problems.append(f"nobody would {motion} at the {plain(item.act.target)}")

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from coopera.core.affordances import affordances
 from coopera.core.clock import hour_label
 from coopera.core.people import Frozen
 from coopera.core.randomness import rng_at
 from coopera.core.replies import DayReply, IntentionReply
 from coopera.models.offline.household.knowledge import Activity, Floats
-from coopera.models.offline.household.reading import Memory, big_five_of, clip, hour_of, memories, room_kind
+from coopera.models.offline.household.reading import Memory, big_five_of, class_of, clip, hour_of, memories, room_kind
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import big_five, persona, verdicts
 from coopera.models.offline.human import tasks as human_tasks
@@ -22,6 +23,7 @@ from coopera.models.offline.human.person import PrivateLife
 USUAL_TEMPERATURE = 0.7  # PAPER App. A: proposing at 0.7; the logits are meant for it
 NEXT = 0.9  # logits for an activity that tends to follow what was done last
 LATER = 0.25  # the same for what was done before that
+DIRTY = 0.5  # logits for what makes something clean that is dirty
 AGAIN_AFTER = 3  # hours until a repeatable activity may come again
 NEVER = -1e9
 
@@ -63,7 +65,7 @@ class Human:
         life, hour = self._life(variables), int(variables["hour"])
         rng = _in_these_rooms(rng, variables["rooms"])
         today = memories(variables["today"], hour)
-        wish = life.pull + life.own_hours[:, hour] + self._flow(today)
+        wish = life.pull + life.own_hours[:, hour] + self._flow(today) + self._called_for(variables["states"])
         activity = self._draw(wish, self._allowed(today, variables["rooms"]), rng, temperature)
         return IntentionReply(
             intention=clip(life.wording(activity, rng), 300),
@@ -104,6 +106,12 @@ class Human:
         for memory, weight in zip(reversed(today), (NEXT, LATER, LATER), strict=False):
             total = total + weight * household.follow_matrix[self._sense.index(memory.text)]
         return total
+
+    def _called_for(self, states: Mapping[str, str]) -> Floats:
+        """Logits for what is done about something that is dirty at home."""
+        dirty = {class_of(name) for name, said in states.items() if "dirty" in said.split(", ")}
+        wants = [any(affordances().is_one_of(cls, a.dirty) for cls in dirty) for a in self._sense.household.activities]
+        return DIRTY * np.array(wants, dtype=np.float64)
 
     def _allowed(self, today: Sequence[Memory], rooms: Sequence[str]) -> NDArray[np.bool_]:
         """Nothing of today again, unless it is repeatable and three hours old; only what the home has rooms for.

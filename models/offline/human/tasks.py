@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from coopera.core.affordances import affordances
 from coopera.core.errors import ModelCallError
 from coopera.core.household import plain
 from coopera.core.people import Frozen
@@ -38,10 +39,10 @@ def pick_and_place(
         raise ModelCallError("human/tasks_type1: the home has no movable or no fixed object to make a task of")
     drafts: list[PickPlaceDraft] = []
     for turn, place in enumerate(chosen):
-        thing, spot = plain(place.thing.name), plain(place.spot.name)
+        thing = plain(place.thing.name)
         drafts.append(
             PickPlaceDraft(
-                thought=clip(f"{IN_TURN[min(turn, 4)]}, I want the {thing} on the {spot}.", 300),
+                thought=clip(f"{IN_TURN[min(turn, 4)]}, I want {place.words()}.", 300),
                 act=place.act(),
                 **reasons(person, activity, variables, before, [draft.act for draft in drafts], thing),
             )
@@ -69,14 +70,14 @@ def free_motions(
     weights = person.thing_weights(activity) * [AGAIN if name in used else 1.0 for name in names]
     count = min(int(variables["n_tasks"]), len(names))
     drawn = weighted_order(weights, rng)
-    doable = [i for i in drawn if usable(sense.household, activity, names[i], options)]
+    doable = [i for i in drawn if usable(activity, names[i], options)]
     chosen = [*doable, *(i for i in drawn if i not in doable)][:count]
     drafts: list[FreeMotionDraft] = []
     main: Piece | None = None
     for turn, index in enumerate(sorted(chosen)):
         thing = names[index]
         motion = person.motion(activity, thing, options, rng)
-        fitting = {cls: pieces for cls, pieces in options.items() if sense.household.suits(motion, cls)} or options
+        fitting = {cls: pieces for cls, pieces in options.items() if affordances().suits(motion, cls)} or options
         spot = favourite_spot(person, activity, fitting, main, rng)
         main = main or spot
         drafts.append(

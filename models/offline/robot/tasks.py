@@ -57,7 +57,7 @@ def pick_and_place(
     return PickPlaceReply(
         tasks=[
             PickPlaceDraft(
-                thought=clip(f"The person will want the {plain(p.thing.name)} on the {plain(p.spot.name)}.", 300),
+                thought=clip(f"The person will want {p.words()}.", 300),
                 act=p.act(),
                 **_reasons(variables, recalled, plain(p.thing.name)),
             )

@@ -34,7 +34,9 @@ def test_an_imported_home_of_hssd_is_listed_and_lived_in(
         act = PickPlace(object_id=1, object="mug_1", receptacle_id=3, receptacle="bed_1")
         assert world.perform("human", act).ok
         assert world.as_scene().object_map("movable")["mug_1"] == (1, "bedroom")
-        assert world.perform("robot", act.model_copy(update={"object": "mug_2"})).ok
+        assert world.perform(
+            "robot", act.model_copy(update={"object": "mug_2", "object_id": home.object("mug_2").id})
+        ).ok
 
 
 def test_importing_twice_needs_force(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

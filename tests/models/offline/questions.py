@@ -63,7 +63,7 @@ def ask(prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: An
 
 
 def ask_model(chat: OfflineChatModel, prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: Any) -> Any:
-    for name, nothing in (("steps", []), ("seen", None)):
+    for name, nothing in (("steps", []), ("seen", None), ("can", {}), ("states", {})):
         if name in ASKS[prompt].variables:
             variables.setdefault(name, nothing)
     assert set(variables) == set(ASKS[prompt].variables)
@@ -108,7 +108,7 @@ def memory(text: str, day: int, hour: int, now: Clock) -> dict[str, Any]:
 def intend(who: dict[str, Any], hour: int, *, seed: int = 0, day: int = 0, **changed: Any) -> Any:
     """human/intention with nothing recalled, unless `changed` says otherwise."""
     temperature = changed.pop("temperature", 0.7)
-    given = {"recalled_intentions": [], "recalled_tasks": [], "rooms": ROOMS, "today": [], **changed}
+    given = {"recalled_intentions": [], "recalled_tasks": [], "rooms": ROOMS, "states": {}, "today": [], **changed}
     return ask("human/intention", seed=seed, temperature=temperature, **when(day, hour), **who, **given)
 
 
@@ -133,7 +133,7 @@ def as_tasks(drafts: Sequence[Any], hour: int = 10) -> list[dict[str, Any]]:
 
 def percept(**seen: Any) -> dict[str, Any]:
     what = Percept(**{"room": "kitchen", "near": [], "motion": "", "in_hand": None, **seen})
-    return {**what.model_dump(), "caption": what.caption()}
+    return {**what.model_dump(), "states": what.states, "caption": what.caption()}
 
 
 def imagine(*, hour: int = 10, day: int = 0, n: int = 5, **changed: Any) -> Any:
@@ -181,6 +181,8 @@ _ALL: dict[str, Any] = {
     "fixed": FIXED,
     "movable": MOVABLE,
     "motions": [],
+    "can": {},
+    "states": {},
     "n_tasks": 3,
     "n_intentions": 4,
     "findings": [],

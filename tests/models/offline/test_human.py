@@ -191,3 +191,13 @@ def test_sentences_are_sorted_into_habits_aversions_and_other_people() -> None:
     assert told.habits == ["I love to bake.", "I never skip breakfast.", "My father taught me to fish.", "I like red."]
     assert told.aversions == ["I do not drink alcohol.", "I hate the color orange"]
     assert told.others == ["My sister is a pole dancer.", "She sings."]
+
+
+def test_dirty_dishes_are_washed_up_a_little_more_often_and_nothing_else_is() -> None:
+    def washing_up(states: dict[str, str]) -> int:
+        wished = [activity(intend(person(), 20, seed=seed, states=states).intention) for seed in range(300)]
+        return wished.count("dishes")
+
+    usual = washing_up({})
+    assert washing_up({"fridge_1": "open", "mug_1": "with tea in it", "sofa_1": "dirty"}) == usual
+    assert usual < washing_up({"plate_2": "open, dirty"}) < 3 * usual

@@ -12,10 +12,13 @@ import numpy as np
 import pytest
 import yaml
 
+from coopera.core.affordances import affordances
 from coopera.core.errors import ConfigError
 from coopera.core.household import plain
 from coopera.core.people import TRAITS, BigFive
 from coopera.models.offline.household.knowledge import SHIPPED, Activity, load, shipped
+from coopera.models.offline.household.placing import Placement
+from coopera.models.offline.household.reading import Piece
 
 ROOT = Path(__file__).parents[3]
 ACTIVITIES = shipped().activities
@@ -69,17 +72,22 @@ def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
     for activity in ACTIVITIES:
         assert {thing for thing, _ in activity.places} <= set(catalogue["movable"])
         assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
-    assert shipped().furniture <= set(catalogue["fixed"])
 
 
 def test_each_motion_of_an_activity_can_be_made_at_one_of_its_spots() -> None:
-    suits = shipped().suits
+    suits = affordances().suits
     homeless = [(a.id, m) for a in ACTIVITIES for m in a.all_motions if not any(suits(m, spot) for spot in a.fixed)]
     assert homeless == []
-    assert suits("chop vegetables", "kitchen_counter")
-    assert not suits("chop vegetables", "armchair")
-    assert suits("chop vegetables", "ping_pong_table")  # unknown to the file
-    assert suits("dance", "armchair")  # needs no special place
+
+
+def test_people_put_things_inside_where_they_usually_are_and_on_top_otherwise() -> None:
+    def placed(thing: str, spot: str) -> str:
+        return Placement(Piece(f"{thing}_1", thing, 1, "kitchen"), Piece(f"{spot}_1", spot, 2, "kitchen"), 0).words()
+
+    assert placed("plate", "dishwasher") == "the plate in the dishwasher"
+    assert placed("shirt", "wardrobe") == "the shirt in the wardrobe"
+    assert placed("plate", "dining_table") == "the plate on the dining table"
+    assert placed("book", "wardrobe") == "the book on the wardrobe"
 
 
 def test_everything_that_is_placed_fits_where_it_is_placed() -> None:
@@ -162,10 +170,11 @@ def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field
     assert str(path) in str(refused.value)
 
 
-def test_a_place_for_a_motion_that_does_not_exist_is_refused(tmp_path: Path) -> None:
-    path = _broken(tmp_path, lambda data: data["done_at"].update({"fly": ["sofa"]}))
-    with pytest.raises(ConfigError, match=r"household\.yaml: field 'done_at': 'fly' is not listed under looks_like"):
-        load(path)
+def test_a_file_that_still_says_where_motions_are_done_is_told_where_that_now_stands(tmp_path: Path) -> None:
+    whole = _broken(tmp_path, lambda data: data.update(done_at={"fly": ["sofa"]}))
+    for path in (whole, _own(tmp_path, done_at={})):
+        with pytest.raises(ConfigError, match=r"field 'done_at': .* now stands in core/affordances\.yaml"):
+            load(path)
 
 
 def _own(tmp_path: Path, **fields: Any) -> Path:
@@ -182,12 +191,10 @@ def test_a_file_of_ones_own_replaces_adds_and_keeps(tmp_path: Path) -> None:
     wordings = ["Fly a kite indoors", "Test the wind"]
     new = _activity(1, id="kite", wordings=wordings, motions=["fly"], follows=["lunch"])
     lunch = _activity(1, wordings=["Eat nothing at noon", "Fast for an hour"])
-    own = load(_own(tmp_path, activities=[lunch, new], looks_like={"fly": "exercise"}, done_at={"fly": ["sofa"]}))
+    own = load(_own(tmp_path, activities=[lunch, new], looks_like={"fly": "exercise"}))
     assert list(own.index) == [*shipped().index, "kite"]
     assert own.activities[own.index["lunch"]].wordings == tuple(lunch["wordings"])
     assert own.activities[own.index["dinner"]] == shipped().activities[shipped().index["dinner"]]
-    assert own.suits("fly", "sofa")
-    assert not own.suits("fly", "bed")
     assert load(_own(tmp_path)) == shipped()
 
 

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from coopera.core.affordances import affordances
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelCallError
 from coopera.core.household import plain
@@ -43,7 +44,7 @@ def test_every_wording_of_every_activity_becomes_that_activitys_tasks(known: Act
         assert {class_of(task.act.target) for task in moves} <= set(known.fixed)
         assert {task.act.motion for task in moves} <= set(known.all_motions)
         assert [t.act for t in moves if t.act.motion not in shipped().uses[t.act.in_hand]] == []
-        assert [t.act for t in moves if not shipped().suits(t.act.motion, class_of(t.act.target))] == []
+        assert [t.act for t in moves if not affordances().suits(t.act.motion, class_of(t.act.target))] == []
         places = _places(person(), wording, seed=seed)
         assert {(class_of(t.act.object), class_of(t.act.receptacle)) for t in places} <= set(known.places)
         assert len({task.act.describe() for task in places}) == 3
@@ -270,3 +271,20 @@ def test_what_was_found_wrong_about_a_task_is_obeyed(kind: str) -> None:
     assert reply.tasks[1].act.describe() != tasks[1]["text"]
     assert reply.tasks[0].act.describe() == tasks[0]["text"]
     assert len(reply.tasks) == len(tasks)
+
+
+def test_a_persons_own_words_say_whether_a_thing_goes_on_or_in() -> None:
+    steps = ["put the plate on the dishwasher", "lay the book in the wardrobe", "carry the shirt to the wardrobe"]
+    placed = [t.act.describe() for t in _places(person(), steps=[*steps, "put the mug in the sofa"], n=4)]
+    assert placed == [
+        "put the plate on the dishwasher",
+        "put the book in the wardrobe",
+        "put the shirt in the wardrobe",
+        "put the mug on the sofa",
+    ]
+
+
+def test_the_second_reflection_leaves_it_to_the_person_whether_a_thing_goes_on_or_in() -> None:
+    tasks = as_tasks(_places(person(), steps=["put the plate on the dishwasher", "put the spoon in the dishwasher"]))
+    kept = [t.act.describe() for t in _reflect("human/reflect_scene_type1", tasks, n_tasks=2).tasks]
+    assert kept == [task["text"] for task in tasks]

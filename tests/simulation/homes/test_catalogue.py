@@ -6,11 +6,13 @@ from pathlib import Path
 import pytest
 import yaml
 
+from coopera.core.affordances import affordances
 from coopera.core.errors import ConfigError
 from coopera.simulation.homes.catalogue import (
     FILE,
     RECIPES,
     catalogue,
+    interiors,
     lying_place,
     parts_of,
     read_catalogue,
@@ -168,3 +170,23 @@ def test_a_catalogue_that_is_no_yaml_is_refused(tmp_path: Path) -> None:
     path.write_text("fixed: [", encoding="utf-8")
     with pytest.raises(ConfigError, match=r"c\.yaml"):
         read_catalogue(path)
+
+
+@pytest.mark.parametrize("cls", sorted({**affordances().inside, **affordances().holds}))
+def test_what_holds_things_has_places_for_them_within_its_outline(cls: str) -> None:
+    known = catalogue()
+    kind = known.fixed.get(cls) or known.movable[cls]
+    thing = instance("fridge").model_copy(update={"cls": cls, "size": kind.size})
+    w, d, h = kind.size
+    places = interiors(thing)
+    assert places
+    for place in places:
+        assert 0 < place.z < place.z + place.clear <= h
+        assert -w / 2 < place.x0 < place.x1 < w / 2
+        assert -d / 2 < place.y0 < place.y1 < d / 2
+        assert place.z <= HIGHEST
+
+
+def test_nothing_goes_into_what_has_no_inside() -> None:
+    assert interiors(instance("dining_table")) == []
+    assert interiors(instance("fridge").model_copy(update={"cls": "spaceship"})) == []

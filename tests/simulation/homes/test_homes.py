@@ -7,6 +7,7 @@ import pytest
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.categories import DYNAMIC, STATIC
 from coopera.simulation.homes.scene import Scene, list_scenes, load_scene
+from coopera.simulation.homes.spots import Spot, stands_through
 from coopera.simulation.making.generate import generate
 from coopera.simulation.making.proof import prove
 
@@ -49,6 +50,14 @@ def test_each_room_of_a_shipped_home_has_what_makes_it_that_room(home: str, home
     for room in homes[home].rooms:
         first = catalogue().rooms[room.kind].furniture[0]
         assert any(thing.cls == first and thing.room == room.name for thing in homes[home].fixed)
+
+
+@pytest.mark.parametrize("home", HOMES)
+def test_nothing_of_a_shipped_home_sticks_in_what_it_stands_on(home: str, homes: dict[str, Scene]) -> None:
+    for thing in homes[home].movable:
+        carrier = homes[home].object(thing.on) if thing.on else None
+        if carrier is not None:
+            assert not stands_through(carrier, Spot(*thing.position, thing.yaw), thing.size), thing.name
 
 
 @pytest.mark.slow

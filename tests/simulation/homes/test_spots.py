@@ -7,7 +7,7 @@ import pytest
 from coopera.simulation.homes.catalogue import catalogue, surfaces
 from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Scene, SceneObject, load_scene
-from coopera.simulation.homes.spots import APART, Spot, Taken, furniture_on, is_free, spots, taken_at
+from coopera.simulation.homes.spots import APART, Spot, Taken, furniture_on, is_free, spots, stands_through, taken_at
 
 
 def piece(cls: str, *, yaw: float = 0.0, z: float = 0.0, x: float = 2.0) -> SceneObject:
@@ -98,3 +98,70 @@ def test_nothing_is_put_where_it_would_stick_into_a_wall() -> None:
     for x1, fits in ((4.0, {0.0, 1.5708}), (2.3, {1.5708})):
         home = Scene.model_validate({"id": "k", "rooms": [{**room, "x1": x1}], "objects": [stool]})
         assert {spot.yaw for spot in spots(stool, (1.0, 0.36, 0.1), furniture_on(home, stool))} == fits
+
+
+def test_what_goes_inside_fits_there_as_a_whole() -> None:
+    fridge = piece("fridge", yaw=math.pi / 2)
+    found = spots(fridge, (0.1, 0.1, 0.25), [], inside=True)
+    assert found
+    for spot in found:
+        space = taken_at(spot, (0.1, 0.1, 0.25))
+        assert fridge.bounds.grown(1e-3).overlaps(space.bounds)
+        assert fridge.bounds.x0 <= space.bounds.x0 < space.bounds.x1 <= fridge.bounds.x1
+        assert fridge.bounds.y0 <= space.bounds.y0 < space.bounds.y1 <= fridge.bounds.y1
+        assert 0.3 < space.low < space.high < fridge.top
+    assert spots(fridge, (0.7, 0.1, 0.1), [], inside=True) == []
+    assert spots(fridge, (0.1, 0.1, 0.5), [], inside=True) == []
+
+
+def test_there_is_room_beside_and_below_what_is_inside_already() -> None:
+    cabinet = piece("kitchen_cabinet")
+    size = (0.25, 0.25, 0.025)
+    first = spots(cabinet, size, [], inside=True)[0]
+    others = spots(cabinet, size, [taken_at(first, size)], inside=True)
+    assert first not in others
+    assert {spot.z for spot in others} == {spot.z for spot in spots(cabinet, size, [], inside=True)}
+
+
+def test_nothing_is_put_inside_a_table() -> None:
+    assert spots(piece("dining_table"), (0.1, 0.1, 0.1), [], inside=True) == []
+
+
+def test_a_thing_that_holds_others_takes_them_where_it_now_stands() -> None:
+    kind = catalogue().movable["laundry_basket"]
+    basket = piece("stool", x=5.0).model_copy(update={"cls": "laundry_basket", "size": kind.size, "fixed": False})
+    towel = catalogue().movable["towel"].size
+    found = spots(basket, towel, [], inside=True)
+    assert found
+    assert all(basket.bounds.x0 < spot.x < basket.bounds.x1 for spot in found)
+
+
+@pytest.mark.parametrize("yaw", [0.0, math.pi / 2, 0.4])
+def test_nothing_is_put_through_the_parts_of_what_it_stands_on(yaw: float) -> None:
+    lamp, size = piece("floor_lamp", yaw=yaw), (0.2, 0.2, 0.3)
+    found = spots(lamp, size, [])
+    assert not any(stands_through(lamp, spot, size) for spot in found)
+    assert any(stands_through(lamp, spot, size) for spot in spots(lamp, size, [], through=True))
+
+
+def test_what_is_too_deep_for_a_sill_hangs_over_its_front_and_not_through_the_window() -> None:
+    window, plant = piece("curtain"), catalogue().movable["potted_plant"].size
+    found = spots(window, plant, [])
+    assert found
+    assert all(window.to_local(spot.x, spot.y)[1] > 0 for spot in found)
+
+
+@pytest.mark.parametrize("cls", sorted(catalogue().movable))
+def test_a_thing_has_a_place_on_each_class_on_which_it_is_usually_put(cls: str) -> None:
+    kind = catalogue().movable[cls]
+    for carrier in map(piece, sorted({*kind.put} - {"floor"})):
+        found = spots(carrier, kind.size, [])
+        assert found, carrier.cls
+        assert not any(stands_through(carrier, spot, kind.size) for spot in found), carrier.cls
+
+
+def test_parts_of_imported_furniture_are_not_known_and_hinder_nothing() -> None:
+    shape = {"file": "0" * 64, "colour": "#808080"}
+    lamp = piece("floor_lamp")
+    imported = lamp.model_copy(update={"mesh": [shape]})
+    assert spots(imported, (0.2, 0.2, 0.3), []) == spots(lamp, (0.2, 0.2, 0.3), [], through=True)

@@ -96,10 +96,12 @@ def test_a_free_text_means_the_motion_that_shares_its_words(text, caption) -> No
     assert LIBRARY.match(text).caption == caption
 
 
-def test_a_search_decides_unless_the_text_is_a_caption_or_the_search_knows_no_motion() -> None:
-    assert LIBRARY.match("have a bite", lambda _: "eat a meal").caption == "eat a meal"
-    assert LIBRARY.match("dance", lambda _: "eat a meal").caption == "dance"
-    assert LIBRARY.match("water the plants", lambda _: "levitate").caption == "water plants"
+def test_who_ranks_captions_by_meaning_decides_unless_the_text_is_one_of_them() -> None:
+    def nearest(_: str) -> list[tuple[str, float]]:
+        return [("levitate", 0.9), ("eat a meal", 0.8), ("dance", 0.1)]
+
+    assert LIBRARY.ranked("have a bite", nearest) == [("eat a meal", 0.8), ("dance", 0.1)]
+    assert LIBRARY.ranked("dance", nearest) == [("dance", 1.0)]
 
 
 def test_a_class_is_only_confused_with_classes_that_look_possible_in_that_posture() -> None:

@@ -13,7 +13,6 @@ import pytest
 from PIL import Image
 
 from coopera.core.errors import ConfigError, SimulationError
-from coopera.core.household import FreeMotion
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.magic_box import LOOKS_LIKE, shape_of
@@ -50,7 +49,7 @@ def persons_share(world: World, tick: int) -> tuple[float, float]:
         move("dining_table_1", "bowl", "eat a meal"),
         move("bed_1", "blanket", "lie down"),
         move("washbasin_1", "toothbrush", "brush teeth"),
-        move("coffee_table_1", "dumbbell", "do push-ups"),
+        move("sofa_1", "dumbbell", "do push-ups"),
         put("book_1", "dining_table_1"),
     ],
     ids=lambda act: act.describe(),
@@ -67,15 +66,15 @@ def test_both_views_show_the_person_at_the_deed(home, act) -> None:
 
 def test_a_pane_of_the_shower_does_not_hide_the_person_from_the_third_person_view() -> None:
     with World(load_scene("oak")) as world:
-        assert world.perform("human", move("shower_1", "sponge", "take a shower"), record=True).ok
+        assert world.perform("human", move("shower_1", "sponge", "take a shower", world.layout), record=True).ok
         assert persons_share(world, world._recording.shots[-1].deed)[1] > 0.015
 
 
 @pytest.mark.parametrize("target", ["kitchen_sink_1", "stove_1", "fridge_1"])
 def test_where_the_persons_way_fills_the_room_the_robot_still_finds_a_place_to_see_from(target) -> None:
     with World(load_scene("maple")) as world:
-        put_down = FreeMotion(target_id=0, target="sofa_1", in_hand="book", motion="sit and read")
-        cook = put_down.model_copy(update={"target": target, "motion": "wipe the surface"})
+        put_down = move("sofa_1", "book", "sit and read", world.layout)
+        cook = move(target, "sponge", "wipe the surface", world.layout)
         for act in (put_down, cook):
             assert world.perform("human", act, record=True).ok
         last = world._recording.ticks - 1
@@ -96,7 +95,7 @@ def test_a_robot_that_had_to_let_the_person_pass_comes_back_to_see_the_deed() ->
     with World(load_scene("maple"), frame_size=(96, 72)) as world:
         state = world.state.with_agent("human", spot=(8.7, 2.1), place=(8.7, 2.1), yaw=0.8)
         world.state = state.with_agent("robot", spot=(7.95, 2.5))
-        act = FreeMotion(target_id=0, target="dining_table_1", in_hand="tea bag", motion="pour a drink")
+        act = move("dining_table_1", "tea bag", "pour a drink", world.layout)
         assert world.perform("human", act, record=True).ok
         assert min(persons_share(world, world._recording.shots[0].deed)) > 0.01
         person, robot = world.state.person(), world.state.robot()
@@ -145,12 +144,22 @@ def test_the_body_moves_without_jumps_within_a_shot(home) -> None:
             assert np.abs(np.diff(places, axis=0)).max() < 0.2  # metres in a 30th of a second
 
 
+def test_a_robot_that_is_given_a_thing_is_seen_to_take_it(home) -> None:
+    home.restore({})
+    home.pick("human", "mug_1")
+    home.perform("robot", put("mug_1", "sofa_1"), record=True)
+    given = home._recording.shots[0]
+    assert (given.at(0).held["human"].name, given.at(0).held.get("robot")) == ("mug_1", None)
+    last = given.at(given.ticks - 1)
+    assert (last.held.get("human"), last.held["robot"].name) == (None, "mug_1")
+
+
 def test_a_hand_over_can_be_recorded_too(home, tmp_path) -> None:
     home.perform("human", move("sofa_1", "book", "sit and rest"))
     assert home.perform("robot", bring("mug"), record=True).ok
     (shot,) = home._recording.shots
-    assert shot.at(0).held["robot"].name == "mug"
-    assert shot.at(shot.ticks - 1).held["human"].name == "mug"
+    assert shot.at(0).held["robot"].name == "mug_2"
+    assert shot.at(shot.ticks - 1).held["human"].name == "mug_2"
     assert len(home.frames(2, tmp_path)) == 4
 
 

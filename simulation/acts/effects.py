@@ -1,0 +1,96 @@
+"""What a motion changes: the states of things and furniture, what is worn, what is on while it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from coopera.core.affordances import HAND, Affordance, Condition, Effect, affordances
+from coopera.core.household import AgentId
+from coopera.simulation.acts.fitting import is_one_of
+from coopera.simulation.acts.plans import Ground
+from coopera.simulation.acts.state import HomeState
+from coopera.simulation.homes.scene import SceneObject
+
+
+def after(
+    ground: Ground,
+    state: HomeState,
+    agent: AgentId,
+    done: Affordance,
+    target: SceneObject,
+    used: SceneObject | None,
+) -> HomeState:
+    """The home once a person has begun a motion at some furniture with what is in hand and what was needed there.
+
+    What the motion switches on stays on until the person does something else.
+    """
+    if done.switches:
+        state = _switched_on(state, agent, [target, *([used] if used is not None else [])])
+    for effect in done.does:
+        if "person" in effect.to:
+            state = _put_on(ground, state, agent, effect)
+        for thing in _meant(ground, state, agent, effect, target, used):
+            change: Condition = dict(effect.changes)
+            if change.get("filled") == HAND:
+                change["filled"] = _in_words(state, agent)
+            state = state.with_condition(thing, change)
+    return state
+
+
+def _switched_on(state: HomeState, agent: AgentId, things: list[SceneObject]) -> HomeState:
+    """Switch on the first of some objects that can be, and note that this person did it."""
+    for thing in things:
+        if "powered" in affordances().first(thing.cls):
+            if state.condition(thing)["powered"]:
+                return state
+            on = (*state.person(agent).switched, thing.name)
+            return state.with_condition(thing, {"powered": True}).with_agent(agent, switched=on)
+    return state
+
+
+def _meant(
+    ground: Ground, state: HomeState, agent: AgentId, effect: Effect, target: SceneObject, used: SceneObject | None
+) -> Iterator[SceneObject]:
+    """The objects that an effect is on."""
+    held = state.agents[agent].thing
+    hand = state.find(ground.scene, held) if held is not None else None
+    parts: dict[str, list[SceneObject]] = {
+        "hand": [hand] if hand is not None else [],
+        "used": [used] if used is not None else [],
+        "there": [
+            *state.carried_by(ground.scene, target.name),
+            *state.contents(ground.scene, target.name),
+        ],
+        "furniture": [target],
+    }
+    for part in effect.to:
+        for thing in parts.get(part, []):
+            if not effect.of or is_one_of(state, thing, effect.of):
+                yield thing
+
+
+def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) -> HomeState:
+    """Put on what is in hand, if it is something to wear; what was worn of the same kind comes off for it."""
+    held = state.agents[agent].thing
+    thing = state.find(ground.scene, held) if held is not None else None
+    if thing is None or not is_one_of(state, thing, effect.of):
+        return state
+    for name in state.person(agent).worn:
+        other = state.find(ground.scene, name)
+        if other is None or other.cls != thing.cls:
+            continue
+        worn = tuple(one for one in state.person(agent).worn if one != name)
+        state = state.with_agent(agent, worn=worn, thing=None).with_worn(agent, thing.name)
+        return state.into_box(name) if name in state.box else state.with_held(agent, name)
+    return state.with_worn(agent, thing.name)
+
+
+def _in_words(state: HomeState, agent: AgentId) -> str:
+    """What pours out of what is in hand: the words for it without those for the vessel, or water."""
+    held = state.agents[agent].thing
+    words = state.box[held].text.lower() if held in state.box else ""
+    kept = [word for word in words.split() if word not in _VESSELS]
+    return " ".join(kept) or "water"
+
+
+_VESSELS = ("bag", "bottle", "can", "carton", "jar", "jug", "kettle", "pot", "teapot", "glass", "mug", "cup")

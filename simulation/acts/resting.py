@@ -1,0 +1,94 @@
+"""What a body rests on: the seat or the bed that serves a piece of furniture, and whether somebody is on it already."""
+
+from __future__ import annotations
+
+import math
+
+from coopera.core.affordances import affordances
+from coopera.core.household import AgentId
+from coopera.simulation.acts.navigation import Disc
+from coopera.simulation.acts.plans import Ground
+from coopera.simulation.acts.state import HomeState
+from coopera.simulation.homes.catalogue import Rest, lying_place, seat
+from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.shapes.rotations import wrapped
+
+SEAT_NEAR = 0.9
+"""A seat this near to a table or an instrument serves it (metres between their rectangles)."""
+SEAT_FAR = 5.0
+"""A seat this near serves what is only looked at or listened to."""
+_LOOKS_AT = math.radians(70)
+"""A seat serves a table only if one looks at it from there."""
+_LIE_ON_WIDTH = ("sofa", "bench")
+_OFF = 0.1
+"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
+_SITTING, _LYING = 0.5, 0.9
+"""Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
+_ASIDE = 0.6
+"""How far beside the middle of a wide seat another one sits (metres)."""
+
+
+def gap_between(one: SceneObject, two: SceneObject) -> float:
+    """The distance of the rectangles of two pieces of furniture on the floor plan."""
+    a, b = one.bounds, two.bounds
+    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
+
+
+def used_by_others(state: HomeState, agent: AgentId) -> list[Disc]:
+    """The furniture that other people are on: the places of their bodies, and how near to them nobody else fits."""
+    people = [state.person(one) for one in state.ids("person") if one != agent]
+    on_it = [person for person in people if math.dist(person.spot, person.place) > _OFF]
+    return [Disc(*person.place, _LYING if person.posture == "lie" else _SITTING) for person in on_it]
+
+
+def fits(place: Point, used: list[Disc]) -> bool:
+    """Whether nobody is on the furniture so near to a place that one would not fit there."""
+    return all(math.dist(place, (disc.x, disc.y)) >= disc.radius for disc in used)
+
+
+def _seat_on(thing: SceneObject, used: list[Disc]) -> Rest | None:
+    """Where one sits on a thing: in its middle, or beside who sits there; None where one does not, or it is taken."""
+    middle = seat(thing)
+    if middle is None:
+        return None
+    cos, sin = math.cos(thing.yaw), math.sin(thing.yaw)
+    for aside in (0.0, _ASIDE, -_ASIDE):
+        rest = middle._replace(x=middle.x + aside * cos, y=middle.y + aside * sin)
+        if (aside == 0.0 or thing.size[0] >= 2 * _ASIDE + _SITTING) and fits((rest.x, rest.y), used):
+            return rest
+    return None
+
+
+def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
+    """The target itself where one sits on it; else the seat of its room that is near and looks at it best."""
+    own = _seat_on(target, used)
+    if own is not None:
+        return target, own
+    far = SEAT_FAR if target.cls in affordances().looked_at else SEAT_NEAR
+    found: list[tuple[float, str, SceneObject, Rest]] = []
+    for thing in ground.scene.fixed:
+        if thing.room != target.room or thing.cls in ("toilet", "bathtub"):
+            continue
+        gap = gap_between(thing, target)
+        if gap <= far and (rest := _seat_on(thing, used)) is not None:
+            off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))
+            if off <= _LOOKS_AT:
+                found.append((round(gap + 0.6 * off, 6), thing.name, thing, rest))
+    if not found:
+        return None
+    _, _, chair, rest = min(found, key=lambda row: row[:2])
+    return chair, rest
+
+
+def bed_for(target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
+    """The target, where one lies on it, along a sofa or a bench too; None where one does not, or somebody is on it."""
+    if any(target.bounds.distance(disc.x, disc.y) <= 0 for disc in used):
+        return None
+    rest = lying_place(target)
+    if rest is not None:
+        return target, rest
+    sitting = seat(target)
+    if sitting is not None and target.cls in _LIE_ON_WIDTH and target.size[0] > 1.5:
+        return target, sitting._replace(heading=target.yaw)
+    return None

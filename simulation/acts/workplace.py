@@ -1,0 +1,145 @@
+"""The surface before a person at work, and what follows from it: where the hands go and where a thing lies."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from coopera.core.household import plain
+from coopera.simulation.acts.state import BoxThing, HomeState, PersonState, ThingState, from_box
+from coopera.simulation.homes.catalogue import Surface, surfaces
+from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.motions.holding import CARRIED, LAP, Grip, Worktop, grip
+from coopera.simulation.motions.library import Motion
+from coopera.simulation.motions.poses import Setting
+from coopera.simulation.shapes.fixtures import BURNERS
+from coopera.simulation.shapes.rotations import about_z, wrapped
+
+_LEVEL = 0.03
+_LOW, _HIGH = 0.45, 1.3
+"""Surfaces that one works at are this high (metres above the floor)."""
+_EDGE = 0.28
+"""Who stands at a surface has its edge this far before the middle of the body (metres)."""
+_STEP = 0.35
+_AHEAD = 0.8
+_TICK = 0.01
+_NEAR = 1.5
+_NO_NAME = re.compile(r"[^a-z0-9]+")
+
+Standing: TypeAlias = Sequence[tuple[SceneObject, ThingState]]
+"""Things, and where they are."""
+
+
+class Before(NamedTuple):
+    """The surface that a person works at, its height above the floor, and how far ahead its edge is (metres)."""
+
+    top: Worktop
+    height: float
+    edge: float
+
+
+def worktop_before(scene: Scene, person: PersonState, standing: Standing = ()) -> Before | None:
+    """The surface before a person: that of the height they work at, or another one of the same furniture.
+
+    None if nothing is straight ahead within reach.
+    """
+    at = scene.object(person.at) if person.at is not None else None
+    if at is None or person.worktop is None:
+        return None
+    height = person.worktop
+    levels = sorted(surfaces(at), key=lambda surface: round(abs(at.position[2] + surface.z - height), 3) > _LEVEL)
+    for surface in levels:
+        z = at.position[2] + surface.z
+        top = _seen_from(person, at, surface, [(thing, where) for thing, where in standing if _stands(where, z)])
+        edge = _edge(top)
+        if edge is not None and (abs(z - height) <= _LEVEL or (_LOW <= z <= _HIGH)):
+            return Before(top, z, edge)
+    return None
+
+
+def _stands(where: ThingState, height: float) -> bool:
+    return abs(where.position[2] - height) < _LEVEL
+
+
+def _seen_from(person: PersonState, at: SceneObject, surface: Surface, standing: Standing) -> Worktop:
+    """A surface with its marks and what stands on it, in the frame of a person's body."""
+    middle = at.to_world((surface.x0 + surface.x1) / 2, (surface.y0 + surface.y1) / 2, surface.z)
+    half = ((surface.x1 - surface.x0) / 2, (surface.y1 - surface.y0) / 2)
+    marks = [(x * at.size[0], y * at.size[1]) for x, y in BURNERS] if at.cls == "stove" else []
+    places = [middle, *(at.to_world(*mark, 0.0) for mark in marks), *(where.position for _, where in standing)]
+    turned = (np.array(places)[:, :2] - np.array(person.place)) @ about_z(person.yaw)[:2, :2]
+    (x, y), *rest = [(float(x), float(y)) for x, y in turned]
+    taken = [(*place, max(thing.size[:2]) / 2) for place, (thing, _) in zip(rest[len(marks) :], standing, strict=True)]
+    return Worktop(x, y, wrapped(at.yaw - person.yaw), *half, tuple(rest[: len(marks)]), tuple(taken))
+
+
+def _edge(top: Worktop) -> float | None:
+    """How far straight ahead a surface begins; None where it is not ahead, or too far."""
+    ahead = np.arange(0.0, _AHEAD, _TICK)
+    local = np.stack((ahead - top.x, np.full_like(ahead, -top.y)), axis=1) @ about_z(top.yaw)[:2, :2]
+    over = np.flatnonzero((np.abs(local) <= (top.half_x, top.half_y)).all(axis=1))
+    return float(ahead[over[0]]) if len(over) else None
+
+
+def at_work(
+    scene: Scene,
+    person: PersonState,
+    motion: Motion,
+    thing: SceneObject | None = None,
+    *,
+    text: str | None = None,
+    standing: Standing = (),
+) -> tuple[Setting, Grip]:
+    """In which setting a person does a motion, and how they hold a thing meanwhile.
+
+    Args:
+        scene: The home.
+        person: Where and how the body is.
+        motion: What is done.
+        thing: What is in hand.
+        text: What that was called, if it came out of the magic box.
+        standing: The other things of the home, and where they are.
+    """
+    setting = Setting(person.support, person.worktop, person.posture)
+    found = worktop_before(scene, person, standing)
+    top: Worktop | None = None
+    if found is not None:
+        top, setting = found.top, setting._replace(worktop=found.height)
+        if person.posture == "stand" and found.edge > _EDGE:
+            step = min(found.edge - _EDGE, _STEP)
+            setting, top = setting._replace(step=step), top.stepped(step)
+    elif person.posture == "sit":  # what stands beside or behind who sits is no use to the hands
+        top, setting = LAP, setting._replace(worktop=None)
+    if thing is None:
+        return setting, CARRIED
+    names = [thing.cls] if text is None else [text, thing.cls]
+    setting, how = grip(motion, setting, names, thing.size, top)
+    if how.laid is not None and setting.step:
+        how = how._replace(laid=how.laid._replace(x=how.laid.x + setting.step))
+    return setting, how
+
+
+def working(
+    scene: Scene, state: HomeState, person: PersonState, motion: Motion, moved: Mapping[str, ThingState] | None = None
+) -> tuple[Setting, Grip]:
+    """The same for a person with what they have in hand; `moved` is what was put elsewhere since that state."""
+    if person.thing is None:
+        return at_work(scene, person, motion)
+    since = moved or {}
+    others = [thing for thing in state.objects(scene) if thing.name != person.thing]
+    standing = [(thing, since.get(thing.name) or state.thing(thing)) for thing in others]
+    standing += [(piece, ThingState(position=piece.position, yaw=piece.yaw, on=None)) for piece in scene.fixed]
+    near = [(thing, where) for thing, where in standing if math.dist(where.position[:2], person.place) < _NEAR]
+    known = state.box.get(person.thing)
+    text = known.text if known else None
+    return at_work(scene, person, motion, thing_of(scene, state, person.thing), text=text, standing=near)
+
+
+def thing_of(scene: Scene, state: HomeState, name: str) -> SceneObject:
+    """A thing by its name, or, where it comes out of the magic box only now, by what it is called."""
+    known = state.find(scene, name)
+    return known or from_box(_NO_NAME.sub("_", f"thing {name}".lower()), BoxThing(id=0, text=plain(name)))
