@@ -25,9 +25,9 @@ from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion
 from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts import primitives
+from coopera.simulation.acts.handing import HANDING
 from coopera.simulation.acts.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
 from coopera.simulation.acts.plans import Give, Handle, Plan, Walk, discs
-from coopera.simulation.acts.handing import HANDING
 from coopera.simulation.acts.state import HomeState, digest
 from coopera.simulation.acts.truth import problems
 from coopera.simulation.bodies.robot import known_robots
