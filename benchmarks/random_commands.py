@@ -146,9 +146,6 @@ class Commander:
         one, two = self._one(list(bodies)), self._one(things)
         place = {"position": [0.0, 0.0, 0.0], "yaw": 0.0, "on": None}
         number = self._one(["nan", "inf", "1e9"])
-        damage = self._one(
-            ["spot", "yaw", "position", "home", "hands", "held", "unknown", "on", "inside", "state", "box"]
-        )
         if damage in ("spot", "yaw"):
             bodies[one][damage] = float(number) if damage == "yaw" else [float(number), 0.0]
         elif damage == "position":

@@ -37,6 +37,7 @@ _DOORWAY = 0.45
 _COMFORT = 0.45
 _DISLIKE = 1.5
 """Walking closer than `_COMFORT` to something counts up to this much longer than it is."""
+_STANDS_APART = 0.15
 _STEP_ASIDE, _SPREAD = 3.0, 0.5
 _REMEMBERED = 256
 
@@ -119,6 +120,7 @@ class Navigator:
         of_cell = self._room[self._cells[:, 0], self._cells[:, 1]]
         self._in_room = [np.flatnonzero(of_cell == index) for index in range(len(scene.rooms))]
         self._ways = Ways(self._build_graph(), of_cell)
+        self._nearest = lru_cache(maxsize=_REMEMBERED)(self._look_nearest)
         self._way = lru_cache(maxsize=_REMEMBERED)(self._work_out_way)
 
     def path(self, start: Point, goal: Point, *, avoid: Discs = ()) -> list[Point] | None:
@@ -181,15 +183,15 @@ class Navigator:
             walk = self._ways.costs(first, nodes)
         gap = self._gaps(target, places) if point is None else np.hypot(*(places - np.array(point)).T)
         cost = walk + 2 * gap + self._off_front(target, places)
-        order = [int(i) for i in np.lexsort((nodes, cost)) if math.isfinite(cost[i])]
+        order = np.lexsort((nodes, cost))
+        order = order[np.isfinite(cost[order])]
         stands: list[Stand] = []
-        for i in order:
-            x, y = float(places[i, 0]), float(places[i, 1])
-            if all(math.hypot(x - other.x, y - other.y) >= 0.15 for other in stands):
-                fx, fy = face if point is not None or isinstance(target, tuple) else _facing_point(target, x, y)
-                stands.append(Stand(x, y, math.atan2(fy - y, fx - x), float(walk[i]), float(gap[i])))
-            if len(stands) == most:
-                break
+        while len(order) and len(stands) < most:
+            i = int(order[0])
+            x, y = places[i].tolist()
+            fx, fy = face if point is not None or isinstance(target, tuple) else _facing_point(target, x, y)
+            stands.append(Stand(x, y, math.atan2(fy - y, fx - x), float(walk[i]), float(gap[i])))
+            order = order[np.hypot(places[order, 0] - x, places[order, 1] - y) >= _STANDS_APART]
         return stands
 
     def give_way(
@@ -303,7 +305,7 @@ class Navigator:
         both = (np.concatenate([head, tail]), np.concatenate([tail, head]))
         return csr_matrix((np.concatenate([weight, weight]), both), shape=(len(self._cells),) * 2)
 
-    def _nearest(self, place: Point, avoid: Discs, within: float = 0.6) -> int | None:
+    def _look_nearest(self, place: Point, avoid: Discs, within: float = 0.6) -> int | None:
         room = next((i for i, known in enumerate(self.scene.rooms) if known.contains(*place)), None)
         i, j = round((place[0] - self._x0) / CELL), round((place[1] - self._y0) / CELL)
         if not avoid and 0 <= i < len(self._xs) and 0 <= j < len(self._ys):

@@ -18,6 +18,7 @@ from scipy.sparse.csgraph import dijkstra
 from coopera.simulation.acts.floor import Array, Nodes
 
 _REMEMBERED = 64
+_DETOUR = 2.0
 _MOST_DOORS, _MOST_WAYS = 600, 6_000_000
 """A home with more nodes at doors, or more ways from them, is taken as one room: that is slower, and needs less."""
 
@@ -90,8 +91,12 @@ class Ways:
 
     def chain_around(self, first: int, last: int, closed: Nodes) -> list[int] | None:
         """The nodes of a shortest way between two nodes where nothing leads out of closed ones; None without one."""
-        cost, before = dijkstra(self._without(closed), indices=first, return_predecessors=True)
-        if not math.isfinite(cost[last]):
+        graph, straight = self._without(closed), float(self.costs(first, np.array([last]))[0])
+        for farthest in (straight + _DETOUR, math.inf):  # most detours are short
+            cost, before = dijkstra(graph, indices=first, return_predecessors=True, limit=farthest)
+            if math.isfinite(cost[last]):
+                break
+        else:
             return None
         nodes = [last]
         while nodes[-1] != first:
