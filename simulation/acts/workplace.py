@@ -9,11 +9,12 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from coopera.core.affordances import affordances
 from coopera.core.household import plain
 from coopera.simulation.acts.state import BoxThing, HomeState, PersonState, ThingState, from_box
 from coopera.simulation.homes.catalogue import Surface, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.motions.holding import CARRIED, LAP, Grip, Worktop, grip
+from coopera.simulation.motions.holding import CARRIED, LAP, Grip, Worktop, grip, to_tools
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import Setting
 from coopera.simulation.shapes.fixtures import BURNERS
@@ -42,10 +43,12 @@ class Before(NamedTuple):
     edge: float
 
 
-def worktop_before(scene: Scene, person: PersonState, standing: Standing = ()) -> Before | None:
+def worktop_before(
+    scene: Scene, person: PersonState, standing: Standing = (), motion: Motion | None = None
+) -> Before | None:
     """The surface before a person: that of the height they work at, or another one of the same furniture.
 
-    None if nothing is straight ahead within reach.
+    None if nothing is straight ahead within reach. What a motion is done with is among its tools.
     """
     at = scene.object(person.at) if person.at is not None else None
     if at is None or person.worktop is None:
@@ -54,7 +57,8 @@ def worktop_before(scene: Scene, person: PersonState, standing: Standing = ()) -
     levels = sorted(surfaces(at), key=lambda surface: round(abs(at.position[2] + surface.z - height), 3) > _LEVEL)
     for surface in levels:
         z = at.position[2] + surface.z
-        top = _seen_from(person, at, surface, [(thing, where) for thing, where in standing if _stands(where, z)])
+        there = [(thing, where) for thing, where in standing if _stands(where, z)]
+        top = _seen_from(person, at, surface, there, motion)
         edge = _edge(top)
         if edge is not None and (abs(z - height) <= _LEVEL or (_LOW <= z <= _HIGH)):
             return Before(top, z, edge)
@@ -65,7 +69,9 @@ def _stands(where: ThingState, height: float) -> bool:
     return abs(where.position[2] - height) < _LEVEL
 
 
-def _seen_from(person: PersonState, at: SceneObject, surface: Surface, standing: Standing) -> Worktop:
+def _seen_from(
+    person: PersonState, at: SceneObject, surface: Surface, standing: Standing, motion: Motion | None
+) -> Worktop:
     """A surface with its marks and what stands on it, in the frame of a person's body."""
     middle = at.to_world((surface.x0 + surface.x1) / 2, (surface.y0 + surface.y1) / 2, surface.z)
     half = ((surface.x1 - surface.x0) / 2, (surface.y1 - surface.y0) / 2)
@@ -73,8 +79,18 @@ def _seen_from(person: PersonState, at: SceneObject, surface: Surface, standing:
     places = [middle, *(at.to_world(*mark, 0.0) for mark in marks), *(where.position for _, where in standing)]
     turned = (np.array(places)[:, :2] - np.array(person.place)) @ about_z(person.yaw)[:2, :2]
     (x, y), *rest = [(float(x), float(y)) for x, y in turned]
-    taken = [(*place, max(thing.size[:2]) / 2) for place, (thing, _) in zip(rest[len(marks) :], standing, strict=True)]
-    return Worktop(x, y, wrapped(at.yaw - person.yaw), *half, tuple(rest[: len(marks)]), tuple(taken))
+    things = [(place, thing) for place, (thing, _) in zip(rest[len(marks) :], standing, strict=True)]
+    return Worktop(
+        *(x, y, wrapped(at.yaw - person.yaw), *half),
+        marks=tuple(rest[: len(marks)]),
+        taken=tuple((*place, max(thing.size[:2]) / 2) for place, thing in things),
+        tools=tuple(place for place, thing in things if motion is not None and _is_tool_of(motion, thing)),
+    )
+
+
+def _is_tool_of(motion: Motion, thing: SceneObject) -> bool:
+    said = affordances().of(motion.caption)
+    return affordances().is_one_of(thing.cls, (*said.lies, *said.tools))
 
 
 def _edge(top: Worktop) -> float | None:
@@ -105,17 +121,17 @@ def at_work(
         standing: The other things of the home, and where they are.
     """
     setting = Setting(person.support, person.worktop, person.posture)
-    found = worktop_before(scene, person, standing)
+    found = worktop_before(scene, person, standing, motion)
     top: Worktop | None = None
     if found is not None:
         top, setting = found.top, setting._replace(worktop=found.height)
         if person.posture == "stand" and found.edge > _EDGE:
             step = min(found.edge - _EDGE, _STEP)
             setting, top = setting._replace(step=step), top.stepped(step)
-    elif person.posture == "sit":  # what stands beside or behind who sits is no use to the hands
+    elif person.posture in ("sit", "floor"):  # what stands beside or behind who sits is no use to the hands
         top, setting = LAP, setting._replace(worktop=None)
     if thing is None:
-        return setting, CARRIED
+        return to_tools(motion, setting, top), CARRIED
     names = [thing.cls] if text is None else [text, thing.cls]
     setting, how = grip(motion, setting, names, thing.size, top)
     if how.laid is not None and setting.step:
@@ -127,13 +143,13 @@ def working(
     scene: Scene, state: HomeState, person: PersonState, motion: Motion, moved: Mapping[str, ThingState] | None = None
 ) -> tuple[Setting, Grip]:
     """The same for a person with what they have in hand; `moved` is what was put elsewhere since that state."""
-    if person.thing is None:
-        return at_work(scene, person, motion)
     since = moved or {}
     others = [thing for thing in state.objects(scene) if thing.name != person.thing]
     standing = [(thing, since.get(thing.name) or state.thing(thing)) for thing in others]
     standing += [(piece, ThingState(position=piece.position, yaw=piece.yaw, on=None)) for piece in scene.fixed]
     near = [(thing, where) for thing, where in standing if math.dist(where.position[:2], person.place) < _NEAR]
+    if person.thing is None:
+        return at_work(scene, person, motion, standing=near)
     known = state.box.get(person.thing)
     text = known.text if known else None
     return at_work(scene, person, motion, thing_of(scene, state, person.thing), text=text, standing=near)

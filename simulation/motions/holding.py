@@ -42,6 +42,8 @@ _CLUTTER = 5.0
 """How much worse it is to lie in another thing than to lie farther away."""
 _ARM, _BEYOND = 0.15, 100.0
 """Things that lie farther than this from the usual place are out of the hands' reach, which is worst."""
+_NEAR = 0.35
+"""Hands go to a tool at most this far from where they usually work."""
 _MOMENTS = 6
 _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
@@ -55,7 +57,7 @@ class Worktop(NamedTuple):
     """The surface before somebody, in their body frame: a rectangle's middle, turn and half extents.
 
     `marks` are the places on it where things belong, such as a stove's burners; `taken` are what stands on it, as the
-    middle and the radius of each thing.
+    middle and the radius of each thing, and `tools` the middles of those that the motion is done with.
     """
 
     x: float
@@ -65,15 +67,17 @@ class Worktop(NamedTuple):
     half_y: float
     marks: tuple[tuple[float, float], ...] = ()
     taken: tuple[tuple[float, float, float], ...] = ()
+    tools: tuple[tuple[float, float], ...] = ()
 
     def stepped(self, step: float) -> Worktop:
         """The same, for a body that has stepped ahead."""
-        marks = tuple((x - step, y) for x, y in self.marks)
-        return self._replace(x=self.x - step, marks=marks, taken=tuple((x - step, y, r) for x, y, r in self.taken))
+        marks, tools = (tuple((x - step, y) for x, y in places) for places in (self.marks, self.tools))
+        taken = tuple((x - step, y, radius) for x, y, radius in self.taken)
+        return self._replace(x=self.x - step, marks=marks, taken=taken, tools=tools)
 
 
 LAP = Worktop(0.27, 0.0, 0.0, 0.19, 0.24)
-"""The thighs of somebody who sits."""
+"""The thighs of somebody who sits, on a seat or cross-legged on the floor."""
 
 
 class Laid(NamedTuple):
@@ -128,16 +132,12 @@ def grip(
     """
     keys = motion.keys
     height = working_height(setting)
-    working = [path for path in (keys.right, keys.left) if path is not None and "surface" in path.frames]
+    working = _at_surface(motion)
     if top is not None and working and lies(motion, names, size):
-        busy = [1.0 if len(path.points) > 1 else _STILL for path in working]
-        hands = np.average([_where(path) for path in working], axis=0, weights=busy)
-        if keys.hold != "surface" and keys.right in working:
-            hands = _where(working[0])
+        hands = _hands(motion)
         laid, hand = _laid(size, hands, top)
-        reach = np.clip(hand - hands, -_STRETCH, _STRETCH)
-        setting = setting._replace(reach=(float(reach[0]), float(reach[1])))
-        return setting, Grip(keys.hold, laid=Laid(*laid, height, _yaw(size)))
+        return _reaching(setting, hand - hands), Grip(keys.hold, laid=Laid(*laid, height, _yaw(size)))
+    setting = to_tools(motion, setting, top)
     hold = keys.hold
     if hold == "both" and size[0] <= _LONG and size[2] <= 0.6 and _span(motion, setting) > size[0] + _GRASP:
         hold = "right"
@@ -148,16 +148,46 @@ def grip(
     return setting, Grip(hold, surface=height if touches else None, eaten=eaten)
 
 
+def to_tools(motion: Motion, setting: Setting, top: Worktop | None) -> Setting:
+    """The setting in which the hands come to the nearest tool that lies before one, if one lies near."""
+    if top is None or not top.tools or not _at_surface(motion):
+        return setting
+    hands = _hands(motion)
+    tool = min(top.tools, key=lambda place: round(math.dist(place, hands), 6))
+    return setting if math.dist(tool, hands) > _NEAR else _reaching(setting, np.array(tool) - hands)
+
+
+def _reaching(setting: Setting, farther: Array) -> Setting:
+    x, y = np.clip(farther, -_STRETCH, _STRETCH).tolist()
+    return setting._replace(reach=(x, y))
+
+
+def _at_surface(motion: Motion) -> list[HandPath]:
+    """The paths of the hands that come to the surface, the right hand's first."""
+    paths = (motion.keys.right, motion.keys.left)
+    return [path for path in paths if path is not None and "surface" in path.frames]
+
+
+def _hands(motion: Motion) -> Array:
+    """Where hands usually work on the surface: both, if a thing lies there, else the right one."""
+    working = _at_surface(motion)
+    if motion.keys.hold != "surface" and motion.keys.right in working:
+        return _where(working[0], math.inf)
+    busy = [1.0 if len(path.points) > 1 else _STILL for path in working]
+    middle: Array = np.average([_where(path) for path in working], axis=0, weights=busy)
+    return middle
+
+
 def _yaw(size: Size) -> float:
     if _is_tool(size):
         return math.atan2(float(_HANDLE[1]), float(_HANDLE[0]))
     return math.pi / 2  # the front towards the person
 
 
-def _where(path: HandPath) -> Array:
-    """The middle of the places where a hand is at the surface: those low above it, if it comes there at all."""
+def _where(path: HandPath, highest: float = _LOW) -> Array:
+    """The middle of the places where a hand is at the surface: those low above it, if it comes so low at all."""
     points = [point for frame, point in zip(path.frames, path.points, strict=True) if frame == "surface"]
-    low = [point for point in points if point[2] <= _LOW]
+    low = [point for point in points if point[2] <= highest]
     middle: Array = np.mean([point[:2] for point in low or points], axis=0)
     return middle
 

@@ -6,9 +6,11 @@ import pytest
 
 from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.acts.workplace import at_work, thing_of, working, worktop_before
+from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import load_library
+from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.shapes.fixtures import BURNERS
 
 LIBRARY = load_library()
@@ -97,6 +99,29 @@ def test_a_pan_in_hand_stands_on_a_burner_and_keeps_clear_of_what_stands_on_the_
     assert opposite.laid is not None
     assert free.laid in (beside.laid, opposite.laid)
     assert beside.laid != opposite.laid
+
+
+@pytest.mark.parametrize("aside", [-0.12, 0.0, 0.12])
+def test_the_hands_go_to_the_cup_that_stands_there_when_one_pours(aside: float) -> None:
+    scene = home("dining_table")
+    table = scene.fixed[0]
+    body = person(scene, 0.3, worktop=0.75)
+    x, y, z = table.to_world(aside, table.size[1] / 2 - 0.16, table.size[2])
+    there = ThingState(position=(x, y, z), yaw=0.0, on=table.name)
+    motion = LIBRARY["pour a drink"]
+    setting, _ = working(scene, empty(body), body, motion, {"mug_1": there})
+    hands = [forward(pose_at(motion, k * 0.25, setting)).place["right_hand"] for k in range(12)]
+    gaps = [math.dist(hand[:2], (0.3 + 0.16, aside)) for hand in hands]
+    assert min(gaps) < 0.08
+
+
+def test_what_stands_far_off_on_the_table_is_left_alone() -> None:
+    scene = home("dining_table")
+    table = scene.fixed[0]
+    body = person(scene, 0.25, worktop=0.75, aside=-0.5)
+    there = ThingState(position=table.to_world(0.6, -0.3, table.size[2]), yaw=0.0, on=table.name)
+    setting, _ = working(scene, empty(body), body, LIBRARY["pour a drink"], {"mug_1": there})
+    assert setting.reach == (0.0, 0.0)
 
 
 def test_a_thing_is_known_by_what_it_is_called_before_it_is_out_of_the_magic_box() -> None:
