@@ -13,7 +13,7 @@ from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Example
 from coopera.core.household import SceneId
 from coopera.graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
-from tests.fakes import MARA, FakeHome, ScriptedAsk, type2_answers
+from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
 
@@ -115,6 +115,25 @@ def test_the_robot_watches_only_the_first_task_and_the_person_does_the_rest(make
     [robot] = {hour.robot.observation.model_dump_json() for hour in services.recorder.read_day(0)[:1] if hour.robot}
     assert "whisk" not in robot
     assert "frames/day-00/hour-09/robot-0.webp" in robot
+
+
+@pytest.mark.parametrize(("relation", "left"), [("inside", 0), ("on", 1)])
+def test_a_task_is_left_to_the_person_unless_the_robot_has_put_the_thing_in_or_on_as_they_want(
+    make_services: MakeServices, relation: str, left: int
+) -> None:
+    answers, home = type2_answers(), FakeHome()
+    home.fixed["fridge_1"] = (7, "kitchen")
+    wanted, offered = placing("mug_1", "fridge_1", 5, 7), placing("mug_1", "fridge_1", 5, 7)
+    wanted["act"]["relation"], offered["act"]["relation"] = "inside", relation
+    tasks = [placing("book_1", "desk_1", 4, 1), wanted]
+    answers["human/tasks_type1"] = lambda v: {"tasks": tasks}
+    for node in ("profile", "scene"):
+        answers[f"human/reflect_{node}_type1"] = lambda v: {"verdicts": [{"yes": True}], "tasks": tasks}
+    answers["robot/tasks_type1"] = lambda v: {"tasks": [offered]}
+    plan = days(1, hours=1)[0].model_copy(update={"collab": 1})
+    build_day_graph().invoke(first_day(plan), context=make_services(home=home, ask=ScriptedAsk(answers)))
+    by_person = [act.describe() for agent, act, _ in home.performed if agent == "human"]
+    assert by_person.count("put the mug in the fridge") == left
 
 
 def test_what_was_learned_on_the_first_day_is_used_on_the_second(make_services: MakeServices) -> None:
