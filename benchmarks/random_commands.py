@@ -16,6 +16,7 @@ from coopera.simulation.tools import world_tools
 BOX = ("mug", "book", "towel", "water bottle", "phone", "apple", "magic wand", "broom", "dirty plate", "red scarf")
 NONSENSE = ("xyzzy", "levitate", "sit", "cook the moon", "…", "do nothing at all, but slowly", "sweep", "SIT AND READ")
 LONG = "a very " + "very " * 300 + "long thing"
+KINDS = ["perform", "go_to", "pick", "place", "set_open", "switch", "tool", "restore"]
 DAMAGES = ("spot", "yaw", "position", "home", "hands", "held", "unknown", "on", "inside", "state", "box")
 ODD_NAMES = ("", " ", "no_such_thing_7", LONG, "mug_1; drop table", "\n", "0")
 
@@ -54,7 +55,7 @@ class Commander:
     def command(self) -> Command:
         """The next command."""
         agent = AgentId(self._one([*self.world.state.agents, *self.world.state.agents, "nobody"], [9, 9, 9, 9, 1]))
-        kind = self._one(["perform", "go_to", "pick", "place", "tool", "restore"], [12, 2, 2, 3, 2, 1])
+        kind = self._one(KINDS, [12, 2, 2, 3, 1, 1, 2, 1])
         if kind == "perform":
             return Command(kind, agent, self._act(agent))
         if kind == "restore":
@@ -62,8 +63,14 @@ class Commander:
             return Command(f"restore {damage}", agent, self._damaged(damage))
         if kind == "tool":
             return Command(*self._tool())
-        names = {"go_to": [*self.world.rooms, *self._names()], "pick": self._things(), "place": self._furniture()}
-        return Command(kind, agent, self._name(names[kind]))
+        if kind == "go_to":
+            return Command(kind, agent, (self._name([*self.world.rooms, *self._names()]),))
+        if kind == "pick":
+            return Command(kind, agent, (self._name(self._things()),))
+        if kind == "place":
+            where = self._one(["on", "inside"], [2, 1])
+            return Command(kind, agent, (self._name(self._names() if where == "inside" else self._furniture()), where))
+        return Command(kind, agent, (self._name(self._names()), bool(self.rng.integers(2))))
 
     def _one(self, of: list[str], weights: list[int] | None = None) -> str:
         shares = None if weights is None else np.array(weights[: len(of)]) / sum(weights[: len(of)])
@@ -124,10 +131,10 @@ class Commander:
         known = self.world.layout.object(name)
         return known.id if known is not None and self.rng.random() < 0.97 else int(self.rng.integers(1000))
 
-    def _tool(self) -> tuple[str, AgentId, dict[str, str]]:
+    def _tool(self) -> tuple[str, AgentId, dict[str, Any]]:
         agent = AgentId(self._one(list(self.world.state.agents)))
         tool = self._one([tool.name for tool in world_tools(self.world, agent)])
-        some = {
+        some: dict[str, Any] = {
             "room": self._name(["", *self.world.rooms]),
             "target": self._name(self._furniture()),
             "thing": self._in_hand() if tool == "hand_over" else self._name(self._things()),
@@ -135,6 +142,10 @@ class Commander:
             "person": self._one(["", "human", "robot"]),
             "motion": self._one([*self.world.motions, *NONSENSE, LONG, ""]),
             "in_hand": self._in_hand(),
+            "name": self._name(self._names()),
+            "relation": self._one(["on", "inside"]),
+            "opens": bool(self.rng.integers(2)),
+            "on": bool(self.rng.integers(2)),
         }
         takes = next(one for one in world_tools(self.world, agent) if one.name == tool).args
         return f"tool {tool}", agent, {name: value for name, value in some.items() if name in takes}
@@ -183,7 +194,7 @@ def carry_out(world: World, command: Command) -> Answer:
             tool = next(one for one in world_tools(world, agent) if one.name == kind[5:])
             said = str(tool.invoke(what))
             return Answer(not said.startswith("That failed:"), said.removeprefix("That failed: "))
-        return Answer(*getattr(world, kind)(agent, what))
+        return Answer(*getattr(world, kind)(agent, *what))
     except SimulationError as err:
         refused = agent not in world.state.agents or kind.startswith("restore ")
         return Answer(False, str(err), raised="" if refused else f"SimulationError: {err}")

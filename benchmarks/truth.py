@@ -15,26 +15,27 @@ import json
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from benchmarks.random_commands import Answer, Command, Commander, as_told, carry_out
 from coopera.core.affordances import affordances
-from coopera.core.household import AgentId, FreeMotion
+from coopera.core.household import Act, AgentId, FreeMotion
 from coopera.simulation import World, list_scenes, load_scene
-from coopera.simulation.acts import primitives
 from coopera.simulation.acts.handing import HANDING
 from coopera.simulation.acts.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
-from coopera.simulation.acts.plans import Give, Handle, Plan, Walk, discs
+from coopera.simulation.acts.plans import Give, Handle, Open, Plan, Play, Walk, discs
+from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.state import HomeState, digest
 from coopera.simulation.acts.truth import problems
 from coopera.simulation.bodies.robot import known_robots
 from coopera.simulation.homes.catalogue import blocks, parts_of
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.kit import Part
-from coopera.simulation.shapes.rotations import matrix
+from coopera.simulation.shapes.rotations import Array, matrix
+from coopera.simulation.sight.watching import Onlooker
 
 REACH = 1.05
 """Farthest on the floor plan from where one stands that a hand takes or puts something, in metres."""
@@ -57,23 +58,39 @@ class Tally:
     violations: list[str] = field(default_factory=list)
 
 
+class Watched(World):
+    """A home that remembers what was planned last in it, step by step."""
+
+    last: Plan | None = None
+
+    def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
+        return super()._step(agent, lambda: self._kept(plan()))
+
+    def _plan(self, agent: AgentId, act: Act, watch: Onlooker | None) -> Plan:
+        return self._kept(super()._plan(agent, act, watch))
+
+    def _kept(self, plan: Plan) -> Plan:
+        self.last = plan
+        return plan
+
+
 def attack(scene: str, robot: str, count: int, seed: int) -> Tally:
     """Give random commands in one home, and look at it after each."""
     tally, given = Tally(), list[Command]()
-    with World(load_scene(scene), robot=robot) as world, World(load_scene(scene), robot=robot) as other:
+    with Watched(load_scene(scene), robot=robot) as world, World(load_scene(scene), robot=robot) as other:
         commander, twin = Commander(world, seed), None
         for number in range(count):
             if number % EVERY == 0:
                 other.restore(json.loads(json.dumps(world.snapshot())))
                 twin = other
-            command, before = commander.command(), world.state
-            plan, answer = planned(world, command), carry_out(world, command)
+            command, before, world.last = commander.command(), world.state, None
+            answer = carry_out(world, command)
             given.append(command)
             tally.given += 1
             tally.done += answer.ok
             if not answer.ok:
                 tally.refused[re.sub(r"'[^']*'|\([^)]*\)", "…", answer.reason)[:70]] += 1
-            found = list(violations(world, before, command, plan, answer))
+            found = list(violations(world, before, command, world.last, answer))
             if twin is not None and not found:
                 found = parted(world, twin, command, answer)
             twin = twin if number % EVERY < THEN - 1 and not found else None
@@ -101,20 +118,6 @@ def relived(scene: str, robot: str, given: list[Command]) -> str:
         return digest(world.snapshot())
 
 
-def planned(world: World, command: Command) -> Plan | None:
-    """What a command will do, step by step; None for one that is refused or is no act."""
-    kind, agent, what = command
-    try:
-        if kind == "perform":
-            return world.plan(agent, what)
-        if kind in ("go_to", "pick", "place") and agent in world.state.agents:
-            planned: Plan = getattr(primitives, kind)(world._ground, world.state, agent, what)
-            return planned
-    except Exception:  # noqa: BLE001 - that it raises shows when it is carried out
-        return None
-    return None
-
-
 def violations(world: World, before: HomeState, command: Command, plan: Plan | None, answer: Answer) -> Iterator[str]:
     """What does not hold after a command."""
     scene, after = world.layout, world.state
@@ -128,7 +131,7 @@ def violations(world: World, before: HomeState, command: Command, plan: Plan | N
         return
     yield from problems(scene, after, world._ground.navigator)
     if plan is None:
-        return  # a tool: what it did is seen in the state only
+        return
     yield from walks(scene, before, after, plan)
     yield from carried(scene, before, after, plan)
     for name, where in after.moved.items():
@@ -137,8 +140,9 @@ def violations(world: World, before: HomeState, command: Command, plan: Plan | N
     if isinstance(command.what, FreeMotion):
         yield from reach(scene, after, command.agent, command.what)
     actor = command.agent
-    if math.dist(before.agents[actor].spot, after.agents[actor].spot) > answer.metres + SLACK:
-        yield f"{actor} gets farther than the {answer.metres} m that it says it went"
+    went = plan.metres if command.kind.startswith("tool ") else answer.metres
+    if math.dist(before.agents[actor].spot, after.agents[actor].spot) > went + SLACK:
+        yield f"{actor} gets farther than the {went} m that it says it went"
 
 
 def refusal(before: HomeState, after: HomeState, reason: str) -> Iterator[str]:
@@ -150,37 +154,42 @@ def refusal(before: HomeState, after: HomeState, reason: str) -> Iterator[str]:
 
 
 def walks(scene: Scene, before: HomeState, after: HomeState, plan: Plan) -> Iterator[str]:
-    """Walks that start elsewhere than the walker is, or go through furniture, walls or bodies; and who jumps."""
+    """Walks that start elsewhere than the walker is, or lead through something; things given from afar; and jumps."""
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
     spots = {agent: body.spot for agent, body in before.agents.items()}
+    places = {agent: body.place for agent, body in before.agents.items()}
     floor = {agent: discs(before, agent) for agent in before.agents}
     for step in plan.steps:
-        if not isinstance(step, Walk):
-            continue
-        if math.dist(step.points[0], spots[step.agent]) > SLACK:
-            yield f"{step.agent} starts a walk elsewhere than they are"
-        line = np.concatenate(
-            [
-                np.linspace(a, b, 2 + int(math.dist(a, b) / 0.05))
-                for a, b in zip(step.points, step.points[1:], strict=False)
-            ]
-        )
-        least = float(clearance(line[1:, 0], line[1:, 1], boxes).min())
-        if least < RADIUS - SLACK:
-            yield f"{step.agent} walks {RADIUS - least:.2f} m into furniture or a wall"
-        for other, taken in floor.items():
-            for disc in taken if other != step.agent else ():
-                start = math.dist(step.points[0], (disc.x, disc.y))
-                least = min(
-                    float(to_segment(np.array([(disc.x, disc.y)]), a, b)[0])
-                    for a, b in zip(step.points, step.points[1:], strict=False)
-                )
-                if least < min(disc.radius + RADIUS, start) - SLACK:
-                    yield f"{step.agent} walks through {other}"
-        spots[step.agent], floor[step.agent] = step.points[-1], [Disc(*step.points[-1])]
+        if isinstance(step, Give):
+            gap = math.dist((step.stand.x, step.stand.y), places[step.receiver])
+            if not HANDING[0] - SLACK <= gap <= HANDING[1] + SLACK:
+                yield f"{step.thing} is handed over at {gap:.2f} m"
+        elif isinstance(step, Play):
+            places[step.agent] = step.person.place
+        elif isinstance(step, Walk):
+            if math.dist(step.points[0], spots[step.agent]) > SLACK:
+                yield f"{step.agent} starts a walk elsewhere than they are"
+            yield from _walk(step, boxes, floor)
+            spots[step.agent] = places[step.agent] = step.points[-1]
+            floor[step.agent] = [Disc(*step.points[-1])]
     for agent, body in after.agents.items():
         if math.dist(body.spot, spots[agent]) > SLACK:
             yield f"{agent} is {math.dist(body.spot, spots[agent]):.2f} m from where their walks lead"
+
+
+def _walk(walk: Walk, boxes: Array, floor: dict[AgentId, list[Disc]]) -> Iterator[str]:
+    """What a walk leads through: furniture, walls, or the floor that others take up."""
+    legs = list(zip(walk.points, walk.points[1:], strict=False))
+    line = np.concatenate([np.linspace(a, b, 2 + int(math.dist(a, b) / 0.05)) for a, b in legs])
+    least = float(clearance(line[1:, 0], line[1:, 1], boxes).min())
+    if least < RADIUS - SLACK:
+        yield f"{walk.agent} walks {RADIUS - least:.2f} m into furniture or a wall"
+    for other, taken in floor.items():
+        for disc in taken if other != walk.agent else ():
+            start = math.dist(walk.points[0], (disc.x, disc.y))
+            least = min(float(to_segment(np.array([(disc.x, disc.y)]), a, b)[0]) for a, b in legs)
+            if least < min(disc.radius + RADIUS, start) - SLACK:
+                yield f"{walk.agent} walks through {other}"
 
 
 def carried(scene: Scene, before: HomeState, after: HomeState, plan: Plan) -> Iterator[str]:
@@ -193,16 +202,23 @@ def carried(scene: Scene, before: HomeState, after: HomeState, plan: Plan) -> It
             continue
         if not isinstance(old, str) and not _handled(plan, name, old, puts=False):
             yield f"nobody's hand takes {name} from where it was"
+        for state in (before, after):
+            yield from _through_a_door(scene, state, plan, name)
         if not isinstance(new, str) and not _handled(plan, name, new, puts=True):
             yield f"nobody's hand puts {name} where it is"
         if old in after.agents and new in after.agents:
             step = given.get(name)
-            if step is None or (step.agent, step.receiver) != (old, new):
+            if step is None or (step.receiver if step.back else step.agent) != old:
                 yield f"nobody hands {name} over"
-    for step in given.values():
-        gap = math.dist((step.stand.x, step.stand.y), after.agents[step.receiver].place)
-        if not HANDING[0] - SLACK <= gap <= HANDING[1] + SLACK:
-            yield f"{step.thing} is handed over at {gap:.2f} m"
+
+
+def _through_a_door(scene: Scene, state: HomeState, plan: Plan, name: str) -> Iterator[str]:
+    """Whether a thing got out of, or into, something closed that nobody opened."""
+    around = state.find(scene, state.moved[name].inside or "") if name in state.moved else None
+    if around is None or state.condition(around).get("open", True):
+        return
+    if not any(isinstance(step, Open) and step.name == around.name and step.opens for step in plan.steps):
+        yield f"{name} gets through the closed {around.name}"
 
 
 def _handled(plan: Plan, name: str, place: tuple[float, ...], *, puts: bool) -> bool:
@@ -252,7 +268,7 @@ def through(scene: Scene, state: HomeState, name: str) -> Iterator[str]:
             return
 
 
-def _half(part: Part) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _half(part: Part) -> Array:
     """Half extents of the box around a part."""
     long = part.length / 2 + (part.radius if part.kind == "capsule" else 0.0)
     half = (

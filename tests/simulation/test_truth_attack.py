@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from benchmarks.random_commands import Answer, Command, Commander, as_told, carry_out
-from benchmarks.truth import attack, parted, planned, violations
+from benchmarks.truth import Watched, attack, parted, violations
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation import World
 from coopera.simulation.acts.state import HomeState, ThingState
@@ -18,11 +18,11 @@ Lie = Callable[[HomeState], HomeState]
 
 def seen_after(command: Command, lie: Lie = lambda state: state) -> list[str]:
     """What the attack sees after a command in a home that then changes by itself."""
-    with World(flat()) as world:
-        before, plan = world.state, planned(world, command)
+    with Watched(flat()) as world:
+        before = world.state
         answer = carry_out(world, command)
         world.state = lie(world.state)
-        return list(violations(world, before, command, plan, answer))
+        return list(violations(world, before, command, world.last, answer))
 
 
 PUT = Command("perform", HUMAN, put("mug_1", "dining_table_1"))
@@ -37,8 +37,8 @@ REFUSED = Command("perform", ROBOT, put("mug_1", "nowhere_1"))
         SIT,
         REFUSED,
         Command("perform", ROBOT, bring("apple")),
-        Command("go_to", ROBOT, "kitchen"),
-        Command("pick", ROBOT, "tennis_ball_1"),
+        Command("go_to", ROBOT, ("kitchen",)),
+        Command("pick", ROBOT, ("tennis_ball_1",)),
         Command("tool look_around", ROBOT, {}),
         Command("perform", "nobody", bring("apple")),
     ],
@@ -61,7 +61,7 @@ LIES: dict[str, tuple[Command, Lie, str]] = {
     "a thing jumps": (PUT, on_the_floor("book_1", 3.4, 1.5), "nobody's hand takes book_1 from where it was"),
     "a thing is put elsewhere": (PUT, on_the_floor("mug_1", 3.4, 1.5), "nobody's hand puts mug_1 where it is"),
     "a thing changes hands": (
-        Command("pick", ROBOT, "tennis_ball_1"),
+        Command("pick", ROBOT, ("tennis_ball_1",)),
         lambda state: state.with_held(HUMAN, "book_1"),
         "nobody's hand takes book_1",
     ),
@@ -102,12 +102,12 @@ def test_a_reason_is_one_sentence(reason: str) -> None:
 
 def test_an_exception_that_is_not_documented_is_told_in_the_answer() -> None:
     with World(flat()) as world:
-        assert carry_out(world, Command("dance", HUMAN, None)).raised.startswith("AttributeError")
-        assert carry_out(world, Command("go_to", "nobody", "kitchen")).raised == ""
+        assert carry_out(world, Command("dance", HUMAN, ())).raised.startswith("AttributeError")
+        assert carry_out(world, Command("go_to", "nobody", ("kitchen",))).raised == ""
 
 
 def test_a_restored_home_that_does_something_else_is_seen() -> None:
-    command = Command("go_to", ROBOT, "kitchen")
+    command = Command("go_to", ROBOT, ("kitchen",))
     with World(flat()) as world, World(flat()) as twin:
         answer = carry_out(world, command)
         assert parted(world, twin, command, answer) == []
