@@ -83,7 +83,7 @@ def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None)
             look(record, home)
         if each is not None:
             each(record, now, home)
-        if now != then and not difference:
+        if _done(now) != _done(then) and not difference:
             what = f"act {number + 1} ({then.agent}: {then.act.describe()})"
             difference = f"{what} came out as {_said(now)}, not {_said(then)}"
     left = record.world.get("poses", {})
@@ -102,8 +102,17 @@ def _in_order(record: HourRecord) -> list[Outcome]:
     return [*own[:shown], *helped, *own[shown:]]
 
 
+def _done(outcome: Outcome) -> Outcome:
+    """An outcome without the cosine, which another processor may work out a little differently."""
+    return outcome.model_copy(update={"cosine": None})
+
+
 def _said(outcome: Outcome) -> str:
-    return f"done in {outcome.metres} m" if outcome.ok else f"failed: {outcome.reason}"
+    if not outcome.ok:
+        return f"failed: {outcome.reason}"
+    motion = f" as {outcome.motion!r}" if outcome.motion is not None else ""
+    took = [*outcome.fetched, *outcome.opened]
+    return f"done{motion} in {outcome.metres} m{' with ' + ', '.join(took) if took else ''}"
 
 
 def film_into(folder: Path, frames: int) -> Look:

@@ -28,12 +28,13 @@ from coopera.simulation.acts.plans import (
 from coopera.simulation.acts.resting import SEAT_NEAR, bed_for, fits, gap_between, seat_for, used_by_others
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk_to_deed
+from coopera.simulation.acts.workplace import at_work
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.homes.catalogue import Rest, blocks, surfaces
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.motions.library import Motion
-from coopera.simulation.motions.poses import Setting, pose_at
+from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.shapes.rotations import wrapped
 
 ROOM_REACH = 1.5
@@ -63,14 +64,14 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     if done.undresses:
         undress(ground, plan, agent, watch)
     body, used_furniture = _placed(ground, plan, agent, target, motion)
-    hands = _hands(body, motion)
+    hands = _hands(ground, body, motion)
     at = Workplace(target, body, hands)
     if done.gathers is not None:
         gather(ground, plan, agent, done.gathers, at, watch)
     tool = bring_tool(ground, plan, agent, act, done, at, watch)
     take_in_hand(ground, plan, agent, act.in_hand, watch)
     held = plan.state.agents[agent].thing
-    pose = pose_at(motion, 0.0, Setting(body.support, body.worktop, body.posture))
+    pose = pose_at(motion, 0.0, at_work(ground.scene, body, motion)[0])
     walk_to_deed(ground, plan, agent, Placed(*body.place, body.yaw, pose), body.spot, watch, held)
     now = plan.state.person(agent)
     place = now.spot if body.place == body.spot else body.place
@@ -95,16 +96,16 @@ def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan
     """Plan that a person goes on with what they are doing, and a robot comes to see it."""
     plan, person = Plan(state), state.person(agent)
     motion = ground.motions[person.motion]
-    pose = pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture))
+    pose = pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0])
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(agent, person, motion))
     plan.at, plan.in_hand = [person.at] if person.at is not None else [], person.thing
     return plan
 
 
-def _hands(person: PersonState, motion: Motion) -> Point:
+def _hands(ground: Ground, person: PersonState, motion: Motion) -> Point:
     """Where the hands are on the floor plan: what lies under them is what the person is at."""
-    frames = forward(pose_at(motion, 0.0, Setting(person.support, person.worktop, person.posture)))
+    frames = forward(pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0]))
     middle = (frames.place["right_hand"] + frames.place["left_hand"]) / 2
     cos, sin = math.cos(person.yaw), math.sin(person.yaw)
     x, y = float(middle[0]), float(middle[1])

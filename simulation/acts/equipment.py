@@ -8,14 +8,17 @@ from typing import NamedTuple
 from coopera.core.affordances import Affordance, Classes, Gather, Relation, affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts.fitting import in_hand_is
+from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch
 from coopera.simulation.acts.skills import There, empty_hand, put, put_away, take
 from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 
-_AT_HAND = 0.6
+_AT_HAND = 0.35
 """A tool that lies this near to the hands (metres, on the floor plan) need not be moved."""
+_WORTH_IT = 0.1
+"""It is moved only if that brings it this much nearer."""
 _TRIES = 2
 _OFF = 0.1
 """A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
@@ -50,7 +53,7 @@ def bring_tool(
         return None
     trouble = ""
     for tool in _tools(ground, plan.state, agent, done.tools, at)[:_TRIES]:
-        if _lies_ready(plan.state, tool, at):
+        if _lies_ready(ground, plan.state, tool, at):
             return tool
         mark = plan.mark()
         try:
@@ -164,6 +167,11 @@ def _by_distance(ground: Ground, state: HomeState, hands: Point) -> list[SceneOb
     return sorted(state.objects(ground.scene), key=away)
 
 
-def _lies_ready(state: HomeState, thing: SceneObject, at: Workplace) -> bool:
+def _lies_ready(ground: Ground, state: HomeState, thing: SceneObject, at: Workplace) -> bool:
+    """Whether a tool lies at the furniture within reach of the hands, or as near to them as there is a place."""
     where = state.thing(thing)
-    return where.on == at.target.name and math.dist(where.position[:2], at.hands) <= _AT_HAND
+    away = math.dist(where.position[:2], at.hands)
+    if where.on != at.target.name or away <= _AT_HAND:
+        return where.on == at.target.name
+    places = free_places(ground.scene, state, thing, at.target)
+    return all(math.dist(place[:2], at.hands) > away - _WORTH_IT for place in places)
