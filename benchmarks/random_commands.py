@@ -56,6 +56,9 @@ class Commander:
         """The next command."""
         agent = AgentId(self._one([*self.world.state.agents, *self.world.state.agents, "nobody"], [9, 9, 9, 9, 1]))
         kind = self._one(KINDS, [12, 2, 2, 3, 1, 1, 2, 1])
+        body = self.world.state.agents.get(agent)
+        if body is not None and body.thing is not None and self.rng.random() < 0.3:
+            return Command("place", agent, (self._name(self._furniture()), "on"))
         if kind == "perform":
             return Command(kind, agent, self._act(agent))
         if kind == "restore":

@@ -126,3 +126,10 @@ def test_the_same_seed_gives_the_same_commands() -> None:
 def test_a_new_home_that_ends_in_another_state_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("benchmarks.truth.relived", lambda *_: "another digest")
     assert "the same commands lead a new home to another state" in attack("pine", "fetch", 3, 0).violations
+
+
+def test_a_home_keeps_its_word_under_many_random_commands() -> None:
+    tally = attack("pine", "fetch", 150, 0)
+    assert tally.given == 150
+    assert tally.done >= 30
+    assert tally.violations == []
