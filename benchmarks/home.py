@@ -23,12 +23,12 @@ import numpy as np
 from coopera.core.errors import SimulationError
 from coopera.core.household import HUMAN, ROBOT, Act, AgentId, FreeMotion, HandOver, PickPlace
 from coopera.simulation import World, list_scenes, load_scene
-from coopera.simulation.acts.free_places import free_places
-from coopera.simulation.acts.home_check import check
-from coopera.simulation.acts.navigation import RADIUS, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import Walk
 from coopera.simulation.bodies.robot import known_robots
 from coopera.simulation.homes.catalogue import blocks
+from coopera.simulation.state.free_places import free_places
+from coopera.simulation.ways.home_check import check
+from coopera.simulation.ways.navigation import RADIUS, clearance, obstacle_boxes
 
 AGENTS = (HUMAN, ROBOT)
 HOURS, TASKS = 13, 5

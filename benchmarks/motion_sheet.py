@@ -15,7 +15,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from coopera.core.household import HUMAN, SceneId
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.motions.holding import grip
@@ -24,6 +23,7 @@ from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.state.home_state import HomeState, PersonState
 
 TILE = (104, 132)
 COLUMNS = 4

@@ -25,17 +25,17 @@ from coopera.core.affordances import affordances
 from coopera.core.household import Act, AgentId, FreeMotion
 from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts.handing import HANDING
-from coopera.simulation.acts.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
 from coopera.simulation.acts.plans import Give, Handle, Open, Plan, Play, Walk, discs
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.state import HomeState, digest
-from coopera.simulation.acts.truth import problems
 from coopera.simulation.bodies.robot import known_robots
 from coopera.simulation.homes.catalogue import blocks, parts_of
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.kit import Part
 from coopera.simulation.shapes.rotations import Array, matrix
 from coopera.simulation.sight.watching import Onlooker
+from coopera.simulation.state.home_state import HomeState, digest
+from coopera.simulation.state.truth import problems
+from coopera.simulation.ways.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
 
 REACH = 1.05
 """Farthest on the floor plan from where one stands that a hand takes or puts something, in metres."""

@@ -30,6 +30,7 @@ def _is_empty(value: Any) -> bool:
 
 
 Name = Annotated[str, Field(min_length=1, max_length=120)]
+MotionText = Annotated[str, Field(min_length=1, max_length=200)]
 
 
 class PickPlace(Frozen):
@@ -56,7 +57,7 @@ class FreeMotion(Frozen):
     target_id: int
     target: Name
     in_hand: Name
-    motion: Annotated[str, Field(min_length=1, max_length=200)]
+    motion: MotionText
 
     def describe(self) -> str:
         """Say it as a sentence fragment, without ids."""

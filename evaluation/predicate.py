@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from coopera.core.hour import Task, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver, PickPlace, plain
 from coopera.core.protocols import Home
-from coopera.simulation.acts.goals.achieved import goal_of
+from coopera.simulation.goals.achieved import goal_of
 
 if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from coopera.simulation.acts.agents import PersonAgent, RobotAgent
-    from coopera.simulation.acts.goals.judging import holds, met
-    from coopera.simulation.acts.goals.reading import read_goal
+    from coopera.simulation.goals.judging import holds, met
+    from coopera.simulation.goals.reading import read_goal
     from coopera.simulation.homes.scene import Scene, list_scenes, load_scene
+    from coopera.simulation.state.agents import PersonAgent, RobotAgent
     from coopera.simulation.world import World
 
 __all__ = [
@@ -29,15 +29,15 @@ __all__ = [
 ]
 
 _HOMES = {
-    "PersonAgent": "coopera.simulation.acts.agents",
-    "RobotAgent": "coopera.simulation.acts.agents",
+    "PersonAgent": "coopera.simulation.state.agents",
+    "RobotAgent": "coopera.simulation.state.agents",
     "Scene": "coopera.simulation.homes.scene",
     "list_scenes": "coopera.simulation.homes.scene",
     "load_scene": "coopera.simulation.homes.scene",
     "World": "coopera.simulation.world",
-    "holds": "coopera.simulation.acts.goals.judging",
-    "met": "coopera.simulation.acts.goals.judging",
-    "read_goal": "coopera.simulation.acts.goals.reading",
+    "holds": "coopera.simulation.goals.judging",
+    "met": "coopera.simulation.goals.judging",
+    "read_goal": "coopera.simulation.goals.reading",
 }
 
 __getattr__, __dir__ = lazy_names(__name__, _HOMES)

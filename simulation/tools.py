@@ -10,11 +10,13 @@ import json
 from collections.abc import Callable
 
 from langchain_core.tools import BaseTool, StructuredTool
+from pydantic import ValidationError
+from pydantic.v1 import ValidationError as OldValidationError
 
 from coopera.core.affordances import Relation
-from coopera.core.household import ROBOT, AgentId, FreeMotion, HandOver
+from coopera.core.household import ROBOT, AgentId, FreeMotion, HandOver, MotionText, Name
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.state import PersonState
+from coopera.simulation.state.home_state import PersonState
 from coopera.simulation.world import World
 
 _DOOR, _SWITCH = ("closed", "open"), ("off", "on")
@@ -89,7 +91,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         """
         return _said(world.switch(agent, name, on), f"{name} is {_SWITCH[on]}.")
 
-    def hand_over(thing: str, person: str = "") -> str:
+    def hand_over(thing: Name, person: str = "") -> str:
         """Bring a person a thing: one of the home, which you fetch or hold, or any small thing from the magic box.
 
         Args:
@@ -100,7 +102,7 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
         done = world.perform(agent, HandOver(object=thing, receiver=receiver))
         return _said(Result(done.ok, done.reason, done.metres), f"{person or 'The person'} has the {thing}.")
 
-    def move(target: str, motion: str, in_hand: str) -> str:
+    def move(target: Name, motion: MotionText, in_hand: Name) -> str:
         """Do a motion at a piece of furniture with a thing in hand.
 
         Args:
@@ -115,7 +117,16 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
 
     functions: list[Callable[..., str]] = [look_around, list_objects, go_to, pick, place, set_open, switch]
     functions.append(hand_over if agent in world.robots else move)
-    return [StructuredTool.from_function(function, parse_docstring=True) for function in functions]
+    return [
+        StructuredTool.from_function(function, parse_docstring=True, handle_validation_error=_mistake)
+        for function in functions
+    ]
+
+
+def _mistake(wrong: ValidationError | OldValidationError) -> str:
+    """What is wrong with the arguments of a call, as a sentence for the model that made it."""
+    first = wrong.errors()[0]
+    return f"That failed: {'.'.join(str(part) for part in first['loc'])}: {first['msg']}."
 
 
 def _listed(world: World, room: str) -> str:

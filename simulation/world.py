@@ -11,29 +11,31 @@ import numpy as np
 from PIL import Image
 from pydantic import ValidationError
 
-from coopera.core.affordances import Relation, in_words
+from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
 from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
-from coopera.simulation.acts import predicates, primitives
+from coopera.simulation.acts import primitives
 from coopera.simulation.acts.activity import free_motion, stay
-from coopera.simulation.acts.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.acts.first_places import first_states
 from coopera.simulation.acts.fitting import check_hands_over, check_moves, misfit
-from coopera.simulation.acts.navigation import Navigator
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
-from coopera.simulation.acts.state import HomeState, named_from_box, room_of_thing
-from coopera.simulation.acts.truth import wrong
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.goals import predicates
+from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.watching import Onlooker, Watcher
+from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
+from coopera.simulation.state.home_state import HomeState, named_from_box, room_of_thing
+from coopera.simulation.state.looks import states_in_sight, things_in_sight
+from coopera.simulation.state.truth import wrong
+from coopera.simulation.ways.navigation import Navigator
 
 _WEBP_QUALITY = 82
 
@@ -119,12 +121,8 @@ class World:
         """The object-room mapping as things now stand, sorted by name."""
         if kind == "fixed":
             return {thing.name: (thing.id, thing.room) for thing in self.layout.fixed}
-        things = [thing for thing in self.state.objects(self.layout) if not self._is_in_use(thing.name)]
+        things = self.state.of_the_home(self.layout)
         return {thing.name: (thing.id, room_of_thing(self.layout, self.state, thing)) for thing in things}
-
-    def _is_in_use(self, name: str) -> bool:
-        """Whether a thing out of the magic box is with somebody, so that it is no thing of the home."""
-        return name in self.state.box and self.state.bearer(name) is not None
 
     def as_scene(self) -> Scene:
         """The home as things now stand, as a home of its own: to be checked, drawn or written to a file.
@@ -179,21 +177,16 @@ class World:
             if watch is not None:  # there is still the person to be seen, doing what they were doing
                 plan = stay(self._ground, before, watch.person, watch)
                 self._record(plan, agent, watch)
-            return Outcome(agent=agent, act=act, ok=False, reason=f"{unable}.")
+            return Outcome(agent=agent, act=act, ok=False, reason=unable.sentence)
         if watch is not None:
             self._record(plan, agent, watch)
         self.state = plan.state
-        meant = plan.meant
-        return Outcome(
-            agent=agent,
-            act=act,
-            ok=True,
-            metres=round(plan.metres, 3),
-            motion=None if meant is None else meant.caption,
-            cosine=None if meant is None or self._ground.rank is None else round(meant.likeness, 3),
-            fetched=tuple(plan.fetched),
-            opened=tuple(dict.fromkeys(plan.opened)),
-        )
+        fetched, opened = tuple(plan.fetched), tuple(dict.fromkeys(plan.opened))
+        done = Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3), fetched=fetched, opened=opened)
+        if plan.meant is None:
+            return done
+        near = None if self._ground.rank is None else round(plan.meant.likeness, 3)
+        return done.model_copy(update={"motion": plan.meant.caption, "cosine": near})
 
     def misfit(self, agent: AgentId, act: Act) -> str:
         """What stands against an act whatever the moment, as a sentence that says what would do; empty if it fits.
@@ -208,26 +201,8 @@ class World:
         return misfit(self._ground, self.state, agent, act)
 
     def states(self, room: str | None = None) -> dict[str, str]:
-        """{object: its states in words} of all that is not as at first and can be seen, in a room or everywhere.
-
-        Sorted by name. What is inside something closed is not seen, and what somebody holds or wears is left out: what
-        is in a hand has to be recognised, which is what `percept` is for.
-        """
-        found = {}
-        for name, condition in self.state.conditions.items():
-            thing = self.state.find(self.layout, name)
-            if thing is None or self.state.bearer(name) is not None or not self.can_be_seen(thing):
-                continue
-            where = thing.room if thing.fixed else room_of_thing(self.layout, self.state, thing)
-            if room is None or where == room:
-                found[name] = in_words(condition)
-        return found
-
-    def can_be_seen(self, thing: SceneObject) -> bool:
-        """Whether an object is not inside something closed."""
-        within = None if thing.fixed else self.state.thing(thing).inside
-        container = None if within is None else self.state.find(self.layout, within)
-        return container is None or self.state.condition(container).get("open") is not False
+        """{object: its states in words} of what is not as at first and can be seen: see `states_in_sight`."""
+        return states_in_sight(self.layout, self.state, room)
 
     def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:
         """Who watches whom while an agent acts."""
@@ -273,7 +248,7 @@ class World:
         try:
             planned = plan()
         except UnableError as unable:
-            return Result(ok=False, reason=f"{unable}.")
+            return Result(ok=False, reason=unable.sentence)
         self.state = planned.state
         return Result(ok=True, metres=round(planned.metres, 3))
 
@@ -282,15 +257,8 @@ class World:
         return self.layout.room_at(*self.state.agent(agent).place).name
 
     def things_on(self, room: str) -> dict[str, str]:
-        """The movable things of a room that can be seen: {thing: the furniture under it, who has it, or "floor"}."""
-        there = {name for name, (_, where) in self.objects("movable").items() if where == room}
-        things = [thing for thing in self.state.objects(self.layout) if thing.name in there]
-        return {thing.name: self._whereabouts(thing) for thing in things if self.can_be_seen(thing)}
-
-    def _whereabouts(self, thing: SceneObject) -> str:
-        bearer = self.state.bearer(thing.name)
-        where = self.state.thing(thing)
-        return bearer or where.on or (f"inside {where.inside}" if where.inside is not None else "floor")
+        """The movable things of a room that can be seen: {thing: what it is on or inside, who has it, or "floor"}."""
+        return things_in_sight(self.layout, self.state, room)
 
     def _record(self, plan: Plan, agent: AgentId, watch: Onlooker) -> None:
         before = self.state.model_copy(update={"box": {**plan.state.box, **self.state.box}})
@@ -398,7 +366,7 @@ class World:
             )
         if snapshot.get("version") != 3:
             state = named_from_box(self.layout, state)
-        if (damage := next(wrong(self.layout, state), None)) is not None:
+        if (damage := next(wrong(self.layout, state, self.motions), None)) is not None:
             raise SimulationError(f"The snapshot of the home cannot be used: {damage}")
         self.state = state.model_copy(update={"agents": {agent: state.agents[agent] for agent in self._start.agents}})
         self._recording = None
@@ -420,7 +388,7 @@ class World:
         return predicates.at(self.layout, self.state, agent, room)
 
     def holds(self, predicate: str) -> bool:
-        """Whether a written predicate holds, such as "on(mug, sofa)": see `coopera.simulation.acts.predicates`.
+        """Whether a written predicate holds, such as "on(mug, sofa)": see `coopera.simulation.goals.predicates`.
 
         Raises:
             ConfigError: If it is no predicate.

@@ -122,7 +122,7 @@ def analyse_goals(
     The run's acts are done again from its trace, as by `coopera replay`.
     """
     from coopera.rundir.directory import RunDir
-    from coopera.simulation.acts.goals.files import read_goals
+    from coopera.simulation.goals.files import read_goals
     from coopera.studies.goals import judge_days
 
     found, goals = RunDir.open(run), read_goals(file)

@@ -12,12 +12,12 @@ from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import PersonId
 from coopera.rundir.directory import RunDir
 from coopera.simulation import Scene, World
-from coopera.simulation.acts.goals.atoms import Moment
-from coopera.simulation.acts.goals.checking import check
-from coopera.simulation.acts.goals.judging import outcome
-from coopera.simulation.acts.goals.tree import Goal
-from coopera.simulation.acts.state import HomeState, Kind
+from coopera.simulation.goals.atoms import Moment
+from coopera.simulation.goals.checking import check
+from coopera.simulation.goals.judging import outcome
+from coopera.simulation.goals.tree import Goal
 from coopera.simulation.motions.user_folder import load_motions
+from coopera.simulation.state.home_state import HomeState, Kind
 from coopera.studies.assemble import open_layout
 from coopera.studies.replay import replay
 

@@ -17,7 +17,7 @@ from coopera.core.household import Outcome, SceneId
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes
 from coopera.simulation import World
-from coopera.simulation.acts.state import HomeState, digest, today
+from coopera.simulation.state.home_state import HomeState, digest, today
 from coopera.studies.assemble import open_embeddings, open_home
 
 

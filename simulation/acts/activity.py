@@ -9,10 +9,8 @@ import numpy as np
 from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts import effects
-from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.equipment import Workplace, bring_tool, gather, take_in_hand, undress
 from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, motion_meant
-from coopera.simulation.acts.navigation import Stand, clearance, obstacle_boxes
 from coopera.simulation.acts.plans import (
     Ground,
     Placed,
@@ -26,7 +24,6 @@ from coopera.simulation.acts.plans import (
     taken_by_others,
 )
 from coopera.simulation.acts.resting import SEAT_NEAR, bed_for, fits, gap_between, seat_for, used_by_others
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk_to_deed
 from coopera.simulation.acts.workplace import at_work
 from coopera.simulation.bodies.humanoid import forward
@@ -36,6 +33,9 @@ from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.shapes.rotations import wrapped
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.home_state import HomeState, PersonState
+from coopera.simulation.ways.navigation import Stand, clearance, obstacle_boxes
 
 ROOM_REACH = 1.5
 """Farthest from the furniture at which one does what takes free floor (metres)."""

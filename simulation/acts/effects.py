@@ -9,8 +9,8 @@ from coopera.core.household import AgentId
 from coopera.simulation.acts.fitting import is_one_of
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.acts.resting import gap_between
-from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.state.home_state import HomeState
 
 
 def after(

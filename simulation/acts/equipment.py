@@ -8,12 +8,12 @@ from typing import NamedTuple
 from coopera.core.affordances import Affordance, Classes, Gather, Relation, affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts.fitting import in_hand_is
-from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch
 from coopera.simulation.acts.skills import There, empty_hand, put, put_away, take
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.state.free_places import free_places
+from coopera.simulation.state.home_state import HomeState, PersonState
 
 _AT_HAND = 0.35
 """A tool that lies this near to the hands (metres, on the floor plan) need not be moved."""

@@ -9,11 +9,11 @@ import numpy as np
 
 from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId
-from coopera.simulation.acts.agents import Agent, RobotAgent
 from coopera.simulation.acts.plans import APART, Ground
-from coopera.simulation.acts.state import PersonState, RobotState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Room
+from coopera.simulation.state.agents import Agent, RobotAgent
+from coopera.simulation.state.home_state import PersonState, RobotState
 
 
 def first_states(ground: Ground, agents: Sequence[Agent]) -> dict[AgentId, PersonState | RobotState]:

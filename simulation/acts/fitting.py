@@ -9,10 +9,10 @@ from coopera.core.affordances import Classes, Relation, affordances
 from coopera.core.household import Act, AgentId, FreeMotion, HandOver, PickPlace, plain
 from coopera.simulation.acts.plans import Ground, UnableError
 from coopera.simulation.acts.resting import bed_for, seat_for
-from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.catalogue import interiors
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.motions.library import Meant, Motion
+from coopera.simulation.state.home_state import HomeState
 
 LEAST = 0.3
 """From this cosine on a text means a motion; of nonsense MiniLM's nearest caption has at most 0.28 (measured)."""
@@ -20,6 +20,7 @@ _NEAR_ENOUGH, _LESS = 0.4, 0.25
 """A motion that fits the furniture is meant rather than a likelier one that does not, if it is this near, and at most
 this much less near."""
 _NAMED = 4
+_WORDS = 120
 
 
 def misfit(ground: Ground, state: HomeState, agent: AgentId, act: Act) -> str:
@@ -39,7 +40,7 @@ def misfit(ground: Ground, state: HomeState, agent: AgentId, act: Act) -> str:
             check_in_hand(ground, state, act)
             check_tools(ground, state, act, meant.caption)
     except UnableError as unable:
-        return f"{unable}."
+        return unable.sentence
     return ""
 
 
@@ -51,6 +52,7 @@ def check_hands_over(ground: Ground, state: HomeState, agent: AgentId, name: str
     """
     if agent not in ground.robots:
         raise UnableError("only the robot hands things over")
+    check_words(name)
     wanted = state.find(ground.scene, name)
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(name)} cannot be carried")
@@ -109,9 +111,20 @@ def check_in_hand(ground: Ground, state: HomeState, act: FreeMotion) -> None:
     Raises:
         UnableError: If it is furniture.
     """
+    check_words(act.in_hand)
     wanted = state.find(ground.scene, act.in_hand)
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(act.in_hand)} cannot be held in a hand")
+
+
+def check_words(name: str) -> None:
+    """The words for a thing say something, and no more than the name of a thing may have.
+
+    Raises:
+        UnableError: Otherwise.
+    """
+    if not name.strip() or len(name) > _WORDS:
+        raise UnableError(f"a thing is named in 1 to {_WORDS} characters, not {len(name)}")
 
 
 def check_tools(ground: Ground, state: HomeState, act: FreeMotion, caption: str) -> None:

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from coopera.core.household import HUMAN, AgentId, HandOver, plain
-from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.handling import arm_posture, to_body
-from coopera.simulation.acts.navigation import RADIUS, Stand
 from coopera.simulation.acts.plans import APART, Give, Ground, Plan, UnableError, taken_by_others
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.home_state import HomeState, PersonState
+from coopera.simulation.ways.navigation import RADIUS, Stand
 
 HANDING = (APART, 1.25)
 """Nearest and farthest distance from the person's middle at which the robot hands over a thing."""

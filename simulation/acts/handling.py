@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.household import AgentId, plain
-from coopera.simulation.acts.navigation import REACH, Stand
 from coopera.simulation.acts.plans import Ground, Placed, Plan, UnableError, Watch, clear_of, taken_by_others
 from coopera.simulation.acts.walking import walk, walk_to_deed
 from coopera.simulation.bodies.humanoid_reach import reaching
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.shapes.rotations import Array, about_z
+from coopera.simulation.ways.navigation import REACH, Stand
 
 FAR_REACH = 1.0
 _TRIES = 24

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from textwrap import shorten
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -13,22 +14,28 @@ from numpy.typing import NDArray
 from coopera.core.affordances import affordances
 from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId, plain
-from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, Stand
-from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import Library, Meant, Motion, Rank
 from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
+from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, Stand
 
 APART = 0.60
 """Two standing bodies keep their middles this far apart (twice the navigation radius, metres)."""
 _APART_SEATED = 0.50
+_LONGEST = 299
 
 
 class UnableError(SimulationError):
     """An act cannot be done; the text is the reason that its outcome gives."""
+
+    @property
+    def sentence(self) -> str:
+        """The reason as one line of at most 300 characters, also where a name in it is long or odd."""
+        return f"{shorten(str(self), _LONGEST, placeholder=' …')}."
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 from coopera.core.affordances import Relation
 from coopera.core.household import AgentId, plain
-from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.fitting import check_receptacle
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, taken_by_others
 from coopera.simulation.acts.skills import There, put, take
-from coopera.simulation.acts.state import HomeState
 from coopera.simulation.acts.walking import walk
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.home_state import HomeState
 
 
 class Result(NamedTuple):

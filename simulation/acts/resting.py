@@ -6,13 +6,13 @@ import math
 
 from coopera.core.affordances import affordances
 from coopera.core.household import AgentId
-from coopera.simulation.acts.navigation import Disc
 from coopera.simulation.acts.plans import Ground
-from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.catalogue import Rest, lying_place, seat
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.shapes.rotations import wrapped
+from coopera.simulation.state.home_state import HomeState
+from coopera.simulation.ways.navigation import Disc
 
 SEAT_NEAR = 0.9
 """A seat this near to a table or an instrument serves it (metres between their rectangles)."""

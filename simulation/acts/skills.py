@@ -12,19 +12,19 @@ from typing import NamedTuple
 
 from coopera.core.affordances import Relation, affordances
 from coopera.core.household import AgentId, HandOver, PickPlace, plain
-from coopera.simulation.acts.agents import named
 from coopera.simulation.acts.fitting import check_receptacle
-from coopera.simulation.acts.free_places import free_places, full, where_it_is
 from coopera.simulation.acts.handing import ask_for, give, receiver_of
 from coopera.simulation.acts.handling import FAR_REACH, Errand, go_to_reach, grip, why
-from coopera.simulation.acts.home_check import FLOOR_REACH
-from coopera.simulation.acts.navigation import REACH, Stand
 from coopera.simulation.acts.plans import Ground, Handle, Open, Plan, UnableError, Watch
-from coopera.simulation.acts.state import HomeState, ThingState
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.homes.spots import Spot
 from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.free_places import free_places, full, where_it_is
+from coopera.simulation.state.home_state import HomeState, ThingState
+from coopera.simulation.ways.home_check import FLOOR_REACH
+from coopera.simulation.ways.navigation import REACH, Stand
 
 _BESIDE = 0.35
 _PLACES = 8

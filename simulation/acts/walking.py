@@ -7,8 +7,6 @@ from collections.abc import Iterator, Mapping
 from itertools import islice
 
 from coopera.core.household import AgentId
-from coopera.simulation.acts.agents import named
-from coopera.simulation.acts.navigation import RADIUS, Disc, Route
 from coopera.simulation.acts.plans import (
     Ground,
     Placed,
@@ -20,8 +18,10 @@ from coopera.simulation.acts.plans import (
     floor_of_others,
     stand_up,
 )
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.home_state import HomeState, PersonState
+from coopera.simulation.ways.navigation import RADIUS, Disc, Route
 
 _THERE = 0.02
 _DETOUR = 4.0

@@ -11,7 +11,6 @@ import numpy as np
 
 from coopera.core.affordances import affordances
 from coopera.core.household import plain
-from coopera.simulation.acts.state import BoxThing, HomeState, PersonState, ThingState, from_box
 from coopera.simulation.homes.catalogue import Surface, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import CARRIED, LAP, Grip, Worktop, grip, to_tools
@@ -19,6 +18,7 @@ from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import Setting
 from coopera.simulation.shapes.fixtures import BURNERS
 from coopera.simulation.shapes.rotations import about_z, wrapped
+from coopera.simulation.state.home_state import BoxThing, HomeState, PersonState, ThingState, from_box
 
 _LEVEL = 0.03
 _LOW, _HIGH = 0.45, 1.3

@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.ndimage import label
 
-from coopera.simulation.acts.navigation import CELL, RADIUS, Array, Mask, clearance
 from coopera.simulation.homes.catalogue import FLAT, FixedClass, catalogue
 from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Doorway, Room
 from coopera.simulation.homes.spots import Taken, is_free
 from coopera.simulation.shapes.kit import Size
+from coopera.simulation.ways.navigation import CELL, RADIUS, Array, Mask, clearance
 
 _INSET = 0.06
 """From a room's edge to the back of furniture: half a wall, and a hair."""

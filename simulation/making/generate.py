@@ -14,7 +14,6 @@ import numpy as np
 from coopera.core.errors import ConfigError
 from coopera.core.household import SceneId
 from coopera.core.randomness import rng_at
-from coopera.simulation.acts.navigation import RADIUS, REACH, Navigator
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import ID, Room, Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, is_free, spots, stands_through, taken_at, taken_by
@@ -22,6 +21,7 @@ from coopera.simulation.making.furnish import Piece, RoomPlan
 from coopera.simulation.making.layout import USUAL_ROOMS, Layout, lay_out
 from coopera.simulation.making.proof import prove
 from coopera.simulation.shapes.kit import Size
+from coopera.simulation.ways.navigation import RADIUS, REACH, Navigator
 
 MOST_ROOMS = 24
 MOST_THINGS = 300

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from coopera.core.errors import SimulationError
-from coopera.simulation.acts.home_check import check
 from coopera.simulation.homes.scene import Scene
+from coopera.simulation.ways.home_check import check
 from coopera.simulation.world import World
 
 

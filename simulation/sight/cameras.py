@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.household import AgentId
-from coopera.simulation.acts.navigation import RADIUS, Disc, Navigator, to_segment
 from coopera.simulation.acts.plans import Placed, all_clear_of
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.robot import RobotBody
@@ -17,6 +16,7 @@ from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.shapes.rotations import Array, about_z, wrapped
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, to_segment
 
 ROBOT_FOV = 60.0
 VIEW_FOV = 50.0

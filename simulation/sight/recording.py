@@ -17,9 +17,7 @@ import numpy as np
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
-from coopera.simulation.acts.navigation import Stand
 from coopera.simulation.acts.plans import Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
 from coopera.simulation.acts.workplace import working
 from coopera.simulation.bodies.humanoid import SLICES, blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
@@ -28,6 +26,8 @@ from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import clip, pose_at
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
+from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
+from coopera.simulation.ways.navigation import Stand
 
 TICKS = 30
 """Ticks per second."""

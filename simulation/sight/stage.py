@@ -18,7 +18,6 @@ from coopera.core.household import AgentId, plain
 from coopera.simulation.sight.engine import Renderer, load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.acts.state import HomeState, ThingState
 from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
@@ -29,6 +28,7 @@ from coopera.simulation.motions.holding import held_at, worn_at
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import build  # after the engine: whoever imports pybullet first makes it print
 from coopera.simulation.sight.recording import Held, Moment
+from coopera.simulation.state.home_state import HomeState, ThingState
 
 BODIES = Path(__file__).parents[1] / "bodies"
 _AWAY = (0.0, 0.0, -50.0)

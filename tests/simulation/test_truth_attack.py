@@ -10,7 +10,7 @@ from benchmarks.random_commands import Answer, Command, Commander, as_told, carr
 from benchmarks.truth import Watched, attack, parted, violations
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation import World
-from coopera.simulation.acts.state import HomeState, ThingState
+from coopera.simulation.state.home_state import HomeState, ThingState
 from tests.simulation.flat import bring, flat, move, put
 
 Lie = Callable[[HomeState], HomeState]

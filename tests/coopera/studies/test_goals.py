@@ -15,9 +15,9 @@ from coopera.core.household import Outcome
 from coopera.people.shipped import find
 from coopera.rundir.directory import RunDir
 from coopera.simulation import World
-from coopera.simulation.acts.goals.files import parse_goals
-from coopera.simulation.acts.state import digest
+from coopera.simulation.goals.files import parse_goals
 from coopera.simulation.homes.scene import dump_scene
+from coopera.simulation.state.home_state import digest
 from coopera.studies.goals import After, GoalOfDay, judge_days
 from tests.coopera.conftest import Said
 from tests.simulation.flat import bring, flat, move, put

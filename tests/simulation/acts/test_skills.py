@@ -5,17 +5,17 @@ from itertools import combinations, pairwise
 
 import pytest
 
-from coopera.simulation.acts.free_places import free_places
 from coopera.simulation.acts.handling import Errand, posture_for
-from coopera.simulation.acts.navigation import Disc, Navigator, Stand
 from coopera.simulation.acts.plans import Give, Ground, Handle, Plan, UnableError, Walk, clear_of, discs
 from coopera.simulation.acts.skills import hand_over, pick_place
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import load_library
+from coopera.simulation.state.free_places import free_places
+from coopera.simulation.state.home_state import HomeState, PersonState, RobotState
+from coopera.simulation.ways.navigation import Disc, Navigator, Stand
 from tests.simulation.flat import bring, flat, put
 
 SCENE = flat()

@@ -11,9 +11,9 @@ from coopera.core.affordances import affordances
 from coopera.core.errors import SimulationError
 from coopera.simulation import World, load_scene
 from coopera.simulation.acts.plans import Handle, Open, Walk
-from coopera.simulation.acts.truth import problems
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import load_library
+from coopera.simulation.state.truth import problems
 from tests.simulation.flat import bring, flat, move, put
 
 KITCHEN = [

@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.acts.workplace import at_work, thing_of, working, worktop_before
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.homes.catalogue import catalogue
@@ -12,6 +11,7 @@ from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import load_library
 from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.shapes.fixtures import BURNERS
+from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
 
 LIBRARY = load_library()
 

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from coopera.simulation.acts.home_check import check
 from coopera.simulation.homes.scene import Scene, parse_scene
+from coopera.simulation.ways.home_check import check
 
 DOC = Path(__file__).parents[3] / "docs" / "scenes.md"
 

@@ -9,11 +9,11 @@ import pytest
 
 from coopera.core.errors import ConfigError
 from coopera.core.randomness import rng_at
-from coopera.simulation.acts.home_check import check
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import Scene, dump_scene
 from coopera.simulation.making.generate import generate
 from coopera.simulation.making.layout import USUAL_ROOMS, lay_out, room_names
+from coopera.simulation.ways.home_check import check
 
 ROOT = Path(__file__).parents[3]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from coopera.simulation.acts.navigation import Stand
 from coopera.simulation.acts.plans import Open, Play
-from coopera.simulation.acts.state import HomeState, PersonState
 from coopera.simulation.bodies.humanoid_reach import standing
 from coopera.simulation.sight.recording import Filming, still
+from coopera.simulation.state.home_state import HomeState, PersonState
+from coopera.simulation.ways.navigation import Stand
 from coopera.simulation.world import World
 from tests.simulation.flat import flat
 

@@ -8,7 +8,6 @@ import pytest
 
 from coopera.core.household import HUMAN
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.acts.state import HomeState, PersonState, ThingState
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.humanoid_reach import standing
 from coopera.simulation.homes.opened import opened
@@ -16,6 +15,7 @@ from coopera.simulation.homes.scene import load_scene
 from coopera.simulation.sight.engine import pybullet
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.sight.stage import Stage
+from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
 
 AT = (1.0, 1.0)
 

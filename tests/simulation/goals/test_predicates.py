@@ -4,9 +4,9 @@ import pytest
 
 from coopera.core.errors import ConfigError
 from coopera.models.offline.household.knowledge import shipped as household
-from coopera.simulation.acts.predicates import evaluate, performed
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
+from coopera.simulation.goals.predicates import evaluate, performed
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 

@@ -8,11 +8,11 @@ from operator import or_
 from typing import NamedTuple
 
 from coopera.core.errors import ConfigError
-from coopera.simulation.acts.goals.atoms import Moment, Similarity, true
-from coopera.simulation.acts.goals.checking import check
-from coopera.simulation.acts.goals.tree import And, Atom, Eventually, Goal, Not, Or, over_a_day
-from coopera.simulation.acts.state import HomeState
+from coopera.simulation.goals.atoms import Moment, Similarity, true
+from coopera.simulation.goals.checking import check
+from coopera.simulation.goals.tree import And, Atom, Eventually, Goal, Not, Or, over_a_day
 from coopera.simulation.homes.scene import Scene
+from coopera.simulation.state.home_state import HomeState
 
 
 class Met(NamedTuple):

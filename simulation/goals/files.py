@@ -13,8 +13,8 @@ import yaml
 
 from coopera.core.errors import ConfigError
 from coopera.core.strict_yaml import StrictLoader
-from coopera.simulation.acts.goals.reading import DEEPEST, read_goal
-from coopera.simulation.acts.goals.tree import And, Eventually, Goal, Not, Or, Then, near
+from coopera.simulation.goals.reading import DEEPEST, read_goal
+from coopera.simulation.goals.tree import And, Eventually, Goal, Not, Or, Then, near
 
 LARGEST = 200_000
 """Characters of a file."""

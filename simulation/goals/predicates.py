@@ -2,21 +2,21 @@
 
 The usual notation: "on(mug, dining table)", "holding(human, mug)", "near(robot, sofa)", "at(human, kitchen)",
 "performed(sit and read)", or "performed(ana, sit and read)" where there is more than one person. All that can be said
-is in `coopera.simulation.acts.goals.tree.PREDICATES`.
+is in `coopera.simulation.goals.tree.PREDICATES`.
 """
 
 from __future__ import annotations
 
-from coopera.simulation.acts.goals.atoms import Moment, Similarity, true
-from coopera.simulation.acts.goals.atoms import at as at
-from coopera.simulation.acts.goals.atoms import holding as holding
-from coopera.simulation.acts.goals.atoms import near as near
-from coopera.simulation.acts.goals.atoms import performed as performed
-from coopera.simulation.acts.goals.judging import holds
-from coopera.simulation.acts.goals.reading import read_goal
-from coopera.simulation.acts.goals.tree import Atom
-from coopera.simulation.acts.state import HomeState
+from coopera.simulation.goals.atoms import Moment, Similarity, true
+from coopera.simulation.goals.atoms import at as at
+from coopera.simulation.goals.atoms import holding as holding
+from coopera.simulation.goals.atoms import near as near
+from coopera.simulation.goals.atoms import performed as performed
+from coopera.simulation.goals.judging import holds
+from coopera.simulation.goals.reading import read_goal
+from coopera.simulation.goals.tree import Atom
 from coopera.simulation.homes.scene import Scene
+from coopera.simulation.state.home_state import HomeState
 
 
 def on(scene: Scene, state: HomeState, cls: str, receptacle: str) -> bool:

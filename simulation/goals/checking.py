@@ -14,12 +14,12 @@ from itertools import chain
 from coopera.core.affordances import FORMS, affordances
 from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
-from coopera.simulation.acts.goals.atoms import room_words, who
-from coopera.simulation.acts.goals.tree import STATES, Atom, Goal, Role, atoms, near
-from coopera.simulation.acts.state import Kind
+from coopera.simulation.goals.atoms import room_words, who
+from coopera.simulation.goals.tree import STATES, Atom, Goal, Role, atoms, near
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.magic_box import LOOKS_LIKE, shape_of
 from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.state.home_state import Kind
 
 _MISSPELT = 0.87
 """From this likeness (of difflib, 0 to 1) on, an unknown word is taken for a slip; none of the offline person's is."""

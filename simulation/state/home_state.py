@@ -212,6 +212,10 @@ class HomeState(Frozen):
             return scene.movable
         return (*scene.movable, *(from_box(name, known) for name, known in sorted(self.box.items())))
 
+    def of_the_home(self, scene: Scene) -> list[SceneObject]:
+        """The same, without what is out of the magic box and with somebody: that is no thing of the home."""
+        return [thing for thing in self.objects(scene) if thing.name not in self.box or self.bearer(thing.name) is None]
+
     def find(self, scene: Scene, name: str) -> SceneObject | None:
         """The furniture or thing of that name, out of the magic box or not; None where there is none."""
         known = self.box.get(name)

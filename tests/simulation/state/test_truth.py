@@ -8,9 +8,9 @@ import pytest
 
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation import World, list_scenes, load_scene
-from coopera.simulation.acts.navigation import Navigator
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
-from coopera.simulation.acts.truth import problems, wrong
+from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
+from coopera.simulation.state.truth import problems, wrong
+from coopera.simulation.ways.navigation import Navigator
 from tests.simulation.flat import bring, flat, move, put
 
 FLAT = flat()

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from coopera.core.errors import SimulationError
-from coopera.simulation.acts.navigation import REACH, Navigator
 from coopera.simulation.homes.catalogue import FLAT, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Taken, furniture_on, spots, taken_by
+from coopera.simulation.ways.navigation import REACH, Navigator
 
 FLOOR_REACH = 0.60
 """Farthest at which a thing on the floor can be taken: the arm points down."""

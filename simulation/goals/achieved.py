@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from coopera.core.household import Act, HandOver, PickPlace
-from coopera.simulation.acts.goals.tree import And, Atom, Goal
+from coopera.simulation.goals.tree import And, Atom, Goal
 
 
 def goal_of(act: Act, class_of: Callable[[str], str] = str) -> Goal:

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from coopera.core.affordances import affordances, problem_of
 from coopera.core.household import AgentId
-from coopera.simulation.acts.agents import named
-from coopera.simulation.acts.navigation import Navigator
-from coopera.simulation.acts.state import AgentState, HomeState, PersonState, ThingState
 from coopera.simulation.homes.catalogue import surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Array, Spot, Taken, taken_at, taken_by
+from coopera.simulation.state.agents import named
+from coopera.simulation.state.home_state import AgentState, HomeState, PersonState, ThingState
+from coopera.simulation.ways.navigation import Navigator
 
 _MARGIN = 1.0
 """Nothing is farther outside the rectangle around all rooms than this, in metres."""

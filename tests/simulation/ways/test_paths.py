@@ -7,8 +7,8 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from coopera.simulation.acts.floor import CELL, RADIUS, Floor
-from coopera.simulation.acts.ways import Ways
+from coopera.simulation.ways.floor import CELL, RADIUS, Floor
+from coopera.simulation.ways.paths import Ways
 
 WIDE, DEEP = 24, 16
 
@@ -64,7 +64,7 @@ def test_ways_cost_what_they_cost_in_the_whole_home(rooms: np.ndarray, closed: f
 
 
 def test_a_home_whose_rooms_are_too_open_to_one_another_is_taken_as_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("coopera.simulation.acts.ways._MOST_DOORS", 3)
+    monkeypatch.setattr("coopera.simulation.ways.paths._MOST_DOORS", 3)
     graph = grid(np.random.default_rng(1), 0.1)
     ways = Ways(graph, rooms_in_quarters())
     np.testing.assert_allclose(ways.costs(5, np.arange(WIDE * DEEP)), dijkstra(graph, indices=5), atol=1e-9)

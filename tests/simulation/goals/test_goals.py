@@ -6,12 +6,12 @@ from hypothesis import strategies as st
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import FreeMotion, HandOver, PickPlace
-from coopera.simulation.acts.goals.achieved import goal_of
-from coopera.simulation.acts.goals.files import goal_from, parse_goals, read_goals
-from coopera.simulation.acts.goals.judging import Met, holds, met
-from coopera.simulation.acts.goals.reading import DEEPEST, LONGEST, read_goal
-from coopera.simulation.acts.goals.tree import PREDICATES, And, Atom, Eventually, Not, Or, Then
-from coopera.simulation.acts.state import HomeState, PersonState, RobotState, ThingState
+from coopera.simulation.goals.achieved import goal_of
+from coopera.simulation.goals.files import goal_from, parse_goals, read_goals
+from coopera.simulation.goals.judging import Met, holds, met
+from coopera.simulation.goals.reading import DEEPEST, LONGEST, read_goal
+from coopera.simulation.goals.tree import PREDICATES, And, Atom, Eventually, Not, Or, Then
+from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
 from tests.names import ROOT
 from tests.simulation.flat import flat
 

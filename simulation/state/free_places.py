@@ -8,10 +8,10 @@ import numpy as np
 
 from coopera.core.affordances import Relation
 from coopera.core.household import plain
-from coopera.simulation.acts.state import HomeState
 from coopera.simulation.homes.catalogue import interiors, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at
+from coopera.simulation.state.home_state import HomeState
 
 
 def free_places(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from coopera.simulation.acts.floor import Array, Nodes
+from coopera.simulation.ways.floor import Array, Nodes
 
 _REMEMBERED = 64
 _DETOUR = 2.0

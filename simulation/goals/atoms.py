@@ -11,10 +11,10 @@ from typing import TypeAlias
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
-from coopera.simulation.acts.goals.tree import STATES, Atom, State
-from coopera.simulation.acts.state import HomeState, Kind, ThingState
+from coopera.simulation.goals.tree import STATES, Atom, State
 from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.state.home_state import HomeState, Kind, ThingState
 
 Similarity: TypeAlias = Callable[[str, str], float]
 """How alike two texts are, in [-1, 1]."""

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from coopera.core.errors import ConfigError
-from coopera.simulation.acts.goals.tree import PREDICATES, And, Atom, Eventually, Goal, Not, Or, Then, near
+from coopera.simulation.goals.tree import PREDICATES, And, Atom, Eventually, Goal, Not, Or, Then, near
 
 Part = TypeVar("Part")
 LONGEST = 2000

@@ -16,14 +16,14 @@ from scipy.ndimage import label
 from scipy.sparse import csr_matrix
 
 from coopera.core.errors import SimulationError
-from coopera.simulation.acts.floor import CELL as CELL
-from coopera.simulation.acts.floor import FAR, Discs, Floor
-from coopera.simulation.acts.floor import RADIUS as RADIUS
-from coopera.simulation.acts.floor import Disc as Disc
-from coopera.simulation.acts.ways import Ways
 from coopera.simulation.homes.catalogue import blocks
 from coopera.simulation.homes.floorplan import Point, Wall
 from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.ways.floor import CELL as CELL
+from coopera.simulation.ways.floor import FAR, Discs, Floor
+from coopera.simulation.ways.floor import RADIUS as RADIUS
+from coopera.simulation.ways.floor import Disc as Disc
+from coopera.simulation.ways.paths import Ways
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

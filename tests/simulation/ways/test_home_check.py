@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from coopera.simulation.acts.home_check import check
 from coopera.simulation.homes.scene import Scene, SceneObject, load_scene
+from coopera.simulation.ways.home_check import check
 
 
 @pytest.fixture(scope="module")

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from coopera.simulation.acts.navigation import RADIUS, REACH, STOP, Array, Disc, Navigator, clearance, obstacle_boxes
 from coopera.simulation.homes.catalogue import blocks
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene, load_scene
+from coopera.simulation.ways.navigation import RADIUS, REACH, STOP, Array, Disc, Navigator, clearance, obstacle_boxes
 
 
 @pytest.fixture(scope="module")
