@@ -1,1 +1,4 @@
-"""Where bodies can stand and walk in a home as it is built, and whether everything in it can be reached."""
+"""Where bodies can stand and walk in a home as it is built.
+
+Whether a home can be lived in, with everything within reach, is checked here.
+"""
