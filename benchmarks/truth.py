@@ -198,7 +198,7 @@ def carried(scene: Scene, before: HomeState, after: HomeState, plan: Plan) -> It
     things = {thing.name: thing for state in (before, after) for thing in state.objects(scene)}
     for name, thing in things.items():
         old, new = _whereabouts(before, thing), _whereabouts(after, thing)
-        if old == new or _container_moved(before, after, things, name):
+        if old == new or _goes_along(before, after, things, name):
             continue
         if not isinstance(old, str) and not _handled(plan, name, old, puts=False):
             yield f"nobody's hand takes {name} from where it was"
@@ -241,13 +241,10 @@ def _whereabouts(state: HomeState, thing: SceneObject) -> tuple[float, ...] | st
     return "" if out else state.thing(thing).position
 
 
-def _container_moved(before: HomeState, after: HomeState, things: dict[str, SceneObject], name: str) -> bool:
-    """Whether a thing is inside another that was carried along with it."""
-    inside = [state.moved[name].inside for state in (before, after) if name in state.moved]
-    if len(set(inside)) != 1 or inside[0] not in things:
-        return False
-    around = things[str(inside[0])]
-    return _whereabouts(before, around) != _whereabouts(after, around)
+def _goes_along(before: HomeState, after: HomeState, things: dict[str, SceneObject], name: str) -> bool:
+    """Whether a thing lies as it lay inside another, which may have been carried about."""
+    where = before.moved.get(name)
+    return where is not None and where == after.moved.get(name) and where.inside in things
 
 
 def through(scene: Scene, state: HomeState, name: str) -> Iterator[str]:
