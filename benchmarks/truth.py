@@ -33,7 +33,8 @@ from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.kit import Part
 from coopera.simulation.shapes.rotations import Array, matrix
 from coopera.simulation.sight.watching import Onlooker
-from coopera.simulation.state.home_state import HomeState, digest
+from coopera.simulation.state.home_state import HomeState
+from coopera.simulation.state.snapshots import digest
 from coopera.simulation.state.truth import problems
 from coopera.simulation.ways.navigation import RADIUS, Disc, clearance, obstacle_boxes, to_segment
 

@@ -37,7 +37,7 @@ from coopera.graphs.robots.identity import identify, sight
 from coopera.graphs.robots.robot_view import HomeView, RobotView, robots_door
 from coopera.graphs.robots.traits import guesses, revise
 from coopera.graphs.services import Services
-from coopera.simulation.state.home_state import digest
+from coopera.simulation.state.snapshots import digest
 
 
 class HourInput(TypedDict):

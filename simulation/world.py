@@ -9,7 +9,6 @@ from typing import Any, Literal, Self
 
 import numpy as np
 from PIL import Image
-from pydantic import ValidationError
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
@@ -32,9 +31,9 @@ from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
-from coopera.simulation.state.home_state import HomeState, named_from_box, room_of_thing
+from coopera.simulation.state.home_state import HomeState, room_of_thing
 from coopera.simulation.state.looks import states_in_sight, things_in_sight
-from coopera.simulation.state.truth import wrong
+from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
 
 _WEBP_QUALITY = 82
@@ -346,29 +345,9 @@ class World:
         """Set the state to a snapshot, exactly; the recording is forgotten. An empty one: the home as it was built.
 
         Raises:
-            SimulationError: If the snapshot is damaged or of another home.
+            SimulationError: If the snapshot is damaged, cannot be true, or is of another home.
         """
-        if not snapshot:
-            self.state, self._recording = self._start, None
-            return
-        try:
-            state = HomeState.model_validate(dict(snapshot))
-        except ValidationError as err:
-            first = err.errors()[0]
-            where = ".".join(str(part) for part in first["loc"])
-            raise SimulationError(f"The snapshot of the home cannot be used, field {where}: {first['msg']}.") from err
-        if state.scene != self.scene:
-            raise SimulationError(f"The snapshot is of the home {state.scene!r}, but this is {self.scene!r}.")
-        here, there = self._start.inhabitants, state.inhabitants
-        if here != there:
-            raise SimulationError(
-                f"The snapshot is of a home of {', '.join(there)}, but this is one of {', '.join(here)}."
-            )
-        if snapshot.get("version") != 3:
-            state = named_from_box(self.layout, state)
-        if (damage := next(wrong(self.layout, state, self.motions), None)) is not None:
-            raise SimulationError(f"The snapshot of the home cannot be used: {damage}")
-        self.state = state.model_copy(update={"agents": {agent: state.agents[agent] for agent in self._start.agents}})
+        self.state = read_snapshot(self.layout, self._start, snapshot, self.motions)
         self._recording = None
 
     def on(self, cls: str, receptacle_cls: str) -> bool:

@@ -18,7 +18,7 @@ import pytest
 from coopera import Config, resume_study, run_study
 from coopera.cli import main
 from coopera.rundir.directory import RunDir
-from coopera.simulation.state.home_state import digest
+from coopera.simulation.state.snapshots import digest
 from coopera.studies.replay import replay
 
 TRUTH = ("trace", "frames", "adapters", "config.yaml", "metrics.csv", "summary.json")

@@ -207,7 +207,18 @@ def _add_outcomes(tree: Tree, title: str, outcomes: Sequence[Outcome]) -> None:
     branch = tree.add(title)
     for one in outcomes:
         ended = "[green]done[/]" if one.ok else f"[red]not done[/] ({escape(one.reason)})"
-        branch.add(f"{escape(one.act.describe())}: {ended}, {one.metres:.1f} m")
+        branch.add(f"{escape(one.act.describe())}: {ended}, {one.metres:.1f} m{escape(_took(one))}")
+
+
+def _took(outcome: Outcome) -> str:
+    """What an act took besides the way: the motion that stood for the words, what was fetched and what was opened."""
+    said = []
+    if outcome.motion is not None and outcome.motion not in outcome.act.describe():
+        near = "" if outcome.cosine is None else f" (cosine {outcome.cosine:.2f})"
+        said.append(f"as {outcome.motion}{near}")
+    said += [f"fetched {', '.join(outcome.fetched)}"] if outcome.fetched else []
+    said += [f"opened {', '.join(outcome.opened)}"] if outcome.opened else []
+    return "".join(f"; {one}" for one in said)
 
 
 def _add_calls(tree: Tree, calls: Sequence[ModelCall]) -> None:

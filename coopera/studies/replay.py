@@ -17,7 +17,8 @@ from coopera.core.household import Outcome, SceneId
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes
 from coopera.simulation import World
-from coopera.simulation.state.home_state import HomeState, digest, today
+from coopera.simulation.state.home_state import HomeState
+from coopera.simulation.state.snapshots import digest
 from coopera.studies.assemble import open_embeddings, open_home
 
 
@@ -87,11 +88,11 @@ def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None)
             what = f"act {number + 1} ({then.agent}: {then.act.describe()})"
             difference = f"{what} came out as {_said(now)}, not {_said(then)}"
     left = record.world.get("poses", {})
-    poses = today(left)
-    wanted = record.world.get("sha256") if poses == left else None  # the hash is of the form in which it was written
-    if digest(home.snapshot()) != (wanted or digest(poses)):
+    done = home.snapshot()
+    home.restore(left)
+    wanted = record.world.get("sha256") if left.get("version") == done["version"] else None
+    if digest(done) != (wanted or digest(home.snapshot())):
         difference = difference or "the home is not as it was left"
-        home.restore(poses)
     return Replayed(record.day, record.hour, len(expected), difference, home.state)
 
 

@@ -5,11 +5,8 @@ Metres and radians; a heading of 0 looks along +x. An object's room is never sto
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 import re
-from collections.abc import Mapping
 from functools import lru_cache
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -17,7 +14,7 @@ from pydantic import Field, model_validator
 
 from coopera.core.affordances import Condition, affordances
 from coopera.core.errors import SimulationError
-from coopera.core.household import HUMAN, ROBOT, AgentId
+from coopera.core.household import AgentId
 from coopera.core.people import Frozen
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.floorplan import Point
@@ -124,11 +121,6 @@ class HomeState(Frozen):
     moved: dict[str, ThingState] = Field(default_factory=dict)
     box: dict[str, BoxThing] = Field(default_factory=dict, exclude_if=_empty)
     conditions: dict[str, Condition] = Field(default_factory=dict, exclude_if=_empty)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _of_any_version(cls, data: Any) -> Any:
-        return today(data) if isinstance(data, Mapping) else data
 
     @property
     def inhabitants(self) -> list[str]:
@@ -308,38 +300,6 @@ class HomeState(Frozen):
         return self.model_copy(update={"agents": {**self.agents, agent: state}})
 
 
-def today(snapshot: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A snapshot in today's form.
-
-    Those of version 1 had just one person and one robot, and no ids. Until version 2 a held thing of the scene kept the
-    place that it was taken from, and a thing out of the magic box was but a text in a hand.
-    """
-    person, robot = snapshot.get("person"), snapshot.get("robot")
-    if isinstance(person, Mapping) and isinstance(robot, Mapping) and snapshot.get("version") == 1:
-        rest = {key: value for key, value in snapshot.items() if key not in ("version", "person", "robot")}
-        agents = {HUMAN: {"kind": "person", **person}, ROBOT: {"kind": "robot", **robot}}
-        snapshot = {**rest, "version": 2, "agents": agents}
-    if snapshot.get("version") == 2 and isinstance(snapshot.get("agents"), Mapping):
-        return _each_once(snapshot)
-    return snapshot
-
-
-def _each_once(snapshot: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A snapshot of version 2 as one of version 3: what is held is nowhere else. `named_from_box` does the rest."""
-    bodies = [body for body in snapshot["agents"].values() if isinstance(body, Mapping)]
-    held = {body.get("thing") for body in bodies}
-    moved = {name: where for name, where in dict(snapshot.get("moved", {})).items() if name not in held}
-    return {**snapshot, "version": 3, "moved": moved}
-
-
-def named_from_box(scene: Scene, state: HomeState) -> HomeState:
-    """The state of a snapshot before version 3, whose things out of the magic box were but texts in a hand."""
-    for agent, body in state.agents.items():
-        if body.thing is not None and scene.object(body.thing) is None:
-            state = state.with_agent(agent, thing=None).out_of_box(scene, agent, body.thing)
-    return state
-
-
 @lru_cache(maxsize=4096)
 def from_box(name: str, known: BoxThing) -> SceneObject:
     """A thing out of the magic box as an object like any other; its class is what it looks like."""
@@ -363,12 +323,6 @@ def from_box(name: str, known: BoxThing) -> SceneObject:
 def at_first(initial: SceneObject) -> ThingState:
     """Where a thing of the scene is as long as nobody has moved it."""
     return ThingState(position=initial.position, yaw=initial.yaw, on=initial.on)
-
-
-def digest(snapshot: Mapping[str, Any]) -> str:
-    """The SHA-256 of a snapshot in canonical JSON: equal for equal homes, in every process."""
-    text = json.dumps(snapshot, sort_keys=True, separators=(",", ":"), allow_nan=False)
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def room_of_thing(scene: Scene, state: HomeState, initial: SceneObject) -> str:

@@ -17,7 +17,7 @@ from coopera.rundir.directory import RunDir
 from coopera.simulation import World
 from coopera.simulation.goals.files import parse_goals
 from coopera.simulation.homes.scene import dump_scene
-from coopera.simulation.state.home_state import digest
+from coopera.simulation.state.snapshots import digest
 from coopera.studies.goals import After, GoalOfDay, judge_days
 from tests.coopera.conftest import Said
 from tests.simulation.flat import bring, flat, move, put
