@@ -10,6 +10,7 @@ from typing import NamedTuple
 from coopera.core.affordances import Relation
 from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.fitting import check_receptacle
+from coopera.simulation.acts.handling import FAR_REACH
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, clear_of, taken_by_others
 from coopera.simulation.acts.skills import There, put, take
 from coopera.simulation.acts.walking import walk
@@ -41,8 +42,10 @@ def go_to(ground: Ground, state: HomeState, agent: AgentId, target: str) -> Plan
         if thing is None:
             raise UnableError(f"there is no room and no object {target!r} in this home")
         where = state.thing(thing)
-        at = thing if thing.fixed else (ground.scene.object(where.on or "") or where.position[:2])
-        stands = ground.navigator.approach(at, start, point=None if thing.fixed else where.position[:2])
+        at = thing if thing.fixed else (ground.scene.object(where.on or where.inside or "") or where.position[:2])
+        point = None if thing.fixed else where.position[:2]
+        approach = ground.navigator.approach
+        stands = approach(at, start, point=point) or approach(at, start, point=point, reach=FAR_REACH)
         goals = [(stand.x, stand.y) for stand in stands]
         plan.at = [thing.name] if thing.fixed else []
     taken = taken_by_others(state, agent)

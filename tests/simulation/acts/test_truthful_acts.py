@@ -253,6 +253,8 @@ def test_what_is_put_inside_a_closed_fridge_is_inside_and_the_fridge_was_opened_
     assert not home.on("apple", "fridge")
     assert condition(home, "fridge_1")["open"] is False
     assert "apple_1" not in home.things_on("kitchen")
+    assert home.go_to("robot", "apple_1").ok
+    assert home.near("robot", "fridge")
     taken = home.perform("robot", puts("apple_1", "dining_table_1"))
     assert taken.opened == ("fridge_1",)
     assert home.on("apple", "dining_table")
@@ -316,6 +318,8 @@ def test_eating_dirties_the_plate_washing_cleans_it_and_both_last(home) -> None:
     assert washed.fetched == ("plate_1",)
     assert home.on("plate", "kitchen_sink")
     assert condition(home, "plate_1")["clean"] is True
+    assert home.states() == {"kitchen_sink_1": "on"}  # the water runs
+    assert home.perform("human", moves("sofa_1", "book", "sit and read")).ok
     assert home.states() == {}
 
 
