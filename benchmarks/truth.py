@@ -40,7 +40,7 @@ from coopera.simulation.ways.navigation import RADIUS, Disc, clearance, obstacle
 
 REACH = 1.05
 """Farthest on the floor plan from where one stands that a hand takes or puts something, in metres."""
-STANDING, SEATED, LOOKING, ROOMY = 0.8, 0.9, 5.0, 1.5
+STANDING, SEATED, LOOKING, ROOMY = 0.8, 1.0, 5.0, 1.5
 """Farthest from furniture at which something is done there: by a body, from a seat, seeing it, with free floor."""
 THROUGH = 0.02
 """How far a thing may stick into a part of what carries it, in metres."""
@@ -286,17 +286,10 @@ def reach(scene: Scene, state: HomeState, agent: AgentId, act: FreeMotion) -> It
     most = ROOMY if affordances().of(person.motion).roomy else STANDING
     if affordances().is_one_of(target.cls, affordances().looked_at):
         most = LOOKING
-    if person.place != person.spot:  # on a seat: it is the seat that is near
-        seats = [thing for thing in scene.fixed if thing.bounds.distance(*person.place) <= 0 and blocks(thing)]
-        gaps = [_gap(seat, target) for seat in seats]
-        away, most = min([away, *gaps]), max(most, SEATED)
+    if person.place != person.spot:  # on a seat
+        most = max(most, SEATED)
     if away > most + SLACK:
         yield f"{person.motion!r} is done {away:.2f} m from {target.name}, more than {most} m"
-
-
-def _gap(one: SceneObject, two: SceneObject) -> float:
-    a, b = one.bounds, two.bounds
-    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
 
 
 def main() -> None:

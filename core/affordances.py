@@ -53,6 +53,7 @@ class Effect(Frozen):
 
     to: tuple[Part, ...] = Field(min_length=1)
     of: Classes = ()
+    at: Classes = ()
     one: bool = False
     open: bool | None = None
     powered: bool | None = None

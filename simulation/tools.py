@@ -71,7 +71,10 @@ def world_tools(world: World, agent: AgentId = ROBOT) -> list[BaseTool]:
             receptacle: The furniture's name, such as "dining_table_1", or that of a basket or a box.
             relation: "on" it, or "inside", as in a fridge; it is opened for that, and closed again.
         """
-        return _said(world.place(agent, receptacle, relation), f"It is {relation} {receptacle}.")
+        furniture = receptacle in world.objects("fixed")
+        return _said(
+            world.place(agent, receptacle, relation), f"It is {relation if furniture else 'inside'} {receptacle}."
+        )
 
     def set_open(name: str, opens: bool) -> str:
         """Go to what has a door, a drawer or a lid, and open it or close it.

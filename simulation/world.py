@@ -126,17 +126,16 @@ class World:
     def as_scene(self) -> Scene:
         """The home as things now stand, as a home of its own: to be checked, drawn or written to a file.
 
-        What people and robots hold from the magic box is not in it.
+        What somebody holds or wears, and what is inside something, is not in it.
         """
-        things = []
-        for thing in self.layout.objects:
-            if not thing.fixed:
-                where = self.state.thing(thing)
-                change = {"position": where.position, "yaw": where.yaw, "on": where.on}
+        things = list(self.layout.fixed)
+        for thing in self.state.objects(self.layout):
+            where = self.state.thing(thing)
+            if self.state.bearer(thing.name) is None and where.inside is None:
                 room = room_of_thing(self.layout, self.state, thing)
-                thing = thing.model_copy(update={**change, "room": room})
-            things.append(thing)
-        return self.layout.model_copy(update={"objects": things})
+                change = {"position": where.position, "yaw": where.yaw, "on": where.on, "room": room}
+                things.append(thing.model_copy(update=change))
+        return self.layout.model_copy(update={"objects": sorted(things, key=lambda thing: thing.id)})
 
     def class_of(self, name: str) -> str:
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
@@ -162,8 +161,8 @@ class World:
         With `record`, a robot first drives to where it sees the person, and the act is kept for `percept` and
         `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
         the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
-        outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded: then the
-        recording shows the person as they are).
+        outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded, and for who
+        had to let it pass: then the recording shows the person as they are).
 
         Raises:
             SimulationError: If there is no such agent or watcher.

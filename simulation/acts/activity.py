@@ -10,8 +10,9 @@ from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts import effects
 from coopera.simulation.acts.equipment import Workplace, bring_tool, gather, take_in_hand, undress
-from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, motion_meant
+from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, in_hand_is, motion_meant
 from coopera.simulation.acts.plans import (
+    Dress,
     Ground,
     Placed,
     Plan,
@@ -23,7 +24,7 @@ from coopera.simulation.acts.plans import (
     stand_up,
     taken_by_others,
 )
-from coopera.simulation.acts.resting import SEAT_NEAR, bed_for, fits, gap_between, seat_for, used_by_others
+from coopera.simulation.acts.resting import SEAT_NEAR, bed_for, fits, seat_for, used_by_others
 from coopera.simulation.acts.walking import walk_to_deed
 from coopera.simulation.acts.workplace import at_work
 from coopera.simulation.bodies.humanoid import forward
@@ -67,10 +68,12 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     hands = _hands(ground, body, motion)
     at = Workplace(target, body, hands)
     if done.gathers is not None:
-        gather(ground, plan, agent, done.gathers, at, watch)
+        gather(ground, plan, agent, done.gathers, at, act.in_hand, watch)
     tool = bring_tool(ground, plan, agent, act, done, at, watch)
     take_in_hand(ground, plan, agent, act.in_hand, watch)
     held = plan.state.agents[agent].thing
+    if tool is None and held is not None and in_hand_is(ground, plan.state, held, done.tools):
+        tool = plan.state.find(ground.scene, held)
     pose = pose_at(motion, 0.0, at_work(ground.scene, body, motion)[0])
     walk_to_deed(ground, plan, agent, Placed(*body.place, body.yaw, pose), body.spot, watch, held)
     now = plan.state.person(agent)
@@ -80,6 +83,9 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     plan.steps.append(Play(agent, body, motion))
     plan.in_hand = held
     plan.state = effects.after(ground, plan.state.put(agent, body), agent, done, target, tool)
+    dressed = plan.state.person(agent)
+    if dressed.worn != body.worn:
+        plan.steps.append(Dress(agent, dressed.worn, dressed.thing))
     things = [target] if used_furniture is target else [target, used_furniture]
     plan.at = [thing.name for thing in sorted(things, key=lambda thing: round(thing.bounds.distance(*hands), 3))]
     return plan
@@ -128,7 +134,7 @@ def _placed(
         if found is None:
             raise UnableError(f"somebody sits at the {plain(target.name)} already")
         chair, rest = found
-        near = chair is not target and gap_between(chair, target) <= SEAT_NEAR
+        near = chair is not target and target.bounds.distance(rest.x, rest.y) <= SEAT_NEAR
         spot = _stand(ground, plan, agent, chair, (rest.x, rest.y))
         return _resting(rest, spot, target, _worktop(target) if near else None, "sit"), chair
     if motion.posture == "lie" and target.cls != "rug":

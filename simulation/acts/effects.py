@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from coopera.core.affordances import HAND, Affordance, Classes, Condition, Effect, affordances
 from coopera.core.household import AgentId
-from coopera.simulation.acts.fitting import is_one_of
+from coopera.simulation.acts.fitting import is_one_of, kind_of
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.acts.resting import gap_between
 from coopera.simulation.homes.scene import SceneObject
@@ -50,11 +50,16 @@ def _switched_on(
     room.sort(key=lambda thing: (round(gap_between(thing, target), 3), thing.name))
     for thing in [*things, *room]:
         if affordances().is_one_of(thing.cls, classes):
-            if state.condition(thing)["powered"]:
+            if state.condition(thing)["powered"] and not _switched_by_somebody(state, thing.name):
                 return state
             on = (*state.person(agent).switched, thing.name)
             return state.with_condition(thing, {"powered": True}).with_agent(agent, switched=on)
     return state
+
+
+def _switched_by_somebody(state: HomeState, name: str) -> bool:
+    """Whether somebody has an object on for what they do, and would switch it off."""
+    return any(name in state.person(one).switched for one in state.ids("person"))
 
 
 def _meant(
@@ -72,6 +77,8 @@ def _meant(
         ],
         "furniture": [target],
     }
+    if effect.at and not affordances().is_one_of(target.cls, effect.at):
+        return
     for part in effect.to:
         for thing in parts.get(part, []):
             if not effect.of or is_one_of(state, thing, effect.of):
@@ -88,11 +95,10 @@ def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) ->
         return state
     for name in state.person(agent).worn:
         other = state.find(ground.scene, name)
-        if other is None or other.cls != thing.cls:
+        if other is None or kind_of(state, other, effect.of) != kind_of(state, thing, effect.of):
             continue
-        worn = tuple(one for one in state.person(agent).worn if one != name)
-        state = state.with_agent(agent, worn=worn, thing=None).with_worn(agent, thing.name)
-        return state.into_box(name) if name in state.box else state.with_held(agent, name)
+        state = state.with_worn(agent, thing.name)
+        return state.into_box(name) if state.goes_back(ground.scene, name) else state.with_held(agent, name)
     return state.with_worn(agent, thing.name)
 
 

@@ -9,7 +9,7 @@ from coopera.core.affordances import Affordance, Classes, Gather, Relation, affo
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts.fitting import in_hand_is
 from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch
-from coopera.simulation.acts.skills import There, empty_hand, put, put_away, take
+from coopera.simulation.acts.skills import There, empty_hand, put, take, take_off
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.state.free_places import free_places
@@ -19,7 +19,7 @@ _AT_HAND = 0.35
 """A tool that lies this near to the hands (metres, on the floor plan) need not be moved."""
 _WORTH_IT = 0.1
 """It is moved only if that brings it this much nearer."""
-_TRIES = 2
+_TRIES = 6
 _OFF = 0.1
 """A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
 
@@ -69,17 +69,19 @@ def bring_tool(
     return None
 
 
-def gather(ground: Ground, plan: Plan, agent: AgentId, wanted: Gather, at: Workplace, watch: Watch | None) -> None:
+def gather(
+    ground: Ground, plan: Plan, agent: AgentId, wanted: Gather, at: Workplace, in_hand: str, watch: Watch | None
+) -> None:
     """Add to a plan that what a chore is about is brought to the furniture, such as dirty dishes to the sink.
 
-    What cannot be got there, or finds no place, is left where it is.
+    What cannot be got there, or finds no place, is left where it is, and so is what is to be in hand.
     """
     relation: Relation = "inside" if wanted.inside and affordances().contains(at.target.cls) else "on"
     moved = 0
     for thing in _by_distance(ground, plan.state, at.hands):
         if moved == wanted.most:
             return
-        if not _is_wanted(plan.state, thing, wanted, at.target):
+        if thing.name == in_hand or not _is_wanted(plan.state, thing, wanted, at.target):
             continue
         mark = plan.mark()
         try:
@@ -94,10 +96,16 @@ def gather(ground: Ground, plan: Plan, agent: AgentId, wanted: Gather, at: Workp
 
 
 def _is_wanted(state: HomeState, thing: SceneObject, wanted: Gather, target: SceneObject) -> bool:
-    """Whether a chore is about a thing: it is of the right kind and in the right state, and not there yet."""
-    where = state.thing(thing)
+    """Whether a chore is about a thing: it is of the right kind and in the right state, and not there yet.
+
+    What goes inside has to be usual there: dishes into the dishwasher, shirts into the washing machine.
+    """
+    where, known = state.thing(thing), affordances()
     return (
-        affordances().is_one_of(thing.cls, wanted.of)
+        known.is_one_of(thing.cls, wanted.of)
+        and (not wanted.inside or known.relation(thing.cls, target.cls) == "inside")
+        and state.bearer(thing.name) is None
+        and (where.inside is None or state.bearer(where.inside) is None)
         and state.condition(thing).get("clean") == wanted.clean
         and target.name not in (where.on, where.inside)
     )
@@ -133,11 +141,8 @@ def undress(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None) -> 
     """
     empty_hand(ground, plan, agent, watch)
     for name in plan.state.person(agent).worn:
-        if name in plan.state.box:
-            plan.state = plan.state.into_box(name)
-        else:
-            plan.state = plan.state.with_held(agent, name)
-            put_away(ground, plan, agent, watch)
+        take_off(plan, agent, name)
+        empty_hand(ground, plan, agent, watch)
 
 
 def _fetch(ground: Ground, plan: Plan, agent: AgentId, tool: SceneObject, at: Workplace, watch: Watch | None) -> None:
@@ -154,9 +159,17 @@ def _tools(ground: Ground, state: HomeState, agent: AgentId, wanted: Classes, at
     found = [
         thing
         for thing in _by_distance(ground, state, at.hands)
-        if known.is_one_of(thing.cls, wanted) and state.bearer(thing.name) in (None, agent)
+        if known.is_one_of(thing.cls, wanted) and _can_be_had(ground, state, agent, thing)
     ]
     return sorted(found, key=lambda thing: state.condition(thing).get("clean") is False)
+
+
+def _can_be_had(ground: Ground, state: HomeState, agent: AgentId, thing: SceneObject) -> bool:
+    """Whether a thing lies about, is in this hand, or in the gripper of a robot, which would bring it."""
+    bearer, around = state.bearer(thing.name), state.thing(thing).inside
+    if around is not None and state.bearer(around) is not None:
+        return False
+    return bearer in (None, agent) or (bearer in ground.robots and state.agents[bearer].thing == thing.name)
 
 
 def _by_distance(ground: Ground, state: HomeState, hands: Point) -> list[SceneObject]:

@@ -161,6 +161,14 @@ def is_one_of(state: HomeState, thing: SceneObject, classes: Classes) -> bool:
     )
 
 
+def kind_of(state: HomeState, thing: SceneObject, classes: Classes) -> str:
+    """Which of some classes or words a thing is: "apron" for a red apron; its own class where it is none of them."""
+    known = state.box.get(thing.name)
+    words = plain(thing.cls if known is None else known.text).lower()
+    names = [plain(name).lower() for name in affordances().names(classes)]
+    return max((name for name in names if words == name or words.endswith(f" {name}")), key=len, default=words)
+
+
 def check_receptacle(ground: Ground, thing: SceneObject, receptacle: SceneObject, relation: Relation) -> None:
     """A thing can be on, or inside, a receptacle.
 

@@ -94,6 +94,15 @@ class Give:
 
 
 @dataclass(frozen=True, slots=True)
+class Dress:
+    """A person has put something on or taken it off: what they wear then, and what is in their hand."""
+
+    agent: AgentId
+    worn: tuple[str, ...]
+    thing: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class Play:
     """A person does a motion at its place."""
 
@@ -102,7 +111,7 @@ class Play:
     motion: Motion
 
 
-Step = Walk | Turn | Handle | Open | Give | Play
+Step = Walk | Turn | Handle | Open | Give | Dress | Play
 
 
 class Watch(Protocol):
@@ -243,12 +252,13 @@ def _known(found: SceneObject | None, name: str, number: int | None) -> SceneObj
 def stand_up(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> HomeState:
     """The home with a person standing about at a spot, with what they hold and wear.
 
-    What they had switched on for what they were doing goes off.
+    What they had switched on for what they were doing goes off, unless another one uses it, too.
     """
     person = state.person(agent)
     for name in person.switched:
         thing = state.find(ground.scene, name)
-        if thing is not None:
+        shared = any(name in state.person(one).switched for one in state.ids("person") if one != agent)
+        if thing is not None and not shared:
             state = state.with_condition(thing, {"powered": False})
     risen = PersonState(spot=spot, place=spot, yaw=person.yaw, thing=person.thing, worn=person.worn)
     return state.put(agent, risen)

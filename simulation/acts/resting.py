@@ -71,7 +71,8 @@ def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[Sce
         if thing.room != target.room or thing.cls in ("toilet", "bathtub"):
             continue
         gap = gap_between(thing, target)
-        if gap <= far and (rest := _seat_on(thing, used)) is not None:
+        rest = _seat_on(thing, used) if gap <= far else None
+        if rest is not None and target.bounds.distance(rest.x, rest.y) <= far:
             off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))
             if off <= _LOOKS_AT:
                 found.append((round(gap + 0.6 * off, 6), thing.name, thing, rest))

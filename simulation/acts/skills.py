@@ -15,7 +15,7 @@ from coopera.core.household import AgentId, HandOver, PickPlace, plain
 from coopera.simulation.acts.fitting import check_receptacle
 from coopera.simulation.acts.handing import ask_for, give, receiver_of
 from coopera.simulation.acts.handling import FAR_REACH, Errand, go_to_reach, grip, why
-from coopera.simulation.acts.plans import Ground, Handle, Open, Plan, UnableError, Watch
+from coopera.simulation.acts.plans import Dress, Ground, Handle, Open, Plan, UnableError, Watch
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.homes.spots import Spot
@@ -29,8 +29,6 @@ from coopera.simulation.ways.navigation import REACH, Stand
 _BESIDE = 0.35
 _PLACES = 8
 """How many of the free places are tried, spread over all of them."""
-_PUT_AWAY = 6
-"""On how many pieces of furniture one tries to put away what is in hand."""
 
 
 def take(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: Watch | None = None) -> None:
@@ -46,7 +44,7 @@ def take(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: 
         return
     _refuse_full_hand(ground, state, agent)
     if thing.name in state.agents[agent].worn:
-        plan.state = state.with_held(agent, thing.name)
+        take_off(plan, agent, thing.name)
         return
     holder = state.bearer(thing.name)
     if holder is not None:
@@ -92,6 +90,7 @@ def put(
         UnableError: If it is full or cannot be reached.
     """
     receptacle, relation = there.receptacle, there.relation
+    _refuse_nesting(ground, plan.state, thing, receptacle, relation)
     places = [
         place
         for place in free_places(ground.scene, plan.state, thing, receptacle, relation)
@@ -118,6 +117,12 @@ def put(
             return
     where = "inside" if relation == "inside" else "on"
     raise UnableError(f"{named(agent)} cannot reach a free place {where} the {plain(receptacle.name)}{why(plan)}")
+
+
+def take_off(plan: Plan, agent: AgentId, name: str) -> None:
+    """Add to a plan: take off what one wears; it is then in the hand, which is empty before."""
+    plan.state = plan.state.with_held(agent, name)
+    plan.steps.append(Dress(agent, plan.state.agents[agent].worn, name))
 
 
 def pick_place(ground: Ground, state: HomeState, agent: AgentId, act: PickPlace, watch: Watch | None = None) -> Plan:
@@ -155,7 +160,7 @@ def hand_over(ground: Ground, state: HomeState, agent: AgentId, act: HandOver) -
     if wanted is not None and wanted.fixed:
         raise UnableError(f"the {plain(act.object)} cannot be carried")
     has = state.agents[receiver].thing
-    if has is not None and (has == act.object or has not in state.box):
+    if has is not None and (has == act.object or not state.goes_back(ground.scene, has)):
         raise UnableError(f"{named(receiver)} has the {plain(has)} in hand")
     plan = Plan(state)
     held = state.agents[agent].thing
@@ -200,7 +205,7 @@ def switch(
     thing = _with_state(ground, state, name, "powered", "switched on or off")
     if state.condition(thing)["powered"] != on:
         _reach(ground, plan, agent, thing, watch)
-        plan.state = plan.state.with_condition(thing, {"powered": on})
+        plan.state = plan.state.with_condition(thing, {"powered": on}).without_switch(thing.name)
     return plan
 
 
@@ -218,7 +223,7 @@ def empty_hand(
     held = plan.state.agents[agent].thing
     if held is None or held == keep:
         return
-    if held in plan.state.box:
+    if plan.state.goes_back(ground.scene, held):
         plan.state = plan.state.into_box(held)
     elif agent in ground.robots:
         raise UnableError(f"{named(agent)} must first put down the {plain(held)}")
@@ -236,7 +241,7 @@ def put_away(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = N
     x, y = plan.state.agents[agent].place
     room = ground.scene.room_at(x, y).name
     near = sorted(ground.scene.fixed, key=lambda one: (one.room != room, round(one.bounds.distance(x, y), 3), one.name))
-    for furniture in near[:_PUT_AWAY]:
+    for furniture in near:
         mark = plan.mark()
         try:
             put(ground, plan, agent, thing, There(furniture), watch)
@@ -244,7 +249,24 @@ def put_away(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None = N
             plan.rewind(mark)
             continue
         return
-    raise UnableError(f"{named(agent)} finds no place nearby to put down the {plain(thing.name)}")
+    raise UnableError(f"{named(agent)} finds no place to put down the {plain(thing.name)}")
+
+
+def _refuse_nesting(
+    ground: Ground, state: HomeState, thing: SceneObject, receptacle: SceneObject, relation: Relation
+) -> None:
+    """What holds things can be filled where it stands about, and be put inside something only while it is empty."""
+    if relation == "on":
+        return
+    if state.contents(ground.scene, thing.name):
+        raise UnableError(f"the {plain(thing.name)} has things in it, and goes inside nothing as long as it has")
+    if receptacle.fixed:
+        return
+    bearer, around = state.bearer(receptacle.name), state.thing(receptacle).inside
+    if bearer is not None:
+        raise UnableError(f"{named(bearer)} has the {plain(receptacle.name)}; it can be filled once it is put down")
+    if around is not None:
+        raise UnableError(f"the {plain(receptacle.name)} is inside the {plain(around)}, and cannot be filled there")
 
 
 def _refuse_full_hand(ground: Ground, state: HomeState, agent: AgentId) -> None:
@@ -308,9 +330,11 @@ def _with_state(ground: Ground, state: HomeState, name: str, which: str, how: st
 def _reach(ground: Ground, plan: Plan, agent: AgentId, thing: SceneObject, watch: Watch | None) -> tuple[Stand, Array]:
     """Add a walk to where a hand gets to an object's front, at a comfortable height."""
     _refuse_full_hand(ground, plan.state, agent)
-    bearer = plan.state.bearer(thing.name)
+    bearer, around = plan.state.bearer(thing.name), None if thing.fixed else plan.state.thing(thing).inside
     if bearer is not None and bearer != agent:
         raise UnableError(f"{named(bearer)} has the {plain(thing.name)}")
+    if around is not None:
+        raise UnableError(f"the {plain(thing.name)} is inside the {plain(around)}, and has to be taken out first")
     now = where_it_is(plan.state, thing)
     height = min(max(0.6 * now.size[2], 0.02), 0.95 - min(now.position[2], 0.9))
     x, y, z = now.to_world(0.0, now.size[1] / 2 if now.fixed else 0.0, height)

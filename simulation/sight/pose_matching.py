@@ -19,7 +19,7 @@ from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standin
 from coopera.simulation.motions.library import Library, Motion
 from coopera.simulation.motions.poses import Setting, clip, pose_at
 from coopera.simulation.shapes.rotations import Array
-from coopera.simulation.sight.recording import walking
+from coopera.simulation.sight.walks import walking
 
 PARTS = (
     "head",

@@ -17,15 +17,15 @@ import numpy as np
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
-from coopera.simulation.acts.plans import Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
+from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
 from coopera.simulation.acts.workplace import working
-from coopera.simulation.bodies.humanoid import SLICES, blend
+from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.motions.holding import CARRIED, Grip
-from coopera.simulation.motions.poses import clip, pose_at
+from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
+from coopera.simulation.sight.walks import Track, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
 from coopera.simulation.ways.navigation import Stand
 
@@ -36,7 +36,6 @@ _SHOWN = 1.3
 """Seconds of a walk that a shot shows before the act."""
 _MOTION = 8.0
 _TURN, _REACH, _HOLD, _BACK, _SETTLE = 8, 22, 8, 16, 26
-_ARMS = ("right_shoulder", "right_elbow")
 
 
 class Held(NamedTuple):
@@ -107,50 +106,6 @@ def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
     return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
 
 
-class Track(NamedTuple):
-    """A walk as a function of the distance gone: corner points and where each lies along the way."""
-
-    points: list[Point]
-    marks: list[float]
-
-    @classmethod
-    def along(cls, points: list[Point]) -> Track:
-        """Measure a walk."""
-        marks = [0.0]
-        for a, b in zip(points, points[1:], strict=False):
-            marks.append(marks[-1] + math.dist(a, b))
-        return cls(points, marks)
-
-    def at(self, gone: float) -> Point:
-        """The place after a distance."""
-        gone = min(max(gone, 0.0), self.marks[-1])
-        for i in range(1, len(self.marks)):
-            if gone <= self.marks[i] and self.marks[i] > self.marks[i - 1]:
-                share = (gone - self.marks[i - 1]) / (self.marks[i] - self.marks[i - 1])
-                (ax, ay), (bx, by) = self.points[i - 1], self.points[i]
-                return ax + share * (bx - ax), ay + share * (by - ay)
-        return self.points[-1]
-
-    def heading(self, gone: float) -> float | None:
-        """The direction of the walk, looking a little ahead; None for a walk of no length."""
-        total = self.marks[-1]
-        if total < 1e-6:
-            return None
-        back, ahead = self.at(min(gone, total - 0.02) - 0.1), self.at(min(gone, total - 0.02) + 0.2)
-        return math.atan2(ahead[1] - back[1], ahead[0] - back[0])
-
-
-def walking(gone: float, carries: bool) -> Array:
-    """The pose after walking a distance: the shipped walk, with the right arm in front if it carries a thing."""
-    walk = clip("walk")
-    pose = walk.at(gone / walk.travel * walk.seconds).copy()
-    if carries:
-        arm = carrying()
-        for name in _ARMS:
-            pose[SLICES[name]] = arm[SLICES[name]]
-    return pose
-
-
 class Filming:
     """Turns the steps of a plan into shots."""
 
@@ -180,6 +135,8 @@ class Filming:
                 self._open(step)
             elif isinstance(step, Play):
                 self._play(step)
+            elif isinstance(step, Dress):
+                self._dress(step)
             elif isinstance(step, Give):
                 self._give(step)
         return self.recording
@@ -289,6 +246,20 @@ class Filming:
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
         self.worn = {**self.worn, agent: person.worn}
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
+
+    def _dress(self, step: Dress) -> None:
+        """What is worn and held changes; where a motion did it, that is seen at the motion's end."""
+        self.worn = {**self.worn, step.agent: step.worn}
+        self.held = _with(self.held, step.agent, Held(step.thing) if step.thing else None)
+        if not self.recording.shots or step.agent != self._actor:
+            return
+        last, worn, held = self.recording.shots[-1], self.worn, self.held
+
+        def at(tick: int) -> Moment:
+            moment = last.at(tick)
+            return moment if tick < last.ticks - _BACK else moment._replace(worn=worn, held=held)
+
+        self.recording.shots[-1] = Shot(last.ticks, at, last.deed)
 
     def _give(self, step: Give) -> None:
         """Drive up, hold out the thing, and let the person take it; or take from the person what they hold out."""

@@ -19,7 +19,7 @@ from coopera.core.people import Frozen
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.magic_box import shape_of
-from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.homes.scene import Label, Scene, SceneObject
 from coopera.simulation.motions.library import Posture
 
 _CARRIED = 1.0
@@ -103,8 +103,8 @@ class ThingState(Frozen):
 class BoxThing(Frozen):
     """A thing out of the magic box, as long as it is in the home: its object id, and the words that it was named by."""
 
-    id: int
-    text: str = Field(min_length=1, max_length=120)
+    id: int = Field(ge=0)
+    text: str = Field(min_length=1, max_length=120, pattern=r"\S")
 
 
 class HomeState(Frozen):
@@ -119,7 +119,7 @@ class HomeState(Frozen):
     agents: dict[AgentId, AgentState]
     """Everybody in the home, in the order in which they were put into it."""
     moved: dict[str, ThingState] = Field(default_factory=dict)
-    box: dict[str, BoxThing] = Field(default_factory=dict, exclude_if=_empty)
+    box: dict[Label, BoxThing] = Field(default_factory=dict, exclude_if=_empty)
     conditions: dict[str, Condition] = Field(default_factory=dict, exclude_if=_empty)
 
     @property
@@ -272,7 +272,7 @@ class HomeState(Frozen):
 
     def into_box(self, name: str) -> HomeState:
         """The same home without a thing that came out of the magic box."""
-        state = self._without(name)
+        state = self._without(name).without_switch(name)
         return state.model_copy(
             update={
                 "moved": {key: where for key, where in state.moved.items() if key != name},
@@ -280,6 +280,19 @@ class HomeState(Frozen):
                 "conditions": {key: said for key, said in state.conditions.items() if key != name},
             }
         )
+
+    def without_switch(self, name: str) -> HomeState:
+        """The same home where nobody will switch an object off when they move on."""
+        state = self
+        for agent in self.ids("person"):
+            switched = self.person(agent).switched
+            if name in switched:
+                state = state.with_agent(agent, switched=tuple(one for one in switched if one != name))
+        return state
+
+    def goes_back(self, scene: Scene, name: str | None) -> bool:
+        """Whether a thing goes back into the magic box when a hand lets go of it: it is from there, and empty."""
+        return name is not None and name in self.box and not self.contents(scene, name)
 
     def with_condition(self, thing: SceneObject, change: Condition) -> HomeState:
         """The same home with states of an object changed; those that its class does not have are left out."""

@@ -9,7 +9,7 @@ import pytest
 
 from coopera.core.affordances import affordances
 from coopera.core.errors import SimulationError
-from coopera.simulation import World, load_scene
+from coopera.simulation import PersonAgent, RobotAgent, World, load_scene
 from coopera.simulation.acts.plans import Handle, Open, Walk
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import load_library
@@ -358,3 +358,79 @@ def test_a_lamp_or_a_set_is_switched_by_a_step_and_what_has_no_switch_is_not(hom
     assert home.switch("human", "stove_1", False).ok
     assert home.states() == {}
     assert "cannot be switched" in home.switch("human", "sofa_1", True).reason
+
+
+def test_a_basket_in_a_hand_is_not_filled_and_a_full_one_goes_inside_nothing(home) -> None:
+    assert home.pick("robot", "laundry_basket_1").ok
+    assert "the robot has the laundry basket" in home.perform("human", puts("apple_1", "laundry_basket_1")).reason
+    assert home.place("robot", "bed_1").ok
+    assert home.perform("human", puts("apple_1", "laundry_basket_1")).ok
+    refused = home.perform("human", puts("laundry_basket_1", "fridge_1", "inside"))
+    assert not refused.ok
+    home.restore(json.loads(json.dumps(home.snapshot())))
+
+
+def test_a_bag_from_the_magic_box_does_not_vanish_with_a_thing_of_the_home(home) -> None:
+    assert home.perform("robot", bring("laundry basket")).ok
+    basket = home.state.person().thing
+    assert home.place("human", "bed_1").ok
+    ball = home.layout.object("tennis_ball_1")
+    assert home.pick("human", "tennis_ball_1").ok
+    assert home.place("human", basket).ok
+    assert home.state.thing(ball).inside == basket
+    assert home.pick("human", basket).ok
+    assert home.perform("human", moves("sofa_1", "book", "sit and rest")).ok
+    assert basket in home.state.box
+    assert home.state.thing(ball).inside == basket
+
+
+def test_the_pan_in_the_robots_gripper_is_brought_to_who_cooks(home) -> None:
+    assert home.pick("robot", "frying_pan_1").ok
+    assert home.perform("human", moves("stove_1", "egg", "fry in a pan")).fetched == ("frying_pan_1",)
+    assert home.on("frying_pan", "stove")
+
+
+def test_a_tool_in_the_hand_is_used_like_one_that_lies_there(home) -> None:
+    assert home.perform("human", moves("dining_table_1", "plate_1", "eat a meal")).ok
+    assert condition(home, "plate_1")["clean"] is False
+    assert home.perform("human", moves("dining_table_1", "mug_1", "pour a drink")).ok
+    assert condition(home, "mug_1")["filled"] == "water"
+
+
+def test_a_second_apron_takes_the_place_of_the_first(home) -> None:
+    for colour in ("red", "blue", "green"):
+        assert home.perform("human", moves("bed_1", f"{colour} apron", "put on clothes")).ok
+    assert [home.state.box[name].text for name in home.state.person().worn] == ["green apron"]
+    assert len(home.state.box) == 1
+
+
+def test_what_is_put_on_is_seen_to_be_worn_and_seen_to_come_off(home) -> None:
+    assert home.perform("human", moves("sofa_1", "hat_1", "put on clothes"), record=True).ok
+    shot = home._recording.shots[-1]
+    assert shot.at(shot.deed).held["human"].name == "hat_1"
+    last = shot.at(shot.ticks - 1)
+    assert (last.worn["human"], last.held.get("human")) == (("hat_1",), None)
+    assert home.perform("human", puts("hat_1", "coffee_table_1"), record=True).ok
+    shot = home._recording.shots[-1]
+    assert shot.at(0).worn["human"] == ()
+    assert shot.at(0).held["human"].name == "hat_1"
+
+
+def test_what_is_inside_something_is_taken_out_before_it_is_switched() -> None:
+    scene = load_scene("oak")
+    with World(scene) as world:
+        phone, dresser = scene.object("phone_1"), next(thing for thing in scene.fixed if thing.cls == "dresser")
+        assert world.perform("human", put(phone.name, dresser.name, "inside", scene)).ok
+        assert "has to be taken out first" in world.switch("robot", phone.name, True).reason
+
+
+def test_two_watch_the_set_and_it_goes_off_with_the_second() -> None:
+    scene = load_scene("maple")
+    watch = [move(seat, "cushion", "sit and watch the screen", scene) for seat in ("sofa_1", "armchair_1")]
+    with World(scene, agents=[PersonAgent("ann"), PersonAgent("bob"), RobotAgent()]) as world:
+        assert world.perform("ann", watch[0]).ok
+        assert world.perform("bob", watch[1]).ok
+        assert world.go_to("ann", "kitchen").ok
+        assert world.states() == {"television_1": "on"}
+        assert world.go_to("bob", "kitchen").ok
+        assert world.states() == {}

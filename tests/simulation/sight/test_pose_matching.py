@@ -11,7 +11,7 @@ from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.shapes.rotations import about_z
 from coopera.simulation.sight.percept import INSTANTS, seen_joints
 from coopera.simulation.sight.pose_matching import FEWEST, PARTS, PoseMatcher, distances, matcher, skeleton
-from coopera.simulation.sight.recording import walking
+from coopera.simulation.sight.walks import walking
 from coopera.simulation.world import World
 from tests.simulation.flat import flat, move
 
