@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from coopera.core.affordances import HAND, Affordance, Classes, Condition, Effect, affordances
-from coopera.core.household import AgentId
+from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.fitting import is_one_of, kind_of
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.acts.resting import gap_between
@@ -33,7 +33,7 @@ def after(
         for thing in _meant(ground, state, agent, effect, target, used):
             change: Condition = dict(effect.changes)
             if change.get("filled") == HAND:
-                change["filled"] = _in_words(state, agent)
+                change["filled"] = _in_words(ground, state, agent)
             state = state.with_condition(thing, change)
     return state
 
@@ -102,10 +102,11 @@ def _put_on(ground: Ground, state: HomeState, agent: AgentId, effect: Effect) ->
     return state.with_worn(agent, thing.name)
 
 
-def _in_words(state: HomeState, agent: AgentId) -> str:
+def _in_words(ground: Ground, state: HomeState, agent: AgentId) -> str:
     """What pours out of what is in hand: the words for it without those for the vessel, or water."""
-    held = state.agents[agent].thing
-    words = state.box[held].text.lower() if held in state.box else ""
+    held = state.agents[agent].thing or ""
+    thing = state.find(ground.scene, held)
+    words = state.box[held].text.lower() if held in state.box else plain(thing.cls) if thing is not None else ""
     kept = [word for word in words.split() if word not in _VESSELS]
     return " ".join(kept) or "water"
 

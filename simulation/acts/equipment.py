@@ -51,6 +51,8 @@ def bring_tool(
     """
     if not done.tools or in_hand_is(ground, plan.state, act.in_hand, done.tools):
         return None
+    if at.target.cls in affordances().looked_at and not done.needs:  # nothing is put on a television to eat from it
+        return None
     trouble = ""
     for tool in _tools(ground, plan.state, agent, done.tools, at)[:_TRIES]:
         if _lies_ready(ground, plan.state, tool, at):
@@ -154,14 +156,15 @@ def _fetch(ground: Ground, plan: Plan, agent: AgentId, tool: SceneObject, at: Wo
 
 
 def _tools(ground: Ground, state: HomeState, agent: AgentId, wanted: Classes, at: Workplace) -> list[SceneObject]:
-    """Things of the home that would do and that nobody else has: clean ones first, then those near to the hands."""
+    """Things of the home that would do and can be had: clean ones first, then as they are named, then near ones."""
     known = affordances()
+    order = {name: rank for rank, name in enumerate(known.names(wanted))}
     found = [
         thing
         for thing in _by_distance(ground, state, at.hands)
         if known.is_one_of(thing.cls, wanted) and _can_be_had(ground, state, agent, thing)
     ]
-    return sorted(found, key=lambda thing: state.condition(thing).get("clean") is False)
+    return sorted(found, key=lambda one: (state.condition(one).get("clean") is False, order.get(one.cls, len(order))))
 
 
 def _can_be_had(ground: Ground, state: HomeState, agent: AgentId, thing: SceneObject) -> bool:
