@@ -8,6 +8,10 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - `can` is `{furniture: [captions of motions that can be done there]}`; what can be done anywhere is named at none;
 - `states` is `{object: its states in words}`, such as "open" or "dirty", of all that is not as at first: for the person
   in their whole home, for the robot where it is and in what it saw;
+- `changes` are what is different in the person's life these days, `{"kind", "text", "strength", "more", "never"}`, the
+  last three as `coopera.core.changes` has them;
+- `may_go_on` and `may_leave` say whether an intention may go on for hours, and whether the person may leave the home;
+- `so_far` are the tasks, in words, of the hour that the intention goes on from; empty for a new one;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
 - `guesses` and `offers` are the robot's candidates, as persons and judges are asked about them: intentions are texts,
   tasks have `text` and `thought`;
@@ -46,15 +50,22 @@ ASKS: dict[str, AskSpec] = {
     "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
     "persona/big_five_test": _spec("human", "BigFiveTestReply", "profile", "statements"),
-    "human/intention": _spec("human", "IntentionReply", *_TIME, *_PERSON, *_MEMORY, "rooms", "states", "today"),
-    "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours"),
+    "human/intention": _spec(
+        "human",
+        "IntentionReply",
+        *_TIME,
+        *_PERSON,
+        *_MEMORY,
+        *("rooms", "states", "today", "changes", "may_go_on", "may_leave"),
+    ),
+    "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours", "changes", "may_leave"),
     "human/tasks_type1": _spec(
         "human",
         "PickPlaceReply",
         *_TIME,
         *_PERSON,
         *_MEMORY,
-        *("intention", "fixed", "movable", "states", "n_tasks", "steps"),
+        *("intention", "fixed", "movable", "states", "so_far", "n_tasks", "steps"),
     ),
     "human/tasks_type2": _spec(
         "human",
@@ -62,7 +73,7 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_PERSON,
         *_MEMORY,
-        *("intention", "fixed", "motions", "can", "states", "n_tasks", "steps"),
+        *("intention", "fixed", "motions", "can", "states", "so_far", "n_tasks", "steps"),
     ),
     "human/reflect_profile_type1": _spec(
         "human", "PickPlaceReflectionReply", *_TIME, *_PERSON, *_MEMORY, "intention", "fixed", "movable", "tasks"

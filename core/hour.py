@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import ConfigDict, Field
 
+from coopera.core.changes import Circumstance
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Belief, BigFive, Frozen, PersonId
@@ -29,6 +30,10 @@ class Intention(Frozen):
 
     text: str
     reasons: Reasons = Reasons()
+    continues: bool = False
+    """Whether it goes on with what was begun in an earlier hour of the day."""
+    away: bool = False
+    """Whether it is done outside the home: there are no tasks then, and the robot has nothing to see."""
 
 
 class Task(Frozen):
@@ -100,6 +105,8 @@ class HumanHour(Frozen):
     found: Found
     tasks: list[Task]
     reflections: list[Reflection]
+    circumstances: list[Circumstance] = []
+    """What was different in the person's life that day."""
     repairs: list[str] = []
     """Tasks that code had to mend after both reflections, as sentences."""
 
@@ -274,10 +281,12 @@ class FeedbackItem(Frozen):
     text: str
     accepted: bool
     helpful: bool | None
-    """None where the person's answer could not be read: no label is made of it."""
+    """None where the person gave no answer, or none that could be read: no label is made of it."""
     reason: str = ""
     grade: int | None = Field(None, ge=1, le=5)
     """How helpful, from 1 to 5, where feedback is graded."""
+    slip: bool = False
+    """Whether the person said the opposite of what they meant; for the trace, never for the robot."""
 
 
 class HourAccount(Frozen):

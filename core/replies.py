@@ -24,6 +24,10 @@ class IntentionReply(Frozen):
     reason_human: Reason = ""
     reason_intentions: Reason = ""
     reason_tasks: Reason = ""
+    continues: bool = False
+    """Whether it goes on with what was begun in an earlier hour of the day."""
+    away: bool = False
+    """Whether it is done outside the home."""
 
 
 class DayReply(Frozen):

@@ -102,13 +102,17 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Ask the person for feedback on all candidates of today. Writes `feedback`.
 
     PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the intention candidates too, and for
-    the whole superset, not only for the tasks done. So the classifiers do not bias their own labels.
+    the whole superset, not only for the tasks done. So the classifiers do not bias their own labels. How many questions
+    are answered, and how many answers are slips, is set by `Services.answering` (the paper: all, and none).
     """
     ctx = runtime.context.here().human(state["plan"])
     items: list[FeedbackItem] = []
     for hour in runtime.context.recorder.read_day(ctx.plan.day):
         if hour.human is not None and hour.robot is not None:
-            items += _hour_feedback(ctx, hour.hour, hour.human, hour.robot)
+            meant = _hour_feedback(ctx, hour.hour, hour.human, hour.robot)
+            clock = ctx.plan.clock(ctx.plan.hours.index(hour.hour))
+            rng = runtime.context.rng(Address(ctx.plan.person, clock.day, clock.hour, "answering"))
+            items += runtime.context.answering.given(meant, rng)
     return {"feedback": items}
 
 
@@ -146,7 +150,7 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             [task.act.describe() for task in hour.human.tasks],
         )
         for hour in hours
-        if hour.human is not None
+        if hour.human is not None and not hour.human.intention.away
     )
     if not services.method.learns:
         return {"measured": {}}

@@ -1,6 +1,7 @@
 """One hour in the home: the person lives it, the robot watches the first task and helps, and it is scored.
 
-human -> demonstrate -> robot -> finish -> score -> record; without a robot, human -> finish -> record. The hour is the
+human -> demonstrate -> robot -> finish -> score -> record; without a robot, human -> finish -> record; while the person
+is away, human -> record. The hour is the
 unit of work: interrupted, it is done again as a whole and gives the same result, so its graphs keep no checkpoints.
 """
 
@@ -282,7 +283,7 @@ def _failing(node: Node) -> Node:
 
 def _goes_on_to(after: str, alone: str) -> Callable[[HourState, Runtime[Services]], str]:
     def route(state: HourState, runtime: Runtime[Services]) -> str:
-        if "failure" in state:
+        if "failure" in state or state["human"].intention.away:
             return "record"
         return after if runtime.context.method.robot else alone
 

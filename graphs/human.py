@@ -6,7 +6,7 @@ Who decides in `propose` and `decompose` is the context's player: a language mod
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import islice, pairwise
+from itertools import islice
 from typing import Any, Literal
 
 from langgraph.graph import END, START, StateGraph
@@ -14,6 +14,7 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 
 from coopera.core.affordances import affordances
+from coopera.core.changes import felt
 from coopera.core.clock import Clock
 from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskVerdict
 from coopera.core.household import FreeMotion, ObjectMap, plain
@@ -42,8 +43,10 @@ def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInp
     graph = StateGraph(HumanState, context_schema=HumanContext, input_schema=HumanInput)
     for node in (recall, propose, search, decompose, reflect_profile, reflect_scene, mend):
         graph.add_node(node)
-    for before, after in pairwise([START, "recall", "propose", "search", "decompose"]):
-        graph.add_edge(before, after)
+    graph.add_edge(START, "recall")
+    graph.add_edge("recall", "propose")
+    graph.add_conditional_edges("propose", stays, ["search", END])
+    graph.add_edge("search", "decompose")
     graph.add_conditional_edges("decompose", reflects, ["reflect_profile", "mend"])
     graph.add_edge("reflect_profile", "reflect_scene")
     graph.add_conditional_edges("reflect_scene", once_more, ["reflect_scene", "mend"])
@@ -56,10 +59,11 @@ def human_hour(state: HumanState) -> HumanHour:
     return HumanHour(
         recalled=state["recalled"],
         intention=state["intention"],
-        found=state["found"],
-        tasks=state["tasks"],
+        found=state.get("found", Found(fixed={}, movable={}, motions=[])),
+        tasks=state.get("tasks", []),
         reflections=state.get("reflections", []),
-        repairs=state["repairs"],
+        circumstances=state["circumstances"],
+        repairs=state.get("repairs", []),
     )
 
 
@@ -80,9 +84,17 @@ def recall(state: HumanInput, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 
 def propose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Decide what to do this hour. Reads `recalled`, `today`; writes `intention`."""
-    ctx = runtime.context
-    return {"intention": ctx.player.intention(state, ctx)}
+    """Decide what to do this hour. Reads `recalled`, `today`; writes `intention` and `circumstances`."""
+    ctx, day = runtime.context, state["clock"].day
+    return {
+        "intention": ctx.player.intention(state, ctx),
+        "circumstances": felt(ctx.changes(state["clock"]), day),
+    }
+
+
+def stays(state: HumanState) -> Literal["search", "__end__"]:
+    """Go on to tasks, unless the person is away from home this hour."""
+    return "__end__" if state["intention"].away else "search"
 
 
 def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:

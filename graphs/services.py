@@ -20,6 +20,8 @@ from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
+from coopera.graphs.players.answering import Answering
+from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.player import HumanContext, Player
 from coopera.graphs.robots.learning import Learner
@@ -97,6 +99,10 @@ class Services:
     """Whether the first task of each hour is filmed, too."""
     person: PersonModel = FULL
     """How people are simulated."""
+    living: Living = Living()
+    """How people live, whoever plays them."""
+    answering: Answering = Answering()
+    """How reliably they answer in the evening."""
     sizes: SearchSizes = SearchSizes()
     """How much Search finds for an intention."""
     identity_known: bool = True
@@ -139,6 +145,7 @@ class Services:
             embeddings=self.embeddings,
             player=self.player,
             model=self.person,
+            living=self.living,
             sizes=self.sizes,
             agent=self.human_agent,
         )

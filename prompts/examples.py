@@ -116,6 +116,12 @@ _FULL: dict[str, Any] = {
         "desk_1": ["write by hand", "wipe the surface"],
     },
     "states": {"coffee_table_1": "dirty", "mug_1": "dirty, with tea in it"},
+    "so_far": ["take the novel from the shelf at the bookshelf with the book in hand"],
+    "changes": [
+        {"kind": "illness", "text": "I have a bad cold", "strength": 1.0, "more": {"nap": 2.0}, "never": ["cardio"]}
+    ],
+    "may_go_on": True,
+    "may_leave": True,
     "n_tasks": 5,
     "steps": ["get my book from the shelf", "sit in the armchair and read"],
     "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 5 tasks, not 4."],
@@ -156,6 +162,10 @@ _BARE: dict[str, Any] = {
     "findings": [],
     "states": {},
     "steps": [],
+    "so_far": [],
+    "changes": [],
+    "may_go_on": False,
+    "may_leave": False,
     "percept": None,
     "profile_2": "",
     "conversation": "",

@@ -202,6 +202,18 @@ class Config(Frozen):
             flag="--feedback",
         ),
     ] = "yes_no"
+    feedback_rate: Annotated[
+        Annotated[float, Field(ge=0, le=1)],
+        Setting("Chance that a question of the evening is answered.", "a number from 0 to 1", flag="--feedback-rate"),
+    ] = 1.0
+    feedback_noise: Annotated[
+        Annotated[float, Field(ge=0, le=0.5)],
+        Setting(
+            "Chance that an answer of the evening is the opposite of what the person meant.",
+            "a number from 0 to 0.5",
+            flag="--feedback-noise",
+        ),
+    ] = 0.0
     person_model: Annotated[
         Text,
         Setting(
@@ -211,6 +223,32 @@ class Config(Frozen):
             values=tuple(PERSON_MODELS),
         ),
     ] = "full"
+    intentions: Annotated[
+        Literal["lasting", "hourly"],
+        Setting(
+            "Whether an intention may go on for hours, with other tasks, or each hour has one of its own that does not "
+            "come twice running, as the paper has it (hourly).",
+            flag="--intentions",
+        ),
+    ] = "lasting"
+    absence: Annotated[
+        Literal["none", "named"],
+        Setting(
+            "Whether people are away from home at times, at work, school or in town; those hours are named, and have "
+            "neither tasks nor a robot (the paper has none).",
+            flag="--absence",
+        ),
+    ] = "none"
+    changes: Annotated[
+        Text,
+        Setting(
+            "What becomes different in people's lives, such as moods, illness or a new hobby: nothing (as in the "
+            "paper), drawn by the seed, or what a file says.",
+            "none, seeded or the path of a YAML file",
+            flag="--changes",
+            metavar="none|seeded|FILE",
+        ),
+    ] = "none"
     search: Annotated[SearchSizes, Setting("How much the person is offered for an intention, at most.")] = SearchSizes()
     motions: Annotated[
         Path | None,

@@ -21,6 +21,8 @@ from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
 from coopera.graphs.earlier_life import EarlierLife
 from coopera.graphs.life import LivedNow
+from coopera.graphs.players.answering import Answering
+from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.graphs.players.player import Player
 from coopera.graphs.players.simulated import Simulated
@@ -29,11 +31,15 @@ from coopera.graphs.robots.learning import KINDS, Learner
 from coopera.graphs.robots.own_robot import MakeRobot, OwnRobot
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
+from coopera.models.backends import household_file
 from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
+from coopera.models.offline.household.knowledge import load as load_household
+from coopera.models.offline.household.knowledge import shipped
 from coopera.models.transport import wait
+from coopera.people.changes import open_changes
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_earlier_life
@@ -161,10 +167,28 @@ def open_services(
             frames=config.frames if config.pictures in ("sampled", "video") else 0,
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person_model],
+            living=open_living(config),
+            answering=Answering(rate=config.feedback_rate, noise=config.feedback_noise),
             sizes=config.search,
             player=_player(config, logs),
             life=EarlierLife(days) if (days := open_earlier_life(config)) else LivedNow(),
         )
+
+
+def open_living(config: Config) -> Living:
+    """How people live.
+
+    Raises:
+        ConfigError: If the file of changes is wrong.
+    """
+    path = household_file(config.models.human)
+    household = load_household(path) if path else shipped()
+    known = household.index if config.models.human.startswith("offline") else None
+    return Living(
+        lasting=config.intentions == "lasting",
+        absence=config.absence == "named",
+        changes=open_changes(config.changes, config.seed, known),
+    )
 
 
 def _player(config: Config, logs: Logs | None) -> Player:

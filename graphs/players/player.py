@@ -10,6 +10,7 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias
 from langchain_core.embeddings import Embeddings
 from typing_extensions import TypedDict
 
+from coopera.core.changes import Change, Circumstance
 from coopera.core.clock import Clock
 from coopera.core.hour import (
     DayPlan,
@@ -26,6 +27,7 @@ from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.real_person import Verdict
 from coopera.graphs.robots.robot_view import Memories
@@ -47,6 +49,7 @@ class HumanState(HumanInput, total=False):
     recalled: list[Recalled]  # by recall; intentions first, best first
     today: list[dict[str, Any]]  # by recall; this day's intentions so far, in order
     intention: Intention  # by propose
+    circumstances: list[Circumstance]  # by propose: what is different that day
     found: Found  # by search
     can: dict[str, list[str]]  # by search; {furniture: what can be done there, the nearest to the intention first}
     tasks: list[Task]  # by decompose, then revised by the reflections
@@ -69,8 +72,13 @@ class HumanContext:
     player: Player
     model: PersonModel = FULL
     sizes: SearchSizes = SearchSizes()
+    living: Living = Living()
     agent: AgentId = HUMAN
     """Whose body in the home the person has."""
+
+    def changes(self, clock: Clock) -> Sequence[Change]:
+        """What is different for the person on a day."""
+        return self.living.changes(self.persona.id, clock.day)
 
     @property
     def collab(self) -> Collab:

@@ -20,7 +20,7 @@ from coopera.core.replies import (
 )
 from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
-from coopera.graphs.players.variables import as_tasks, known, motions_here, when, who
+from coopera.graphs.players.variables import as_tasks, known, living, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
@@ -40,7 +40,12 @@ class Simulated:
         """Ask for the intention of this hour, or take it from the intentions of the whole day."""
         reply = _of_the_hour(state, ctx) if ctx.model.hourly else _of_the_day(state, ctx)
         reasons = Reasons(human=reply.reason_human, intentions=reply.reason_intentions, tasks=reply.reason_tasks)
-        return Intention(text=reply.intention, reasons=reasons)
+        return Intention(
+            text=reply.intention,
+            reasons=reasons,
+            continues=reply.continues and ctx.living.lasting and bool(state["today"]),
+            away=reply.away and ctx.living.absence,
+        )
 
     def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
         """Ask for as many tasks as the paper has."""
@@ -101,11 +106,20 @@ def ask_for_tasks(state: HumanState, ctx: HumanContext, steps: Sequence[str] = (
             "intention": state["intention"].text,
             "fixed": found.fixed,
             "states": ctx.home.states(),
+            "so_far": _so_far(state, ctx),
             "n_tasks": len(steps) or Numbers.HUMAN_TASKS[ctx.collab],
             "steps": list(steps),
         },
     )
     return reply.tasks
+
+
+def _so_far(state: HumanState, ctx: HumanContext) -> list[str]:
+    """The tasks of the hour before, if the person goes on with what they did then."""
+    if not state["intention"].continues:
+        return []
+    now = state["clock"].now
+    return [task.text for task in ctx.memories.tasks.records(since=now - 1) if task.hour == now - 1]
 
 
 def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
@@ -114,7 +128,14 @@ def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
         "human/intention",
         IntentionReply,
         at=Address(ctx.persona.id, clock.day, clock.hour, "propose"),
-        variables={**known(state, ctx), "rooms": ctx.home.rooms, "states": ctx.home.states(), "today": state["today"]},
+        variables={
+            **known(state, ctx),
+            **living(ctx, clock),
+            "rooms": ctx.home.rooms,
+            "states": ctx.home.states(),
+            "today": state["today"],
+            "may_go_on": ctx.living.lasting and bool(state["today"]),
+        },
     )
 
 
@@ -132,6 +153,7 @@ def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:
             **who(ctx),
             "rooms": ctx.home.rooms,
             "hours": [hour_label(hour) for hour in hours],
+            **living(ctx, dawn),
         },
     )
     if len(reply.intentions) != len(hours):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from coopera.core.changes import as_variables as as_variables_of_today
 from coopera.core.clock import Clock
 from coopera.core.hour import Task
 from coopera.graphs.players.player import HumanContext, HumanState
@@ -25,6 +26,11 @@ def who(ctx: HumanContext) -> dict[str, Any]:
         "big_five": persona.big_five.model_dump(),
         "profile": ctx.model.profile(persona),
     }
+
+
+def living(ctx: HumanContext, clock: Clock) -> dict[str, Any]:
+    """What is different these days, and whether the person may leave the home."""
+    return {"changes": as_variables_of_today(ctx.changes(clock), clock.day), "may_leave": ctx.living.absence}
 
 
 def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:

@@ -76,7 +76,7 @@ def account_of(
     """The person's account of a day: the true intentions and tasks, and the feedback; failed hours are left out."""
     answers: dict[int, list[FeedbackItem]] = {}
     for item in feedback:
-        answers.setdefault(item.hour, []).append(item)
+        answers.setdefault(item.hour, []).append(item.model_copy(update={"slip": False}))
     lived = [
         HourAccount(
             hour=hour.hour,

@@ -17,10 +17,12 @@ from pydantic import AfterValidator, Field, ValidationError, ValidationInfo, fie
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
+from coopera.core.time_use import Category
 
 SHIPPED = Path(__file__).parents[1] / "household.yaml"
 FIRST, LAST = 9, 21
 """The hours of day that the activities' curves cover, both inclusive."""
+HOUR = 60  # minutes
 
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
 _MOVED = (
@@ -43,6 +45,16 @@ Loadings = Annotated[dict[str, Annotated[float, Field(ge=-1, le=1)]], AfterValid
 """What a trait above its middle adds to something, by trait."""
 
 
+def _within_an_hour(uses: dict[Category, int]) -> dict[Category, int]:
+    if sum(uses.values()) > HOUR:
+        raise ValueError(f"the minutes of an hour are {HOUR}, not {sum(uses.values())}")
+    return uses
+
+
+Uses = Annotated[dict[Category, Annotated[int, Field(ge=1, le=HOUR)]], AfterValidator(_within_an_hour)]
+"""What an hour of something is spent on: minutes by category, at most 60 in all."""
+
+
 class Activity(Frozen):
     """One thing that people do at home; the fields are explained at the head of household.yaml."""
 
@@ -58,6 +70,13 @@ class Activity(Frozen):
     follows: tuple[str, ...] = ()
     big_five: Loadings = {}
     source: Text
+    uses: Uses = {}
+    lasts: Annotated[float, Field(ge=1, le=12)] = 1.0
+    daily: Annotated[float, Field(ge=0, le=1)] = 0.0
+    instead: tuple[str, ...] = ()
+    after: dict[str, Annotated[float, Field(ge=0, le=1)]] = {}
+    away: bool = False
+    timing: Text | None = None
     assumed: tuple[str, ...] = ()
     dirty: tuple[Text, ...] = ()
     repeatable: bool = False
@@ -77,6 +96,16 @@ class Activity(Frozen):
         if strange := sorted(set(assumed) - set(info.data.get("big_five", assumed))):
             raise ValueError(f"{strange[0]!r} has no loading in big_five")
         return assumed
+
+    @cached_property
+    def category(self) -> Category:
+        """The category that takes most of its hour."""
+        return max(self.uses, key=lambda name: (self.uses[name], name), default="other")
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether it fills its hour, so that it may flow around what is shorter."""
+        return not self.uses or sum(self.uses.values()) == HOUR
 
     @cached_property
     def all_motions(self) -> tuple[str, ...]:
@@ -236,9 +265,14 @@ def _double_wordings(household: Household) -> Iterator[str]:
 
 def _unknowns(household: Household) -> Iterator[str]:
     for activity in household.activities:
-        for other in activity.follows:
-            if other not in household.index:
-                yield f"activity {activity.id!r}, field 'follows': there is no activity {other!r}"
+        for field, others in (
+            ("follows", activity.follows),
+            ("instead", activity.instead),
+            ("after", tuple(activity.after)),
+        ):
+            for other in others:
+                if other not in household.index:
+                    yield f"activity {activity.id!r}, field {field!r}: there is no activity {other!r}"
         fields = {f"things.{thing}": motion for thing, motion in activity.things.items()}
         for field, motion in [*fields.items(), *(("motions", motion) for motion in activity.motions)]:
             if motion not in household.looks_like:

@@ -9,14 +9,16 @@ import numpy as np
 from typing_extensions import TypedDict
 
 from coopera.core.errors import ModelCallError
-from coopera.core.household import FreeMotion, PickPlace
+from coopera.core.household import FreeMotion, PickPlace, plain
 from coopera.models.offline.household.knowledge import Activity
+from coopera.models.offline.household.offers import wants
 from coopera.models.offline.household.placing import Placement, feasible_places, fill_up, makeshift_places, placement
 from coopera.models.offline.household.reading import Memory, Piece, Surroundings, clip, weighted_order
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human.person import PrivateLife
 
 STAY = 0.5  # chance to stay at the main spot for the next task
+DONE = 0.02  # weight of what was done in the hour that is gone on from: other steps come now
 AWAY = 0.15  # weight of a spot in another room than the main one
 
 
@@ -44,8 +46,10 @@ def person_placements(
         return next(piece for piece in pieces if piece.name == name)
 
     count, weights = int(variables["n_tasks"]), person.place_weights(activity)
+    done = {(want.thing, want.spot) for want in wants(variables.get("so_far", ()))}
     feasible = feasible_places(activity, fixed, movable)
-    order = weighted_order([float(weights[i]) for i in feasible], rng)
+    again = [DONE if tuple(map(plain, activity.places[i])) in done else 1.0 for i in feasible]
+    order = weighted_order([float(weights[i]) * once for i, once in zip(feasible, again, strict=True)], rng)
     chosen: list[Placement] = []
     for index in (feasible[i] for i in order[:count]):
         chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], pick))

@@ -1,7 +1,8 @@
 """What is private to a person: likings, own hours, favourite things. Only the person's side may import this.
 
-The profile text, the Big Five and the person's id determine all of it. The text and the traits say which activities
-attract the person. The id seeds the rest: a liking without reason, the habitual hour, the favourite mug.
+The profile text and the Big Five determine all of it; under another id and name somebody is the same. The text and the
+traits say which activities attract the person. The text seeds the rest, too: a liking without reason, the habitual
+hour, the favourite mug.
 """
 
 from __future__ import annotations
@@ -9,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coopera.core.affordances import affordances
 from coopera.core.people import BigFive
 from coopera.core.randomness import rng_at
-from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Floats
+from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Floats, Household, key
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.household.statements import Statements, statements
+from coopera.models.offline.human.rhythm import Rhythm, Schedule, due_by_hour, of_day_type, shipped_rhythm
 
 TEXT_PULL = 0.95  # logits per standard deviation of affinity over the activities
 TRAIT_PULL = 1.1  # logits per point of (trait - 3) x loading 1
@@ -26,6 +29,7 @@ HABIT = 1.6  # logits that the habitual hour of an activity gains
 EVIDENCE = 0.17  # by how much a sentence must be nearer to an activity than such sentences and activities are
 SPOT_FAVOUR = 0.7  # scale of the favourites among spots, which custom decides more than taste
 FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of ten things carry most of the weight
+_SET_HOURS = ("sleep_in", "desk_work", "work_out_of_home", "school")
 TOUCHES = 0.3  # share of the activities whose intention a person words with a touch of their own
 
 _TOUCHES = {
@@ -46,9 +50,11 @@ _TOUCHES = {
 class PrivateLife:
     """One person's private parameters. Arrays are in the household file's order of activities."""
 
-    def __init__(self, sense: CommonSense, person: str, profile: str, big_five: BigFive) -> None:
+    def __init__(self, sense: CommonSense, profile: str, big_five: BigFive, rhythm: Rhythm | None = None) -> None:
         self._sense = sense
-        self._id = person
+        self._rhythm = rhythm or shipped_rhythm()
+        self.household: Household = sense.household
+        self._who = key(profile)
         self.big_five = big_five
         self.said: Statements = statements(profile)
         self._fit = self._closeness(self.said.habits)
@@ -60,6 +66,44 @@ class PrivateLife:
         """Logits by which this person prefers each activity, whatever the hour."""
         self.own_hours = self._own_hours()
         """Log weights of each activity by hour of the day, as this person lives; shape (activities, 24)."""
+        self._usual = self._rhythm.hours_of(sense.household) + (self.own_hours - sense.household.log_hours)
+        self.schedule: Schedule | None = self._drawn_schedule()
+        """The hours of work or school, for those who have such."""
+        self.daily: tuple[int, ...] = self._own_needs()
+        """Places of what belongs to each day: meals, and this person's way to wash."""
+        self._due = {index: self._due_by_hour(index) for index in self.daily}
+        self.can_do = np.ones(len(sense.household.activities), dtype=bool)
+        """What the facts that the person states allow; shape (activities,)."""
+        self.set_hours = self._has_set_hours()
+        """What is done at its own hours, and not because somebody feels like it; shape (activities,)."""
+        self._late = self._lateness()
+
+    def wish(self, weekday: int, hour: int) -> Floats:
+        """Logits of each activity for this person in a free hour; shape (activities,)."""
+        return np.asarray(self._usual[of_day_type(weekday), :, hour] + self.pull, dtype=np.float64)
+
+    def due(self, index: int, hour: int) -> float:
+        """Chance that a need is met in an hour if it was not before."""
+        return float(self._due[index][hour])
+
+    def serves(self, index: int) -> tuple[int, ...]:
+        """Places of what meets the same need."""
+        same = {self.household.activities[index].id, *self.household.activities[index].instead}
+        return tuple(
+            i for i, one in enumerate(self.household.activities) if one.id in same or same & {one.id, *one.instead}
+        )
+
+    def occupation(self, *, absence: bool) -> int | None:
+        """Place of what fills the hours of work: at home, or away where people may be."""
+        return self.household.index.get("desk_work") if self.schedule else None
+
+    def asleep(self, weekday: int, hour: int, *, already: bool) -> float:
+        """Chance to be asleep in an hour of the morning, given that one was until then."""
+        share = self._rhythm.morning_sleep[of_day_type(weekday)]
+        share = np.maximum(share - share[FIRST + 4], 0.0)  # who sleeps at 13 o'clock has not slept late, but naps
+        if not already:
+            return float(np.clip(share[hour] * self._late, 0.0, 0.97)) if hour == FIRST else 0.0
+        return float(np.clip(share[hour] / max(share[hour - 1], 1e-9) * self._late**0.5, 0.0, 0.97))
 
     def wording(self, activity: Activity, rng: np.random.Generator) -> str:
         """Word an intention as this person does: mostly one or two wordings, some with a touch of their own."""
@@ -150,6 +194,37 @@ class PrivateLife:
         bump = np.exp(-0.5 * ((hours[None, :] - habitual[:, None]) / width) ** 2)
         return np.asarray(curves + (HABIT + 0.25 * order) * bump, dtype=np.float64)
 
+    def _drawn_schedule(self) -> Schedule | None:
+        """Draw the hours of work from those of the population."""
+        schedules = self._rhythm.schedules
+        shares = np.array([one.share for one in schedules])
+        place = int(np.searchsorted(np.cumsum(shares), self._rng("schedule").random()))
+        return schedules[place] if place < len(schedules) else None
+
+    def _own_needs(self) -> tuple[int, ...]:
+        """What this person does daily; where something else serves as well, one of them is their habit."""
+        own = []
+        for activity in self.household.activities:
+            if activity.daily:
+                ways = [activity.id, *activity.instead]
+                own.append(self.household.index[ways[int(self._rng("way", activity.id).integers(len(ways)))]])
+        return tuple(own)
+
+    def _due_by_hour(self, index: int) -> Floats:
+        daily = max(self.household.activities[i].daily for i in self.serves(index))
+        return due_by_hour(np.exp(self.own_hours[index]) - 0.005, daily)
+
+    def _has_set_hours(self) -> NDArray[np.bool_]:
+        own = [self.household.index[name] for name in _SET_HOURS if name in self.household.index]
+        mask = np.zeros(len(self.household.activities), dtype=bool)
+        mask[[*own, *self.daily]] = True
+        return mask
+
+    def _lateness(self) -> float:
+        """How much likelier than others this person sleeps late; conscientious people rise earlier (Tsaousis 2010)."""
+        z = float(self._rng("lateness").normal()) - 0.5 * (self.big_five.conscientiousness - 3.0)
+        return float(np.exp(0.7 * z - 0.25))
+
     def _touch(self, activity: Activity) -> str:
         rng = self._rng("touch", activity.id)
         scores = self.big_five.model_dump()
@@ -164,4 +239,4 @@ class PrivateLife:
         return np.asarray(weights / weights.sum(), dtype=np.float64)
 
     def _rng(self, *what: str) -> np.random.Generator:
-        return rng_at(0, "private life", self._id, *what)
+        return rng_at(0, "private life", self._who, *what)

@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from coopera.core.affordances import affordances
-from coopera.core.clock import hour_label
+from coopera.core.clock import WEEKDAYS, hour_label
 from coopera.core.people import Frozen
 from coopera.core.randomness import rng_at
 from coopera.core.replies import DayReply, IntentionReply
@@ -18,14 +17,11 @@ from coopera.models.offline.household.reading import Memory, big_five_of, class_
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import big_five, persona, verdicts
 from coopera.models.offline.human import tasks as human_tasks
+from coopera.models.offline.human.circumstances import circumstances, speaks_for
 from coopera.models.offline.human.person import PrivateLife
+from coopera.models.offline.human.routine import Choice, Done, Moment, Why, choose
 
-USUAL_TEMPERATURE = 0.7  # PAPER App. A: proposing at 0.7; the logits are meant for it
-NEXT = 0.9  # logits for an activity that tends to follow what was done last
-LATER = 0.25  # the same for what was done before that
 DIRTY = 0.5  # logits for what makes something clean that is dirty
-AGAIN_AFTER = 3  # hours until a repeatable activity may come again
-NEVER = -1e9
 
 
 class Human:
@@ -35,7 +31,7 @@ class Human:
 
     def __init__(self, sense: CommonSense) -> None:
         self._sense = sense
-        self._lives: dict[tuple[str, str, str], PrivateLife] = {}
+        self._lives: dict[tuple[str, str], PrivateLife] = {}
 
     def answer(self, prompt: str, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> Frozen:
         """Answer one prompt.
@@ -56,56 +52,57 @@ class Human:
 
     def _life(self, variables: Mapping[str, Any]) -> PrivateLife:
         traits = big_five_of(variables["big_five"])
-        key = (str(variables["person"]), str(variables["profile"]), str(traits))
+        key = (str(variables["profile"]), str(traits))
         if key not in self._lives:
-            self._lives[key] = PrivateLife(self._sense, key[0], key[1], traits)
+            self._lives[key] = PrivateLife(self._sense, key[0], traits)
         return self._lives[key]
 
     def _intention(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> IntentionReply:
         life, hour = self._life(variables), int(variables["hour"])
         rng = _in_these_rooms(rng, variables["rooms"])
         today = memories(variables["today"], hour)
-        wish = life.pull + life.own_hours[:, hour] + self._flow(today) + self._called_for(variables["states"])
-        activity = self._draw(wish, self._allowed(today, variables["rooms"]), rng, temperature)
+        moment = self._moment(variables, hour, today, lasting=bool(variables["may_go_on"]))
+        choice = choose(life, moment, rng, temperature)
+        activity = self._sense.household.activities[choice.activity]
         return IntentionReply(
-            intention=clip(life.wording(activity, rng), 300),
-            reason_human=clip(self._why(life, activity, hour), 400),
-            reason_intentions=clip(self._since(activity, today), 400),
+            intention=clip(_anew(life, activity, rng, today), 300),
+            reason_human=clip(self._why(life, activity, choice, hour, variables["changes"]), 400),
+            reason_intentions=clip(self._since(activity, choice, today), 400),
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
+            continues=choice.continues,
+            away=activity.away,
         )
 
     def _day(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> DayReply:
-        """A day planned at once: each hour for itself, since nothing has been done yet that could lead on to it.
-
-        What stands in the plan is not planned again, unless it is repeatable and three hours old.
-        """
+        """A day planned at once; what was not done yet cannot leave anything behind, such as dirty dishes."""
         life = self._life(variables)
         rng = _in_these_rooms(rng, variables["rooms"])
         planned: list[tuple[int, str]] = []
         replies: list[IntentionReply] = []
         for hour in map(hour_of, variables["hours"]):
             so_far = [Memory(text, then, hour - then, today=True) for then, text in planned]
-            allowed = self._allowed(so_far, variables["rooms"])
-            activity = self._draw(life.pull + life.own_hours[:, hour], allowed, rng, temperature)
+            moment = self._moment({**variables, "states": {}}, hour, so_far, lasting=False)
+            choice = choose(life, moment, rng, temperature)
+            activity = self._sense.household.activities[choice.activity]
             text = clip(life.wording(activity, rng), 300)
             planned.append((hour, text))
-            replies.append(IntentionReply(intention=text, reason_human=clip(self._why(life, activity, hour), 400)))
+            why = self._why(life, activity, choice, hour, variables["changes"])
+            replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away))
         return DayReply(intentions=replies)
 
-    def _draw(self, wish: Floats, allowed: NDArray[np.bool_], rng: np.random.Generator, temperature: float) -> Activity:
-        """Draw an activity from logits that are meant for the usual temperature."""
-        logits = np.where(allowed, wish * USUAL_TEMPERATURE / max(temperature, 0.01), NEVER)
-        weights = np.exp(logits - logits.max())
-        choice = int(rng.choice(len(weights), p=weights / weights.sum()))
-        return self._sense.household.activities[choice]
-
-    def _flow(self, today: Sequence[Memory]) -> Floats:
-        """Logits for what tends to follow the day so far, the last activity most."""
-        household = self._sense.household
-        total = np.zeros(len(household.activities))
-        for memory, weight in zip(reversed(today), (NEXT, LATER, LATER), strict=False):
-            total = total + weight * household.follow_matrix[self._sense.index(memory.text)]
-        return total
+    def _moment(self, variables: Mapping[str, Any], hour: int, today: Sequence[Memory], *, lasting: bool) -> Moment:
+        activities = self._sense.household.activities
+        kinds = {room_kind(room) for room in variables["rooms"]}
+        changed = circumstances(self._sense.household, variables["changes"])
+        return Moment(
+            hour=hour,
+            weekday=WEEKDAYS.index(str(variables["weekday"])),
+            today=[Done(self._sense.index(memory.text), memory.hour) for memory in today],
+            lasting=lasting,
+            absence=bool(variables["may_leave"]),
+            possible=np.array([bool(kinds.intersection(activity.rooms)) for activity in activities]) & changed.can_do,
+            extra=changed.pull + self._called_for(variables["states"]),
+        )
 
     def _called_for(self, states: Mapping[str, str]) -> Floats:
         """Logits for what is done about something that is dirty at home."""
@@ -113,47 +110,49 @@ class Human:
         wants = [any(affordances().is_one_of(cls, a.dirty) for cls in dirty) for a in self._sense.household.activities]
         return DIRTY * np.array(wants, dtype=np.float64)
 
-    def _allowed(self, today: Sequence[Memory], rooms: Sequence[str]) -> NDArray[np.bool_]:
-        """Nothing of today again, unless it is repeatable and three hours old; only what the home has rooms for.
-
-        After what closes a day, only what that leads on to.
-        """
-        activities = self._sense.household.activities
-        kinds = {room_kind(room) for room in rooms}
-        possible = np.array([bool(kinds.intersection(activity.rooms)) for activity in activities])
-        fresh = np.ones(len(activities), dtype=bool)
-        for memory in today:
-            index = self._sense.index(memory.text)
-            fresh[index] &= activities[index].repeatable and memory.hours_ago >= AGAIN_AFTER
-            if activities[index].closes:
-                fresh &= self._sense.household.follow_matrix[index] > 0
-        for mask in (possible & fresh, fresh):
-            if mask.any():
-                return mask
-        return np.ones(len(activities), dtype=bool)
-
-    def _why(self, life: PrivateLife, activity: Activity, hour: int) -> str:
-        parts = []
+    def _why(self, life: PrivateLife, activity: Activity, choice: Choice, hour: int, changes: Sequence[Any]) -> str:
+        """The person's own words where they bear on it, what is different today, their traits; else that it is a habit."""
+        parts = [str(change["text"]) for change in changes if speaks_for(change, activity)][:1]
         if sentence := life.evidence(activity):
             parts.append(f'I say of myself: "{sentence.rstrip(".")}".')
-        if found := life.strongest_trait(activity):
+        if choice.why == "wish" and (found := life.strongest_trait(activity)):
             trait, score = found
             parts.append(f"My {trait} of {score:.1f} speaks for it.")
-        if not parts and life.liking[self._sense.household.index[activity.id]] > 0.4:
-            parts.append("I simply have a liking for it.")
-        own = life.own_hours[self._sense.household.index[activity.id]]
-        if own[hour] >= own[9:22].max() - 0.5:
-            parts.append("This is my usual time for it.")
-        return " ".join(parts) or "It is a usual thing to do at this hour."
+        if not parts or choice.why != "wish":
+            parts.append(_HABIT[choice.why])
+        return " ".join(parts)
 
-    def _since(self, activity: Activity, today: Sequence[Memory]) -> str:
+    def _since(self, activity: Activity, choice: Choice, today: Sequence[Memory]) -> str:
         if not today:
             return "Nothing has been done yet today."
+        if choice.continues:
+            return "It takes longer than an hour, and I am not done with it."
         for memory in reversed(today[-3:]):
             before = self._sense.recognise(memory.text).activity
-            if activity.id in before.follows:
+            if activity.id in before.follows or before.id in activity.after:
                 return f'It comes naturally after "{memory.text}" at {hour_label(memory.hour)}.'
         return f'I have done "{today[-1].text}" at {hour_label(today[-1].hour)} and want to do something else now.'
+
+
+_HABIT: dict[Why, str] = {
+    "need": "It is a habit: it belongs to each of my days, at about this hour.",
+    "work": "It is a habit: these are my hours for it.",
+    "going on": "It is a habit: I seldom stop after an hour.",
+    "chore": "It is a habit: it has to be done after what came before.",
+    "asleep": "It is a habit: I am not up at this hour.",
+    "wish": "It is a habit of mine.",
+}
+_TRIES = 6
+
+
+def _anew(life: PrivateLife, activity: Activity, rng: np.random.Generator, today: Sequence[Memory]) -> str:
+    """Word an intention; what goes on from the hour before is put in other words, if the person has any."""
+    text = life.wording(activity, rng)
+    for _ in range(_TRIES):
+        if not today or text != today[-1].text:
+            break
+        text = life.wording(activity, rng)
+    return text
 
 
 def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random.Generator:

@@ -16,7 +16,7 @@ from coopera.models.offline.household.placing import free_motion, spots, usable
 from coopera.models.offline.household.reading import Piece, Surroundings, clip, memories, weighted_order
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import own_steps, reflection
-from coopera.models.offline.human.choosing import favourite_spot, known, person_placements, reasons
+from coopera.models.offline.human.choosing import DONE, favourite_spot, known, person_placements, reasons
 from coopera.models.offline.human.person import PrivateLife
 
 AGAIN = 1.6  # weight of a thing that was already used today, against one that was not
@@ -67,7 +67,9 @@ def free_motions(
         raise ModelCallError("human/tasks_type2: the home has no fixed object to make a task of")
     names = activity.thing_names
     used = sense.mentioned(" ".join(memory.text for memory in before), names)
-    weights = person.thing_weights(activity) * [AGAIN if name in used else 1.0 for name in names]
+    done = sense.mentioned(" ".join(variables["so_far"]), names)
+    again = [DONE if name in done else AGAIN if name in used else 1.0 for name in names]
+    weights = person.thing_weights(activity) * again
     count = min(int(variables["n_tasks"]), len(names))
     drawn = weighted_order(weights, rng)
     doable = [i for i in drawn if usable(activity, names[i], options)]

@@ -50,6 +50,16 @@ class WordEmbeddings(Embeddings):
 
 
 WORDS = WordEmbeddings()
+_NOTHING: dict[str, Any] = {
+    "steps": [],
+    "so_far": [],
+    "seen": None,
+    "can": {},
+    "states": {},
+    "changes": [],
+    "may_go_on": False,
+    "may_leave": False,
+}
 
 
 @lru_cache(maxsize=3)
@@ -63,7 +73,7 @@ def ask(prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: An
 
 
 def ask_model(chat: OfflineChatModel, prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: Any) -> Any:
-    for name, nothing in (("steps", []), ("seen", None), ("can", {}), ("states", {})):
+    for name, nothing in _NOTHING.items():
         if name in ASKS[prompt].variables:
             variables.setdefault(name, nothing)
     assert set(variables) == set(ASKS[prompt].variables)
@@ -182,11 +192,10 @@ _ALL: dict[str, Any] = {
     "movable": MOVABLE,
     "motions": [],
     "can": {},
-    "states": {},
+    **_NOTHING,
     "n_tasks": 3,
     "n_intentions": 4,
     "findings": [],
-    "steps": [],
     "guesses": ["Make a homemade treat", "Take a short nap"],
     "offers": [{"thought": "useful", "text": "bring the whisk"}],
     "percept": percept(),

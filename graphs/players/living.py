@@ -1,0 +1,22 @@
+"""How people live, whoever plays them: whether things last, whether they leave the home, and what becomes different."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from coopera.core.changes import Changes, no_changes
+
+
+@dataclass(frozen=True, slots=True)
+class Living:
+    """A way of living; as it stands here, the paper's.
+
+    Attributes:
+        lasting: Whether an intention may go on for hours; else each hour has one of its own (PAPER §3.2).
+        absence: Whether people are away from home at times; those hours have neither tasks nor a robot.
+        changes: What is different for a person on a day of theirs.
+    """
+
+    lasting: bool = False
+    absence: bool = False
+    changes: Changes = no_changes
