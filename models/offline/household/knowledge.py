@@ -12,11 +12,12 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 import yaml
 from numpy.typing import NDArray
-from pydantic import AfterValidator, Field, ValidationError, ValidationInfo, field_validator
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, ValidationInfo, field_validator
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
+from coopera.core.time_use import CATEGORIES, Category
 
 SHIPPED = Path(__file__).parents[1] / "household.yaml"
 FIRST, LAST = 9, 21
@@ -43,6 +44,26 @@ Loadings = Annotated[dict[str, Annotated[float, Field(ge=-1, le=1)]], AfterValid
 """What a trait above its middle adds to something, by trait."""
 
 
+def _known_categories(minutes: Any) -> Any:
+    if isinstance(minutes, dict) and (unknown := [name for name in minutes if name not in CATEGORIES]):
+        raise ValueError(f"{unknown[0]!r} is not one of {', '.join(CATEGORIES)}")
+    return minutes
+
+
+def _within_an_hour(minutes: dict[Category, int]) -> dict[Category, int]:
+    if sum(minutes.values()) > 60:
+        raise ValueError(f"the minutes are {sum(minutes.values())} in all, at most 60")
+    return minutes
+
+
+Minutes = Annotated[
+    dict[Category, Annotated[int, Field(strict=True, ge=1, le=60)]],
+    BeforeValidator(_known_categories),
+    AfterValidator(_within_an_hour),
+]
+"""Minutes of an hour by category of time use, 60 in all at most."""
+
+
 class Activity(Frozen):
     """One thing that people do at home; the fields are explained at the head of household.yaml."""
 
@@ -63,6 +84,7 @@ class Activity(Frozen):
     repeatable: bool = False
     need: bool = False
     closes: bool = False
+    uses: Minutes = {}
 
     @field_validator("hours")
     @classmethod
@@ -77,6 +99,11 @@ class Activity(Frozen):
         if strange := sorted(set(assumed) - set(info.data.get("big_five", assumed))):
             raise ValueError(f"{strange[0]!r} has no loading in big_five")
         return assumed
+
+    @cached_property
+    def minutes(self) -> dict[Category, int]:
+        """What an hour of it counts as, by category of time use; where the file says nothing, 60 minutes of "other"."""
+        return self.uses or {"other": 60}
 
     @cached_property
     def all_motions(self) -> tuple[str, ...]:
