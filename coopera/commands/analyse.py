@@ -16,6 +16,7 @@ from coopera.commands.options import AsJson, RunPath
 if TYPE_CHECKING:
     from langchain_core.embeddings import Embeddings
 
+    from coopera.core.people import PersonId
     from coopera.evaluation.people.figures import Figure
     from coopera.evaluation.people.learners import Learner
     from coopera.studies.goals import After, JudgedDay
@@ -40,35 +41,57 @@ def analyse_humans(
     generic: Annotated[
         str | None, typer.Option(metavar="ID", help="Who in these runs has no real profile. [default: nobody]")
     ] = None,
+    time_use: Annotated[
+        str | None,
+        typer.Option(
+            "--time-use",
+            metavar="TABLE.csv",
+            help="Also compare their hours with a table of time use; `shipped` is the American survey of 2022-23.",
+        ),
+    ] = None,
+    stratum: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Of the table; of the shipped one O1 (employed, 25-44) or O2 (retired, 65+). [default: each]",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of shuffles, resamples and the user studies.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where the results go.")] = Path("analysis"),
     as_json: AsJson = False,
 ) -> None:
     """Check whether the people in some runs are distinct, diverse, coherent, consistent in time and lifelike.
 
-    Writes people.json, people.csv, people.md and people.png, and material for the two user studies.
+    Writes people.json, people.csv, people.md and people.png, and material for the two user studies. With --time-use
+    also time-use.csv and time-use.png.
     """
+    from coopera.commands.time_use import compare, open_table
     from coopera.rundir.lives import read_lives, read_recorded
 
+    real = open_table(time_use, stratum)
     found = read_lives(runs or [])
     everybody = sorted({person for lives in found.variants.values() for person in lives.people})
     logs = read_recorded(recorded or [], everybody)
-    if generic is not None and generic not in everybody:
-        from coopera.core.errors import ConfigError
-
-        raise ConfigError(f"--generic: {generic!r} lives in none of these runs ({', '.join(everybody)}).")
-    from coopera.core.people import PersonId
+    nobody = _without_profile(generic, everybody)
     from coopera.evaluation.people.analysis import Checks, analyse_people, without
     from coopera.evaluation.people.plot import draw
     from coopera.evaluation.people.studies import make_study
     from coopera.report.study_forms import write_study
     from coopera.rundir.lives import write_results
 
-    nobody = PersonId(generic) if generic else None
     with _open(encoder, finetune, seed) as (embeddings, learner):
         checks = Checks(learner, embeddings, logs, nobody, seed, lambda what: typer.echo(what, err=True))
         figures = analyse_people(found.variants, checks)
-    given = {"--encoder": encoder, "--generic": generic, "--seed": seed or None}
+    people = {variant: without(lives, nobody) for variant, lives in found.variants.items()}
+    compared = compare(people, real, seed=seed, tell=checks.tell) if real else None
+    figures += compared.figures if compared else []
+    given = {
+        "--encoder": encoder,
+        "--generic": generic,
+        "--time-use": time_use,
+        "--stratum": stratum,
+        "--seed": seed or None,
+    }
     words = [str(word) for flag, value in given.items() if value is not None for word in (flag, value)]
     words += [word for log in recorded or [] for word in ("--recorded", str(log))] + ["--finetune"] * finetune
     command = shlex.join(["coopera", "analyse", "humans", *map(str, runs or []), *words, "--out", str(out)])
@@ -80,15 +103,29 @@ def analyse_humans(
         "collab": found.collab,
         "seed": seed,
         "runs": [source._asdict() for source in found.sources],
+        **({"time_use": {"table": time_use, "strata": real.strata, "source": real.source}} if real else {}),
     }
     write_results(out, figures, about)
     days = sum(len(lives.days) for lives in found.variants.values())
-    draw(figures, out / "people.png", f"{found.model}; {days} days, run seeds {seeds}; {learner.name}; {command}")
-    first = without(next(iter(found.variants.values())), nobody)
-    made = make_study(first, seed=seed)
+    made_of = f"{found.model}; {days} days, run seeds {seeds}"
+    draw(figures, out / "people.png", f"{made_of}; {learner.name}; {command}")
+    if compared:
+        compared.write(out, f"{made_of}; {command}")
+    made = make_study(next(iter(people.values())), seed=seed)
     if made:
         write_study(out, made)
     _tell(figures, as_json=as_json, out=out, about=about, studies=made is not None)
+    if compared and not as_json:
+        typer.echo(compared.written_to(out))
+
+
+def _without_profile(generic: str | None, everybody: Sequence[PersonId]) -> PersonId | None:
+    from coopera.core.errors import ConfigError
+    from coopera.core.people import PersonId
+
+    if generic is not None and generic not in everybody:
+        raise ConfigError(f"--generic: {generic!r} lives in none of these runs ({', '.join(everybody)}).")
+    return PersonId(generic) if generic else None
 
 
 @app.command()
@@ -203,10 +240,11 @@ def _tell(
         data = {**(about or {}), "figures": [figure.model_dump() for figure in figures]}
         typer.echo(json.dumps(data | ({"out": str(out)} if out else {}), sort_keys=True))
         return
+    from coopera.evaluation.people.figures import IN_DETAIL
     from coopera.report.tables import print_table
     from coopera.rundir.lives import table
 
-    columns, *rows = table(figures)
+    columns, *rows = table([figure for figure in figures if figure.check not in IN_DETAIL])
     print_table(columns, rows)
     if out:
         typer.echo(f"Results: {out}/people.json, people.csv, people.md, people.png")

@@ -116,6 +116,17 @@ def write_results(folder: Path, figures: Sequence[Figure], about: Mapping[str, A
     write_output(folder / "people.md", "".join(f"| {' | '.join(cells)} |\n" for cells in lines))
 
 
+def write_rows(path: Path, rows: Sequence[NamedTuple], columns: Sequence[str]) -> None:
+    """Write a CSV file with a header.
+
+    Raises:
+        ConfigError: If it cannot be written.
+    """
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
+    write_output(path, text.getvalue())
+
+
 def table(figures: Sequence[Figure]) -> list[list[str]]:
     """The figures as people read them: a row of headings, then one row each."""
 

@@ -13,6 +13,9 @@ Unit = TypeVar("Unit")
 FULL = "full"
 """The person as the paper simulates it; every other variant is an ablation."""
 
+IN_DETAIL = ("time use by category",)
+"""Checks of many figures, in hours of the day: they stand in the files alone, not on the screen nor in the picture."""
+
 
 class Figure(Frozen):
     """One measured number.

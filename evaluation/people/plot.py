@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from coopera.evaluation.people.figures import FULL, Figure
+from coopera.evaluation.people.figures import FULL, IN_DETAIL, Figure
 
 _INK, _OURS, _PAPER, _CONTROL, _ABLATION = "#222222", "#1f6f8b", "#d1495b", "#9a9a9a", "#8fb9c6"
 
@@ -15,7 +15,7 @@ def draw(figures: Sequence[Figure], path: Path, caption: str) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415 - heavy
     from matplotlib.figure import Figure as Picture  # noqa: PLC0415
 
-    rows = [figure for figure in figures if figure.value is not None]
+    rows = [figure for figure in figures if figure.value is not None and figure.check not in IN_DETAIL]
     picture = Picture(figsize=(9.0, 1.5 + 0.36 * max(len(rows), 1)), layout="constrained")
     FigureCanvasAgg(picture)
     axes = picture.subplots()

@@ -12,12 +12,12 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 import yaml
 from numpy.typing import NDArray
-from pydantic import AfterValidator, Field, ValidationError, ValidationInfo, field_validator
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, ValidationInfo, field_validator
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
-from coopera.core.time_use import Category
+from coopera.core.time_use import CATEGORIES, Category
 
 SHIPPED = Path(__file__).parents[1] / "household.yaml"
 FIRST, LAST = 9, 21
@@ -45,14 +45,24 @@ Loadings = Annotated[dict[str, Annotated[float, Field(ge=-1, le=1)]], AfterValid
 """What a trait above its middle adds to something, by trait."""
 
 
-def _within_an_hour(uses: dict[Category, int]) -> dict[Category, int]:
-    if sum(uses.values()) > HOUR:
-        raise ValueError(f"the minutes of an hour are {HOUR}, not {sum(uses.values())}")
-    return uses
+def _known_categories(minutes: Any) -> Any:
+    if isinstance(minutes, dict) and (unknown := [name for name in minutes if name not in CATEGORIES]):
+        raise ValueError(f"{unknown[0]!r} is not one of {', '.join(CATEGORIES)}")
+    return minutes
 
 
-Uses = Annotated[dict[Category, Annotated[int, Field(ge=1, le=HOUR)]], AfterValidator(_within_an_hour)]
-"""What an hour of something is spent on: minutes by category, at most 60 in all."""
+def _within_an_hour(minutes: dict[Category, int]) -> dict[Category, int]:
+    if sum(minutes.values()) > HOUR:
+        raise ValueError(f"the minutes are {sum(minutes.values())} in all, at most {HOUR}")
+    return minutes
+
+
+Minutes = Annotated[
+    dict[Category, Annotated[int, Field(strict=True, ge=1, le=HOUR)]],
+    BeforeValidator(_known_categories),
+    AfterValidator(_within_an_hour),
+]
+"""Minutes of an hour by category of time use, 60 in all at most."""
 
 
 class Activity(Frozen):
@@ -70,7 +80,7 @@ class Activity(Frozen):
     follows: tuple[str, ...] = ()
     big_five: Loadings = {}
     source: Text
-    uses: Uses = {}
+    uses: Minutes = {}
     lasts: Annotated[float, Field(ge=1, le=12)] = 1.0
     daily: Annotated[float, Field(ge=0, le=1)] = 0.0
     instead: tuple[str, ...] = ()
@@ -100,12 +110,17 @@ class Activity(Frozen):
     @cached_property
     def category(self) -> Category:
         """The category that takes most of its hour."""
-        return max(self.uses, key=lambda name: (self.uses[name], name), default="other")
+        return max(self.minutes, key=lambda name: (self.minutes[name], name))
 
     @cached_property
     def whole(self) -> bool:
         """Whether it fills its hour, so that it may flow around what is shorter."""
-        return not self.uses or sum(self.uses.values()) == HOUR
+        return sum(self.minutes.values()) == HOUR
+
+    @cached_property
+    def minutes(self) -> dict[Category, int]:
+        """What an hour of it counts as, by category of time use; where the file says nothing, 60 minutes of "other"."""
+        return self.uses or {"other": 60}
 
     @cached_property
     def all_motions(self) -> tuple[str, ...]:

@@ -161,6 +161,12 @@ def test_a_correct_small_file_is_read(tmp_path: Path) -> None:
         ("wordings", ["Cook a proper dinner", "Eat"], r"field 'wordings'.*'Cook a proper dinner'"),
         ("things", {}, r"activity 'lunch', field 'things'"),
         ("colour", "red", r"activity 'lunch', field 'colour'"),
+        ("uses", {"gaming": 30}, r"activity 'lunch', field 'uses': 'gaming' is not one of sleeping"),
+        ("uses", {"eating": 0}, r"activity 'lunch', field 'uses.eating'.*1"),
+        ("uses", {"eating": 61}, r"activity 'lunch', field 'uses.eating'.*60"),
+        ("uses", {"eating": True}, r"activity 'lunch', field 'uses.eating'.*integer"),
+        ("uses", {"eating": 40, "tv": 30}, r"activity 'lunch', field 'uses': the minutes are 70 in all, at most 60"),
+        ("uses", ["eating"], r"activity 'lunch', field 'uses'.*dictionary"),
     ],
 )
 def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field: str, value: Any, said: str) -> None:
@@ -168,6 +174,16 @@ def test_a_mistake_is_refused_with_file_activity_and_field(tmp_path: Path, field
     with pytest.raises(ConfigError, match=said) as refused:
         load(path)
     assert str(path) in str(refused.value)
+
+
+def test_an_hour_of_an_activity_counts_as_it_says_or_as_other(tmp_path: Path) -> None:
+    def change(data: Any) -> None:
+        data["activities"][0].pop("uses", None)
+        data["activities"][1]["uses"] = {"eating": 30, "food_prep": 5}
+
+    breakfast, lunch, _ = load(_broken(tmp_path, change)).activities
+    assert breakfast.minutes == {"other": 60}
+    assert lunch.minutes == {"eating": 30, "food_prep": 5}
 
 
 def test_a_file_that_still_says_where_motions_are_done_is_told_where_that_now_stands(tmp_path: Path) -> None:
