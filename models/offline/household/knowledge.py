@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from itertools import chain, pairwise
 from pathlib import Path
@@ -18,6 +18,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
 from coopera.core.time_use import CATEGORIES, Category
+from coopera.models.offline.household.grammar import Template, cores, parse
 
 SHIPPED = Path(__file__).parents[1] / "household.yaml"
 FIRST, LAST = 9, 21
@@ -41,6 +42,13 @@ def _known_traits(loadings: dict[str, float]) -> dict[str, float]:
     return loadings
 
 
+def _grammatical(wording: str) -> str:
+    parse(wording)
+    return wording
+
+
+Wording = Annotated[str, AfterValidator(_grammatical)]
+"""A wording with or without alternatives, as `household.grammar` reads it."""
 Loadings = Annotated[dict[str, Annotated[float, Field(ge=-1, le=1)]], AfterValidator(_known_traits)]
 """What a trait above its middle adds to something, by trait."""
 
@@ -69,7 +77,7 @@ class Activity(Frozen):
     """One thing that people do at home; the fields are explained at the head of household.yaml."""
 
     id: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
-    wordings: Annotated[tuple[Text, ...], Field(min_length=2)]
+    wordings: tuple[Wording, ...]
     statement: Text
     hours: Annotated[tuple[Weight, ...], Field(min_length=LAST - FIRST + 1, max_length=LAST - FIRST + 1)]
     rooms: Annotated[tuple[Text, ...], Field(min_length=1)]
@@ -92,6 +100,13 @@ class Activity(Frozen):
     repeatable: bool = False
     need: bool = False
     closes: bool = False
+
+    @field_validator("wordings")
+    @classmethod
+    def _some_wordings(cls, wordings: tuple[str, ...]) -> tuple[str, ...]:
+        if sum(parse(wording).count for wording in wordings) < 2:
+            raise ValueError("at least two wordings are needed, or one with alternatives in braces")
+        return wordings
 
     @field_validator("hours")
     @classmethod
@@ -120,7 +135,21 @@ class Activity(Frozen):
     @cached_property
     def minutes(self) -> dict[Category, int]:
         """What an hour of it counts as, by category of time use; where the file says nothing, 60 minutes of "other"."""
-        return self.uses or {"other": 60}
+        return self.uses or {"other": HOUR}
+
+    @cached_property
+    def templates(self) -> tuple[Template, ...]:
+        """The wordings with their alternatives, in the file's order."""
+        return tuple(map(parse, self.wordings))
+
+    @cached_property
+    def canonical(self) -> tuple[str, ...]:
+        """One plain text for each wording, with the first of all alternatives."""
+        return tuple(template.canonical for template in self.templates)
+
+    def expansions(self) -> Iterator[str]:
+        """Yield every text in which the intention may be put, touches aside."""
+        return chain.from_iterable(template.expansions() for template in self.templates)
 
     @cached_property
     def all_motions(self) -> tuple[str, ...]:
@@ -157,6 +186,16 @@ class Household(Frozen):
     def index(self) -> dict[str, int]:
         """Place of each activity by id."""
         return {activity.id: i for i, activity in enumerate(self.activities)}
+
+    @cached_property
+    def by_wording(self) -> dict[str, Activity]:
+        """The activity of every text in which one may be put, by the text's `key`."""
+        return {said: activity for activity in self.activities for said in _keys(activity.expansions())}
+
+    def named(self, text: str) -> Activity | None:
+        """Return the activity that a text names by one of its wordings, with or without a person's touch around it."""
+        found = (self.by_wording.get(key(core)) for core in cores(text))
+        return next(filter(None, found), None)
 
     @cached_property
     def log_hours(self) -> Floats:
@@ -270,12 +309,15 @@ def _double_ids(activities: Sequence[Activity]) -> Iterator[str]:
 
 
 def _double_wordings(household: Household) -> Iterator[str]:
+    counted = sum(template.count for activity in household.activities for template in activity.templates)
+    if len(household.by_wording) == counted:
+        return
     seen: dict[str, str] = {}
     for activity in household.activities:
-        for wording in activity.wordings:
-            other = seen.setdefault(key(wording), activity.id)
-            if other != activity.id or len({key(text) for text in activity.wordings}) < len(activity.wordings):
-                yield f"activity {activity.id!r}, field 'wordings': {wording!r} stands also in activity {other!r}"
+        for text in activity.expansions():
+            if key(text) in seen:
+                yield f"activity {activity.id!r}, field 'wordings': {text!r} stands also in activity {seen[key(text)]!r}"
+            seen[key(text)] = activity.id
 
 
 def _unknowns(household: Household) -> Iterator[str]:
@@ -297,3 +339,9 @@ def _unknowns(household: Household) -> Iterator[str]:
 def key(text: str) -> str:
     """Return a text in the form in which texts are compared word by word: lower case, plain, no full stop."""
     return re.sub(r"[^a-z0-9]+", " ", text.lower()).strip()
+
+
+def _keys(texts: Iterable[str]) -> list[str]:
+    """Return the `key` of each text, made for all at once: thousands in a few milliseconds."""
+    said = re.sub(r"[^a-z0-9\0]+", " ", "\0".join(texts).lower())
+    return [one.strip() for one in said.split("\0")]

@@ -41,7 +41,6 @@ class CommonSense:
         self._embeddings = embeddings
         self._vectors: dict[str, NDArray[np.float32]] = {}
         self._cosine = lru_cache(maxsize=REMEMBERED)(self._work_out_cosine)
-        self._by_wording = {key(w): a for a in household.activities for w in a.wordings}
 
     def vectors(self, texts: Sequence[str]) -> NDArray[np.float32]:
         """Return unit vectors of the texts, shape (n, d)."""
@@ -69,10 +68,8 @@ class CommonSense:
 
     def recognise(self, text: str) -> Recognised:
         """Name the activity that an intention's text speaks of, also one that is not from the household file."""
-        said = key(text)
-        for known in (said, key(text.split(",")[0])):
-            if known in self._by_wording:
-                return Recognised(self._by_wording[known], 1.0)
+        if known := self.household.named(text):
+            return Recognised(known, 1.0)
         fit = self.fit([text])[0]
         best = int(np.argmax(fit))
         return Recognised(self.household.activities[best], float(fit[best]))
@@ -82,7 +79,10 @@ class CommonSense:
         return self.household.index[self.recognise(text).activity.id]
 
     def fit(self, texts: Sequence[str]) -> Floats:
-        """Return how near each text is to each activity: the best cosine to its texts; shape (n, activities)."""
+        """Return how near each text is to each activity; shape (n, activities).
+
+        It is the best cosine to the activity's statement and to one plain text for each of its wordings.
+        """
         rows = self.vectors(texts) @ self._activity_texts.T
         return np.maximum.reduceat(rows, self._starts, axis=1).astype(np.float64)
 
@@ -133,11 +133,11 @@ class CommonSense:
 
     @cached_property
     def _activity_texts(self) -> NDArray[np.float32]:
-        return self.vectors([text for a in self.household.activities for text in (a.statement, *a.wordings)])
+        return self.vectors([text for a in self.household.activities for text in (a.statement, *a.canonical)])
 
     @cached_property
     def _starts(self) -> list[int]:
-        sizes = [1 + len(activity.wordings) for activity in self.household.activities]
+        sizes = [1 + len(activity.canonical) for activity in self.household.activities]
         return [sum(sizes[:i]) for i in range(len(sizes))]
 
     def _vector(self, text: str) -> NDArray[np.float32]:

@@ -1,4 +1,4 @@
-"""What is different these days, such as a cold, a new hobby or a low mood, as pulls on activities. Person's side only."""
+"""What is different these days, such as a cold or a new hobby, as pulls on activities. Person's side only."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ HINTS_AGAINST = -1.0
 _WORDS = "three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _DECADES = ("teens", "twenties", "thirties", "forties", "fifties", "sixties", "seventies", "eighties", "nineties")
-_UNITS = "one two three four five six seven eight nine".split()
+_UNITS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"]
 NUMBERS: Mapping[str, int] = {
     **{word: 3 + i for i, word in enumerate([*_WORDS.split(), "nineteen"])},
     **{ten: 20 + 10 * i for i, ten in enumerate(_TENS)},
@@ -34,7 +34,9 @@ _AGES = (
         r"(?=\s*(?:$|,| and\b| or so\b|(?: \w+)? (?:male|female|man|woman|guy|girl|boy|lady|mom|dad|gentleman)\b|"
         r" now\b| today\b| this (?:year|month)\b| next (?:year|month)\b| in (?:a|two|three) \w+$)|(?P<rest> .*))"
     ),
-    re.compile(rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"),
+    re.compile(
+        rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"
+    ),
     re.compile(rf"\bmy age is {_NUMBER}(?P<unit>)"),
 )
 _DECADE = re.compile(
@@ -194,7 +196,9 @@ def _spoken(
     named = ", ".join(file.activities[a].called for a, size in sizes.items() if abs(size) == strongest)
     kind: Kind = "aversion" if effects else "hobby"
     if effects:
-        says = f"does not do or like: {named}" if strongest >= abs(AGAINST["never"]) else f"has little time for: {named}"
+        says = (
+            f"does not do or like: {named}" if strongest >= abs(AGAINST["never"]) else f"has little time for: {named}"
+        )
     else:
         says = f"speaks of {named}" if direct else f"hints at {named}"
     return Found(heard.sentence, kind, says, effects or Effects(), gives=gives, spoken=sizes, direct=direct or {})

@@ -8,6 +8,7 @@ hour, the favourite mug.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Fl
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.household.statements import Statements, statements
 from coopera.models.offline.human.rhythm import Rhythm, Schedule, due_by_hour, of_day_type, shipped_rhythm
+from coopera.models.offline.human.style import Style
 
 TEXT_PULL = 0.95  # logits per standard deviation of affinity over the activities
 TRAIT_PULL = 1.1  # logits per point of (trait - 3) x loading 1
@@ -30,21 +32,6 @@ EVIDENCE = 0.17  # by how much a sentence must be nearer to an activity than suc
 SPOT_FAVOUR = 0.7  # scale of the favourites among spots, which custom decides more than taste
 FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of ten things carry most of the weight
 _SET_HOURS = ("sleep_in", "desk_work", "work_out_of_home", "school")
-TOUCHES = 0.3  # share of the activities whose intention a person words with a touch of their own
-
-_TOUCHES = {
-    ("openness", 1): ("in a new way today", "with a curious mind"),
-    ("openness", -1): ("just the usual way", "the way I always do"),
-    ("conscientiousness", 1): ("properly", "with care"),
-    ("conscientiousness", -1): ("without any hurry", "as far as I get"),
-    ("extroversion", 1): ("in high spirits", "in the best of moods"),
-    ("extroversion", -1): ("undisturbed", "away from any bustle"),
-    ("agreeableness", 1): ("in a friendly mood", "at peace with everybody"),
-    ("agreeableness", -1): ("my own way", "just as I please"),
-    ("neuroticism", 1): ("to calm down", "to think of something else"),
-    ("neuroticism", -1): ("without a worry", "at ease"),
-}
-"""What may be added to any intention, a lively or a restful one, by trait and its direction."""
 
 
 class PrivateLife:
@@ -106,11 +93,12 @@ class PrivateLife:
         return float(np.clip(share[hour] / max(share[hour - 1], 1e-9) * self._late**0.5, 0.0, 0.97))
 
     def wording(self, activity: Activity, rng: np.random.Generator) -> str:
-        """Word an intention as this person does: mostly one or two wordings, some with a touch of their own."""
-        weights = self._favour(f"wording|{activity.id}", len(activity.wordings), scale=1.6)
-        text = activity.wordings[int(rng.choice(len(weights), p=weights))]
-        touch = self._touch(activity)
-        return f"{text}, {touch}" if touch else text
+        """Word an intention as this person does, in one of the many ways that the household file has for it."""
+        return self._style.word(activity, rng)
+
+    @cached_property
+    def _style(self) -> Style:
+        return Style(partial(self._rng, "style"), self.big_five)
 
     def thing_weights(self, activity: Activity) -> Floats:
         """How gladly each thing is taken in hand for an activity; sums to 1."""
@@ -224,15 +212,6 @@ class PrivateLife:
         """How much likelier than others this person sleeps late; conscientious people rise earlier (Tsaousis 2010)."""
         z = float(self._rng("lateness").normal()) - 0.5 * (self.big_five.conscientiousness - 3.0)
         return float(np.exp(0.7 * z - 0.25))
-
-    def _touch(self, activity: Activity) -> str:
-        rng = self._rng("touch", activity.id)
-        scores = self.big_five.model_dump()
-        strongest = sorted(scores, key=lambda trait: (-abs(scores[trait] - 3.0), trait))[:2]
-        trait = strongest[int(rng.integers(2))]
-        touches = _TOUCHES[trait, 1 if scores[trait] >= 3.0 else -1]
-        touch = touches[int(rng.integers(len(touches)))]
-        return touch if rng.random() < TOUCHES else ""
 
     def _favour(self, what: str, count: int, scale: float = FAVOUR) -> Floats:
         weights = np.exp(scale * self._rng(what).gumbel(size=count))

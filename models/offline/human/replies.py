@@ -111,7 +111,7 @@ class Human:
         return DIRTY * np.array(wants, dtype=np.float64)
 
     def _why(self, life: PrivateLife, activity: Activity, choice: Choice, hour: int, changes: Sequence[Any]) -> str:
-        """The person's own words where they bear on it, what is different today, their traits; else that it is a habit."""
+        """What is different today, the person's own words where they bear on it, their traits; else a habit."""
         parts = [str(change["text"]) for change in changes if speaks_for(change, activity)][:1]
         if sentence := life.evidence(activity):
             parts.append(f'I say of myself: "{sentence.rstrip(".")}".')

@@ -186,7 +186,9 @@ def clauses(sentence: str) -> list[Clause]:
 def _speaks_of_self(part: str, before: list[Clause], own: bool) -> bool:
     if part.startswith("who "):
         last = before[-1].text if before else ""
-        return own and re.search(r"\bi am\b", last) is not None and not re.search(rf"\b{RELATIVE}$|married|dating", last)
+        return (
+            own and re.search(r"\bi am\b", last) is not None and not re.search(rf"\b{RELATIVE}$|married|dating", last)
+        )
     if _OTHERS.search(part):
         return _AND_I.search(part) is not None
     return True if re.search(r"^(?:\w+ ){0,3}?(?:i|we|my|our)\b", part) else own

@@ -146,7 +146,7 @@ def _spot_fit(activity: Activity, near: Sequence[str]) -> float:
 def _wording(activity: Activity, index: int, known: Sequence[tuple[Memory, int]]) -> str:
     """The person's own words where they are remembered, the newest first; else the household file's."""
     own = sorted((memory.hours_ago, memory.text) for memory, other in known if other == index)
-    return own[0][1] if own else activity.wordings[0]
+    return own[0][1] if own else activity.canonical[0]
 
 
 def _of_person(activity: Activity, variables: Mapping[str, Any]) -> str:

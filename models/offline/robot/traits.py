@@ -62,14 +62,14 @@ def _estimate(sense: CommonSense, weights: Mapping[int, float]) -> tuple[BigFive
     for i, trait in enumerate(TRAITS):
         ranked = sorted(weights, key=lambda index: (-abs(household.loadings[index, i]), index))
         if ranked and household.loadings[ranked[0], i]:
-            telling.append(f'{trait}: "{household.activities[ranked[0]].wordings[0]}"')
+            telling.append(f'{trait}: "{household.activities[ranked[0]].canonical[0]}"')
     values = {trait: round(float(np.clip(score, 1.0, 5.0)), 2) for trait, score in zip(TRAITS, scores, strict=True)}
     return BigFive(**values), f"Most telling were, for {'; for '.join(telling) or 'nothing'}."
 
 
 def _what(sense: CommonSense, weights: Mapping[int, float]) -> str:
     ranked = sorted(weights, key=lambda index: (-weights[index], _usual(sense, index), index))[:6]
-    names = [_low(sense.household.activities[index].wordings[0]) for index in ranked]
+    names = [_low(sense.household.activities[index].canonical[0]) for index in ranked]
     return f"This person likes to {_list(names)}." if names else "Nothing is known of what this person does."
 
 
@@ -79,7 +79,7 @@ def _when(sense: CommonSense, seen: Sequence[tuple[Memory, int]]) -> str:
         inside = [index for memory, index in seen if first <= memory.hour < last]
         rare = sorted(dict.fromkeys(inside), key=lambda index: (_usual(sense, index), index))[:2]
         if rare:
-            said.append(f"in the {name} to {_list([_low(sense.household.activities[i].wordings[0]) for i in rare])}")
+            said.append(f"in the {name} to {_list([_low(sense.household.activities[i].canonical[0]) for i in rare])}")
     return f"It is usual {', '.join(said)}." if said else "When is not known."
 
 
@@ -92,7 +92,7 @@ def _things(tasks: Sequence[Any]) -> str:
 def _named_before(sense: CommonSense, profile: str | None) -> list[int]:
     """The activities that the first sentence of an earlier profile names, by their usual wording."""
     text = (sentences(profile or "") or [""])[0].lower()
-    return [i for i, activity in enumerate(sense.household.activities) if _low(activity.wordings[0]) in text]
+    return [i for i, activity in enumerate(sense.household.activities) if _low(activity.canonical[0]) in text]
 
 
 def _usual(sense: CommonSense, index: int) -> float:
