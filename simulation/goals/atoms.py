@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -12,7 +11,6 @@ from typing import TypeAlias
 from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
 from coopera.simulation.goals.tree import STATES, Atom, State
-from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.state.home_state import HomeState, Kind, ThingState
 
@@ -216,16 +214,11 @@ def _beside(now: Moment, a: SceneObject, b: SceneObject) -> bool:
         return False
     first, second = now.placed(a), now.placed(b)
     level = first.position[2] <= second.top + LEVEL and second.position[2] <= first.top + LEVEL
-    return level and _gap(first.bounds, second.bounds) <= NEXT
+    return level and first.bounds.gap(second.bounds) <= NEXT
 
 
 def _carries(now: Moment, a: SceneObject, b: SceneObject) -> bool:
     return not b.fixed and a.name in (now.lies(b).on, now.lies(b).inside)
-
-
-def _gap(a: Bounds, b: Bounds) -> float:
-    """Metres between two rectangles; 0 where they touch or overlap."""
-    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
 
 
 def _in_state(name: State, now: Moment, thing: SceneObject, wanted: str = "") -> bool:
