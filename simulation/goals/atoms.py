@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
+from coopera.core.naming import ends_with
 from coopera.simulation.goals.tree import STATES, Atom, State
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.state.home_state import HomeState, Kind, ThingState
@@ -54,7 +55,7 @@ class Moment:
         if word == thing.name or _NAME.fullmatch(word) and word != thing.cls:
             return word == thing.name
         known = self.state.box.get(thing.name)
-        return plain(word).lower() == plain(thing.cls).lower() if known is None else ends_with(known.text, word)
+        return plain(word).lower() == plain(thing.cls).lower() if known is None else _named(known.text, word)
 
     def lies(self, thing: SceneObject) -> ThingState:
         """Where a thing is; furniture is on nothing."""
@@ -121,10 +122,9 @@ def _kinds(state: HomeState) -> dict[AgentId, Kind]:
     return {agent: body.kind for agent, body in state.agents.items()}
 
 
-def ends_with(text: str, word: str) -> bool:
+def _named(text: str, word: str) -> bool:
     """Whether a text is a word, or ends with it: "green tea" with "tea"; case does not count."""
-    said, wanted = plain(text).lower(), plain(word).lower()
-    return said == wanted or said.endswith(f" {wanted}")
+    return ends_with(plain(text).lower(), plain(word).lower())
 
 
 def same_room(word: str, room: Room) -> bool:
@@ -225,7 +225,7 @@ def _in_state(name: State, now: Moment, thing: SceneObject, wanted: str = "") ->
     """Whether an object is open (powered, clean), has a form, or has something (or just this) in it."""
     value = now.state.condition(thing).get(name)
     if name == "filled":
-        return bool(value) and (not wanted or ends_with(str(value), wanted))
+        return bool(value) and (not wanted or _named(str(value), wanted))
     return value == wanted.lower() if name == "form" else value is True
 
 
