@@ -13,6 +13,7 @@ from coopera.core.household import AgentId, plain
 from coopera.core.naming import ends_with
 from coopera.simulation.goals.tree import STATES, Atom, State
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.state.free_places import where_it_is
 from coopera.simulation.state.home_state import HomeState, Kind, ThingState
 
 Similarity: TypeAlias = Callable[[str, str], float]
@@ -77,13 +78,6 @@ class Moment:
         outer = [thing, *self.containers(thing)][-1]
         x, y = outer.xy if outer.fixed else self.lies(outer).position[:2]
         return (self.scene.room(outer.room) if outer.fixed else None) or self.scene.room_at(x, y)
-
-    def placed(self, thing: SceneObject) -> SceneObject:
-        """An object with the place and the turn that it has now."""
-        if thing.fixed:
-            return thing
-        now = self.lies(thing)
-        return thing.model_copy(update={"position": now.position, "yaw": now.yaw})
 
 
 def true(now: Moment, atom: Atom) -> bool:
@@ -156,9 +150,8 @@ def near(scene: Scene, state: HomeState, agent: AgentId, cls: str, within: float
     """Whether an agent is within some metres of such an object, in the same room."""
     now, place = Moment(scene, state), state.agent(agent).place
     room = scene.room_at(*place)
-    return any(
-        now.room(thing) == room and now.placed(thing).bounds.distance(*place) <= within for thing in now.named(cls)
-    )
+    there = (where_it_is(state, thing) for thing in now.named(cls) if now.room(thing) == room)
+    return any(thing.bounds.distance(*place) <= within for thing in there)
 
 
 def at(scene: Scene, state: HomeState, agent: AgentId, room: str) -> bool:
@@ -212,7 +205,7 @@ def _beside(now: Moment, a: SceneObject, b: SceneObject) -> bool:
         return False
     if now.containers(a)[:1] != now.containers(b)[:1] or now.room(a) != now.room(b):
         return False
-    first, second = now.placed(a), now.placed(b)
+    first, second = where_it_is(now.state, a), where_it_is(now.state, b)
     level = first.position[2] <= second.top + LEVEL and second.position[2] <= first.top + LEVEL
     return level and first.bounds.gap(second.bounds) <= NEXT
 
