@@ -16,7 +16,7 @@ from pydantic import BeforeValidator, Field, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
-from coopera.core.naming import plain
+from coopera.core.naming import ends_with, plain
 from coopera.core.people import Frozen
 
 FILE = Path(__file__).with_name("affordances.yaml")
@@ -130,7 +130,7 @@ class Affordances(Frozen):
     def means_one_of(self, words: str, classes: Iterable[str]) -> bool:
         """Whether words for a thing mean one of some classes or groups: the whole of them does, or their end."""
         said = plain(words).lower()
-        return any(said == known or said.endswith(f" {known}") for known in self._words(tuple(classes)))
+        return any(ends_with(said, known) for known in self._words(tuple(classes)))
 
     def _words(self, classes: tuple[str, ...]) -> frozenset[str]:
         known = self._spelled.get(classes)

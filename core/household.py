@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NewType, TypeAlias
+from typing import Annotated, Literal, NewType, TypeAlias
 
 from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
 
 from coopera.core.affordances import Relation
 from coopera.core.naming import plain as plain
-from coopera.core.people import Frozen
+from coopera.core.people import Frozen, is_empty, is_none
 from coopera.core.setting import Setting
 
 SceneId = NewType("SceneId", str)
@@ -19,15 +19,6 @@ HUMAN, ROBOT = AgentId("human"), AgentId("robot")
 Collab: TypeAlias = Literal[1, 2]
 ObjectMap: TypeAlias = dict[str, tuple[int, str]]
 """{unique object name: (object id, room)}: the scene as language models read it (PAPER App. A)."""
-
-
-def _is_none(value: Any) -> bool:
-    return value is None
-
-
-def _is_empty(value: Any) -> bool:
-    return not value
-
 
 Name = Annotated[str, Field(min_length=1, max_length=120)]
 MotionText = Annotated[str, Field(min_length=1, max_length=200)]
@@ -69,7 +60,7 @@ class HandOver(Frozen):
 
     kind: Literal["hand_over"] = "hand_over"
     object: Name
-    receiver: SkipJsonSchema[AgentId | None] = Field(None, exclude_if=lambda receiver: receiver is None)
+    receiver: SkipJsonSchema[AgentId | None] = Field(None, exclude_if=is_none)
     """Who gets it; None, which is neither asked of a model nor written, for the only person of the home."""
 
     def describe(self) -> str:
@@ -89,13 +80,13 @@ class Outcome(Frozen):
     reason: str = ""
     metres: float = 0.0
     """Distance walked or driven."""
-    motion: str | None = Field(None, exclude_if=_is_none)
+    motion: str | None = Field(None, exclude_if=is_none)
     """The motion that was played for a free-form task, by its caption."""
-    cosine: float | None = Field(None, exclude_if=_is_none)
+    cosine: float | None = Field(None, exclude_if=is_none)
     """How near that motion is to what was asked for; None where words were compared, not meanings."""
-    fetched: tuple[str, ...] = Field((), exclude_if=_is_empty)
+    fetched: tuple[str, ...] = Field((), exclude_if=is_empty)
     """What the agent fetched for it before, by name."""
-    opened: tuple[str, ...] = Field((), exclude_if=_is_empty)
+    opened: tuple[str, ...] = Field((), exclude_if=is_empty)
     """What the agent opened for it; it was closed again."""
 
 
@@ -112,7 +103,7 @@ class Percept(Frozen):
     motion: str
     in_hand: str | None = None
     visible: list[str] = []
-    states: dict[str, str] = Field({}, exclude_if=_is_empty)
+    states: dict[str, str] = Field({}, exclude_if=is_empty)
     """{visible object: its states in words}, for those that are not as at first, such as "open" or "dirty"."""
 
     def caption(self) -> str:

@@ -18,6 +18,16 @@ class Frozen(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
+def is_none(value: object) -> bool:
+    """Whether a field need not be written: it has no value."""
+    return value is None
+
+
+def is_empty(value: object) -> bool:
+    """Whether a field need not be written: it is empty or has no value."""
+    return not value
+
+
 class BigFive(Frozen):
     """Big-Five scores, each in [1, 5]; 3 is the middle of the scale."""
 

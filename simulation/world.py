@@ -263,6 +263,7 @@ class World:
         recording = Filming(self._ground, before, watch.robot, watch.person).film(plan.steps, agent)
         known = before.box.get(plan.in_hand or "")
         recording.near, recording.in_hand = plan.at, plan.in_hand if known is None else known.text
+        recording.states = states_in_sight(self.layout, plan.state)
         self._recording = recording
         self.state = plan.state
 

@@ -33,7 +33,7 @@ from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.motions.library import Motion
 from coopera.simulation.motions.poses import pose_at
-from coopera.simulation.shapes.rotations import wrapped
+from coopera.simulation.shapes.rotations import Array, wrapped
 from coopera.simulation.state.agents import named
 from coopera.simulation.state.home_state import HomeState, PersonState
 from coopera.simulation.ways.navigation import Stand, clearance, obstacle_boxes
@@ -65,7 +65,8 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     if done.undresses:
         undress(ground, plan, agent, watch)
     body, used_furniture = _placed(ground, plan, agent, target, motion)
-    hands = _hands(ground, body, motion)
+    pose = _first_pose(ground, body, motion)
+    hands = _hands(body, pose)
     at = Workplace(target, body, hands)
     if done.gathers is not None:
         gather(ground, plan, agent, done.gathers, at, act.in_hand, watch)
@@ -74,7 +75,6 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     held = plan.state.agents[agent].thing
     if tool is None and held is not None and in_hand_is(ground, plan.state, held, done.tools):
         tool = plan.state.find(ground.scene, held)
-    pose = pose_at(motion, 0.0, at_work(ground.scene, body, motion)[0])
     walk_to_deed(ground, plan, agent, Placed(*body.place, body.yaw, pose), body.spot, watch, held)
     now = plan.state.person(agent)
     place = now.spot if body.place == body.spot else body.place
@@ -102,16 +102,21 @@ def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan
     """Plan that a person goes on with what they are doing, and a robot comes to see it."""
     plan, person = Plan(state), state.person(agent)
     motion = ground.motions[person.motion]
-    pose = pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0])
+    pose = _first_pose(ground, person, motion)
     watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
     plan.steps.append(Play(agent, person, motion))
     plan.at, plan.in_hand = [person.at] if person.at is not None else [], person.thing
     return plan
 
 
-def _hands(ground: Ground, person: PersonState, motion: Motion) -> Point:
+def _first_pose(ground: Ground, person: PersonState, motion: Motion) -> Array:
+    """The pose in which a person begins a motion, with nothing in hand."""
+    return pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0])
+
+
+def _hands(person: PersonState, pose: Array) -> Point:
     """Where the hands are on the floor plan: what lies under them is what the person is at."""
-    frames = forward(pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0]))
+    frames = forward(pose)
     middle = (frames.place["right_hand"] + frames.place["left_hand"]) / 2
     cos, sin = math.cos(person.yaw), math.sin(person.yaw)
     x, y = float(middle[0]), float(middle[1])

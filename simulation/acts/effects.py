@@ -8,7 +8,6 @@ from coopera.core.affordances import HAND, Affordance, Classes, Condition, Effec
 from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.fitting import is_one_of, kind_of
 from coopera.simulation.acts.plans import Ground
-from coopera.simulation.acts.resting import gap_between
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.state.home_state import HomeState
 
@@ -47,7 +46,7 @@ def _switched_on(
     """
     target = things[0]
     room = [one for one in ground.scene.fixed if one.room == target.room and one.cls in affordances().looked_at]
-    room.sort(key=lambda thing: (round(gap_between(thing, target), 3), thing.name))
+    room.sort(key=lambda thing: (round(thing.bounds.gap(target.bounds), 3), thing.name))
     for thing in [*things, *room]:
         if affordances().is_one_of(thing.cls, classes):
             if state.condition(thing)["powered"] and not _switched_by_somebody(state, thing.name):

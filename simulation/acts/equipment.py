@@ -8,7 +8,7 @@ from typing import NamedTuple
 from coopera.core.affordances import Affordance, Classes, Gather, Relation, affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts.fitting import in_hand_is
-from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch
+from coopera.simulation.acts.plans import Ground, Plan, UnableError, Watch, on_furniture
 from coopera.simulation.acts.skills import There, empty_hand, put, take, take_off
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
@@ -20,8 +20,6 @@ _AT_HAND = 0.35
 _WORTH_IT = 0.1
 """It is moved only if that brings it this much nearer."""
 _TRIES = 6
-_OFF = 0.1
-"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
 
 
 class Workplace(NamedTuple):
@@ -150,7 +148,7 @@ def undress(ground: Ground, plan: Plan, agent: AgentId, watch: Watch | None) -> 
 def _fetch(ground: Ground, plan: Plan, agent: AgentId, tool: SceneObject, at: Workplace, watch: Watch | None) -> None:
     empty_hand(ground, plan, agent, watch, keep=tool.name)
     take(ground, plan, agent, tool, watch)
-    rests = at.body.place if math.dist(at.body.spot, at.body.place) > _OFF else None
+    rests = at.body.place if on_furniture(at.body) else None
     put(ground, plan, agent, tool, There(at.target, near=at.hands, apart=rests), watch)
     plan.fetched.append(tool.name)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from coopera.core.affordances import Classes, Relation, affordances
 from coopera.core.household import Act, AgentId, FreeMotion, HandOver, PickPlace, plain
+from coopera.core.naming import ends_with
 from coopera.simulation.acts.plans import Ground, UnableError
 from coopera.simulation.acts.resting import bed_for, seat_for
 from coopera.simulation.homes.catalogue import interiors
@@ -166,7 +167,7 @@ def kind_of(state: HomeState, thing: SceneObject, classes: Classes) -> str:
     known = state.box.get(thing.name)
     words = plain(thing.cls if known is None else known.text).lower()
     names = [plain(name).lower() for name in affordances().names(classes)]
-    return max((name for name in names if words == name or words.endswith(f" {name}")), key=len, default=words)
+    return max((name for name in names if ends_with(words, name)), key=len, default=words)
 
 
 def check_receptacle(ground: Ground, thing: SceneObject, receptacle: SceneObject, relation: Relation) -> None:

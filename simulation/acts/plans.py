@@ -20,13 +20,15 @@ from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import Library, Meant, Motion, Rank
 from coopera.simulation.shapes.rotations import Array
-from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
+from coopera.simulation.state.home_state import AgentState, HomeState, PersonState, ThingState
 from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, Stand
 
 APART = 0.60
 """Two standing bodies keep their middles this far apart (twice the navigation radius, metres)."""
 _APART_SEATED = 0.50
 _LONGEST = 299
+_OFF = 0.1
+"""A body this far from the spot where it would stand is on a piece of furniture (metres)."""
 
 
 class UnableError(SimulationError):
@@ -209,11 +211,16 @@ class Ground:
         return found
 
 
+def on_furniture(body: AgentState) -> bool:
+    """Whether somebody sits, lies or stands on a piece of furniture."""
+    return math.dist(body.spot, body.place) > _OFF
+
+
 def discs(state: HomeState, agent: AgentId) -> list[Disc]:
     """The floor taken up by an agent: its place, and for a sitting person also the place to get up to."""
     body = state.agents[agent]
     found = [Disc(*body.spot)]
-    if math.dist(body.spot, body.place) > 0.1:
+    if on_furniture(body):
         found.append(Disc(*body.place, _APART_SEATED - RADIUS))
     return found
 

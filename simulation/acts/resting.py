@@ -6,7 +6,7 @@ import math
 
 from coopera.core.affordances import affordances
 from coopera.core.household import AgentId
-from coopera.simulation.acts.plans import Ground
+from coopera.simulation.acts.plans import Ground, on_furniture
 from coopera.simulation.homes.catalogue import Rest, lying_place, seat
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import SceneObject
@@ -21,24 +21,16 @@ SEAT_FAR = 5.0
 _LOOKS_AT = math.radians(70)
 """A seat serves a table only if one looks at it from there."""
 _LIE_ON_WIDTH = ("sofa", "bench")
-_OFF = 0.1
-"""A body this far from the spot where its person would stand is on a piece of furniture (metres)."""
 _SITTING, _LYING = 0.5, 0.9
 """Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
 _ASIDE = 0.6
 """How far beside the middle of a wide seat another one sits (metres)."""
 
 
-def gap_between(one: SceneObject, two: SceneObject) -> float:
-    """The distance of the rectangles of two pieces of furniture on the floor plan."""
-    a, b = one.bounds, two.bounds
-    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
-
-
 def used_by_others(state: HomeState, agent: AgentId) -> list[Disc]:
     """The furniture that other people are on: the places of their bodies, and how near to them nobody else fits."""
     people = [state.person(one) for one in state.ids("person") if one != agent]
-    on_it = [person for person in people if math.dist(person.spot, person.place) > _OFF]
+    on_it = [person for person in people if on_furniture(person)]
     return [Disc(*person.place, _LYING if person.posture == "lie" else _SITTING) for person in on_it]
 
 
@@ -70,7 +62,7 @@ def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[Sce
     for thing in ground.scene.fixed:
         if thing.room != target.room or thing.cls in ("toilet", "bathtub"):
             continue
-        gap = gap_between(thing, target)
+        gap = thing.bounds.gap(target.bounds)
         rest = _seat_on(thing, used) if gap <= far else None
         if rest is not None and target.bounds.distance(rest.x, rest.y) <= far:
             off = abs(wrapped(math.atan2(target.xy[1] - rest.y, target.xy[0] - rest.x) - rest.heading))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -11,9 +10,10 @@ from typing import TypeAlias
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
+from coopera.core.naming import ends_with
 from coopera.simulation.goals.tree import STATES, Atom, State
-from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.state.free_places import where_it_is
 from coopera.simulation.state.home_state import HomeState, Kind, ThingState
 
 Similarity: TypeAlias = Callable[[str, str], float]
@@ -56,7 +56,7 @@ class Moment:
         if word == thing.name or _NAME.fullmatch(word) and word != thing.cls:
             return word == thing.name
         known = self.state.box.get(thing.name)
-        return plain(word).lower() == plain(thing.cls).lower() if known is None else ends_with(known.text, word)
+        return plain(word).lower() == plain(thing.cls).lower() if known is None else _named(known.text, word)
 
     def lies(self, thing: SceneObject) -> ThingState:
         """Where a thing is; furniture is on nothing."""
@@ -78,13 +78,6 @@ class Moment:
         outer = [thing, *self.containers(thing)][-1]
         x, y = outer.xy if outer.fixed else self.lies(outer).position[:2]
         return (self.scene.room(outer.room) if outer.fixed else None) or self.scene.room_at(x, y)
-
-    def placed(self, thing: SceneObject) -> SceneObject:
-        """An object with the place and the turn that it has now."""
-        if thing.fixed:
-            return thing
-        now = self.lies(thing)
-        return thing.model_copy(update={"position": now.position, "yaw": now.yaw})
 
 
 def true(now: Moment, atom: Atom) -> bool:
@@ -123,10 +116,9 @@ def _kinds(state: HomeState) -> dict[AgentId, Kind]:
     return {agent: body.kind for agent, body in state.agents.items()}
 
 
-def ends_with(text: str, word: str) -> bool:
+def _named(text: str, word: str) -> bool:
     """Whether a text is a word, or ends with it: "green tea" with "tea"; case does not count."""
-    said, wanted = plain(text).lower(), plain(word).lower()
-    return said == wanted or said.endswith(f" {wanted}")
+    return ends_with(plain(text).lower(), plain(word).lower())
 
 
 def same_room(word: str, room: Room) -> bool:
@@ -158,9 +150,8 @@ def near(scene: Scene, state: HomeState, agent: AgentId, cls: str, within: float
     """Whether an agent is within some metres of such an object, in the same room."""
     now, place = Moment(scene, state), state.agent(agent).place
     room = scene.room_at(*place)
-    return any(
-        now.room(thing) == room and now.placed(thing).bounds.distance(*place) <= within for thing in now.named(cls)
-    )
+    there = (where_it_is(state, thing) for thing in now.named(cls) if now.room(thing) == room)
+    return any(thing.bounds.distance(*place) <= within for thing in there)
 
 
 def at(scene: Scene, state: HomeState, agent: AgentId, room: str) -> bool:
@@ -214,25 +205,20 @@ def _beside(now: Moment, a: SceneObject, b: SceneObject) -> bool:
         return False
     if now.containers(a)[:1] != now.containers(b)[:1] or now.room(a) != now.room(b):
         return False
-    first, second = now.placed(a), now.placed(b)
+    first, second = where_it_is(now.state, a), where_it_is(now.state, b)
     level = first.position[2] <= second.top + LEVEL and second.position[2] <= first.top + LEVEL
-    return level and _gap(first.bounds, second.bounds) <= NEXT
+    return level and first.bounds.gap(second.bounds) <= NEXT
 
 
 def _carries(now: Moment, a: SceneObject, b: SceneObject) -> bool:
     return not b.fixed and a.name in (now.lies(b).on, now.lies(b).inside)
 
 
-def _gap(a: Bounds, b: Bounds) -> float:
-    """Metres between two rectangles; 0 where they touch or overlap."""
-    return math.hypot(max(a.x0 - b.x1, b.x0 - a.x1, 0.0), max(a.y0 - b.y1, b.y0 - a.y1, 0.0))
-
-
 def _in_state(name: State, now: Moment, thing: SceneObject, wanted: str = "") -> bool:
     """Whether an object is open (powered, clean), has a form, or has something (or just this) in it."""
     value = now.state.condition(thing).get(name)
     if name == "filled":
-        return bool(value) and (not wanted or ends_with(str(value), wanted))
+        return bool(value) and (not wanted or _named(str(value), wanted))
     return value == wanted.lower() if name == "form" else value is True
 
 

@@ -24,6 +24,11 @@ class Bounds(NamedTuple):
         """Distance from a point to the rectangle; 0 inside."""
         return math.hypot(max(self.x0 - x, 0.0, x - self.x1), max(self.y0 - y, 0.0, y - self.y1))
 
+    def gap(self, other: Bounds) -> float:
+        """Distance between the two rectangles; 0 where they touch or overlap."""
+        x = max(self.x0 - other.x1, other.x0 - self.x1, 0.0)
+        return math.hypot(x, max(self.y0 - other.y1, other.y0 - self.y1, 0.0))
+
     def overlaps(self, other: Bounds, margin: float = 0.0) -> bool:
         """Whether the two rectangles come nearer than `margin` in both axes (touching is no overlap at 0)."""
         return (

@@ -106,10 +106,10 @@ def spots(
                 continue
             yaw = round(math.remainder(carrier.yaw + turn, math.tau), 4)
             local = _local(surface, half)
-            kept = local[_clear(local, half, above, apart=0.0)]
+            kept = local[_clear(local, half, above)]
             if not len(kept) and 2 * half[1] >= surface.y1 - surface.y0:
                 local = np.concatenate([local + (0.0, push) for push in _PUSHES])
-                kept = local[_clear(local, half, above, apart=0.0) & (local[:, 1] <= surface.y1)]
+                kept = local[_clear(local, half, above) & (local[:, 1] <= surface.y1)]
             places = _places(carrier, kept[:, 0], kept[:, 1])
             free = places[_clear(places, _half_extents(size, yaw), level)]
             found += [Spot(x, y, z, yaw) for x, y in free.tolist()]
@@ -121,7 +121,7 @@ def stands_through(carrier: SceneObject, spot: Spot, size: Size) -> bool:
     x, y = carrier.to_local(spot.x, spot.y)
     half = _half_extents(size, spot.yaw - carrier.yaw)
     above = _above(_parts(carrier), spot.z - carrier.position[2], size[2])
-    return not _clear(np.array([[x, y]]), (half[0] - 2e-3, half[1] - 2e-3), above, apart=0.0).all()
+    return not _clear(np.array([[x, y]]), (half[0] - 2e-3, half[1] - 2e-3), above).all()
 
 
 def is_free(space: Taken, taken: Iterable[Taken]) -> bool:
@@ -168,8 +168,8 @@ def _solid(cls: str, size: Size) -> Array:
     return np.array(rows)
 
 
-def _clear(places: Array, half: tuple[float, float], filled: Array, *, apart: float = APART) -> NDArray[np.bool_]:
-    """Which places, of shape (n, 2), keep a thing clear of all filled rectangles, of shape (m, 4)."""
+def _clear(places: Array, half: tuple[float, float], filled: Array) -> NDArray[np.bool_]:
+    """Which places, of shape (n, 2), keep a thing apart from all filled rectangles, of shape (m, 4)."""
     x, y = places[:, :1], places[:, 1:]
     hits = (x - half[0] < filled[:, 2] + APART) & (filled[:, 0] < x + half[0] + APART)
     hits &= (y - half[1] < filled[:, 3] + APART) & (filled[:, 1] < y + half[1] + APART)

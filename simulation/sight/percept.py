@@ -39,7 +39,8 @@ def perceive(
     """Report the last act of a recording; the draw for one error never changes another.
 
     Pose matching recognises the motion from the joints in the camera's view, not from the motion played. The report
-    gives the motion's class, never its caption. It gives the class of the thing in hand if a hand is in view.
+    gives the motion's class, never its caption. It gives the class of the thing in hand if a hand is in view, and the
+    states that the act leaves visible objects in.
     """
     shot = recording.shots[-1]
     moment = shot.at(shot.deed)
@@ -56,12 +57,14 @@ def perceive(
             label = others[int(which * len(others))]
     hand_seen = bool(np.isfinite(joints[:, HANDS]).any())
     in_hand = recording.in_hand if hand_seen and missed >= errors.in_hand_missed else None
+    visible = visible_from_robot(stage, scene, recording, moment)
     return Percept(
         room=scene.room_at(person.x, person.y).name,
         near=recording.near,
         motion=label,
         in_hand=class_of(in_hand) if in_hand else None,
-        visible=visible_from_robot(stage, scene, recording, moment),
+        visible=visible,
+        states={name: said for name, said in recording.states.items() if name in visible},
     )
 
 

@@ -71,7 +71,8 @@ class Shot:
 class Recording:
     """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
 
-    `robot` is who sees it, `person` who is looked at.
+    `robot` is who sees it, `person` who is looked at. `states` is {object: its states in words} of what could be seen
+    after the act not to be as at first.
     """
 
     state: HomeState
@@ -80,6 +81,7 @@ class Recording:
     shots: list[Shot] = field(default_factory=list)
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
+    states: dict[str, str] = field(default_factory=dict)
 
     @property
     def ticks(self) -> int:

@@ -11,7 +11,7 @@ from coopera.core.household import plain
 from coopera.simulation.homes.catalogue import interiors, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at
-from coopera.simulation.state.home_state import HomeState
+from coopera.simulation.state.home_state import HomeState, ThingState
 
 
 def free_places(
@@ -25,7 +25,8 @@ def free_places(
     receptacle = where_it_is(state, receptacle)
     around = receptacle.bounds.grown(max(thing.size[:2]))  # a long thing hangs over the edge
     taken = [] if inside else furniture_on(scene, receptacle)
-    taken += [_space(state, other) for other in _beside(scene, state, thing, receptacle, inside)]
+    others = [other for other in _beside(scene, state, receptacle, inside) if other.name != thing.name]
+    taken += [filled(other, state.thing(other)) for other in others]
     taken = [space for space in taken if inside or space.bounds.overlaps(around)]
     free = spots(receptacle, thing.size, taken, inside=inside)
     if not free:
@@ -48,19 +49,17 @@ def where_it_is(state: HomeState, thing: SceneObject) -> SceneObject:
     return thing.model_copy(update={"position": now.position, "yaw": now.yaw})
 
 
-def _beside(
-    scene: Scene, state: HomeState, thing: SceneObject, receptacle: SceneObject, inside: bool
-) -> list[SceneObject]:
-    """The things that may be in the way: what is inside with it, or what is not inside of anything."""
-    others = [other for other in state.objects(scene) if other.name != thing.name]
-    if inside:
-        return [other for other in others if state.thing(other).inside == receptacle.name]
-    return [other for other in others if state.thing(other).inside is None and state.bearer(other.name) is None]
-
-
-def _space(state: HomeState, thing: SceneObject) -> Taken:
-    where = state.thing(thing)
+def filled(thing: SceneObject, where: ThingState) -> Taken:
+    """The space that a thing fills at a place."""
     return taken_at(Spot(*where.position, where.yaw), thing.size)
+
+
+def _beside(scene: Scene, state: HomeState, receptacle: SceneObject, inside: bool) -> list[SceneObject]:
+    """The things that may be in the way: what is inside with it, or what is not inside of anything."""
+    if inside:
+        return state.contents(scene, receptacle.name)
+    things = state.objects(scene)
+    return [thing for thing in things if state.thing(thing).inside is None and state.bearer(thing.name) is None]
 
 
 def full(receptacle: SceneObject, thing: SceneObject, relation: Relation = "on") -> str:

@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 import re
 from functools import lru_cache
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, model_validator
 
 from coopera.core.affordances import Condition, affordances
 from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId
-from coopera.core.people import Frozen
+from coopera.core.people import Frozen, is_empty
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.magic_box import shape_of
@@ -24,10 +24,6 @@ from coopera.simulation.motions.library import Posture
 
 _CARRIED = 1.0
 Kind: TypeAlias = Literal["person", "robot"]
-
-
-def _empty(value: Any) -> bool:
-    return not value
 
 
 class PersonState(Frozen):
@@ -48,8 +44,8 @@ class PersonState(Frozen):
     motion: str = "stand and wait"
     thing: str | None = None
     at: str | None = None
-    worn: tuple[str, ...] = Field((), exclude_if=_empty)
-    switched: tuple[str, ...] = Field((), exclude_if=_empty)
+    worn: tuple[str, ...] = Field((), exclude_if=is_empty)
+    switched: tuple[str, ...] = Field((), exclude_if=is_empty)
 
 
 class RobotState(Frozen):
@@ -84,7 +80,7 @@ class ThingState(Frozen):
     position: tuple[float, float, float]
     yaw: float
     on: str | None
-    inside: str | None = Field(None, exclude_if=_empty)
+    inside: str | None = Field(None, exclude_if=is_empty)
 
     @model_validator(mode="after")
     def _has_one_place(self) -> ThingState:
@@ -119,8 +115,8 @@ class HomeState(Frozen):
     agents: dict[AgentId, AgentState]
     """Everybody in the home, in the order in which they were put into it."""
     moved: dict[str, ThingState] = Field(default_factory=dict)
-    box: dict[Label, BoxThing] = Field(default_factory=dict, exclude_if=_empty)
-    conditions: dict[str, Condition] = Field(default_factory=dict, exclude_if=_empty)
+    box: dict[Label, BoxThing] = Field(default_factory=dict, exclude_if=is_empty)
+    conditions: dict[str, Condition] = Field(default_factory=dict, exclude_if=is_empty)
 
     @property
     def inhabitants(self) -> list[str]:
@@ -215,16 +211,11 @@ class HomeState(Frozen):
 
     def contents(self, scene: Scene, container: str) -> list[SceneObject]:
         """What is inside furniture or a thing, by name."""
-        return [thing for thing in self.objects(scene) if self._lies(thing).inside == container]
+        return [thing for thing in self.objects(scene) if self.thing(thing).inside == container]
 
     def carried_by(self, scene: Scene, furniture: str) -> list[SceneObject]:
         """What stands on a piece of furniture, by name."""
-        return [thing for thing in self.objects(scene) if self._lies(thing).on == furniture]
-
-    def _lies(self, thing: SceneObject) -> ThingState:
-        if self.bearer(thing.name) is not None:
-            return ThingState(position=thing.position, yaw=0.0, on=None)
-        return self.moved.get(thing.name) or at_first(thing)
+        return [thing for thing in self.objects(scene) if self.thing(thing).on == furniture]
 
     def condition(self, thing: SceneObject) -> Condition:
         """All states that an object has, with their values now; empty for an object without any."""
@@ -232,24 +223,23 @@ class HomeState(Frozen):
 
     def with_thing(self, name: str, where: ThingState) -> HomeState:
         """The same home with one thing put elsewhere, out of the hand or off the body that had it."""
-        moved = {**self.moved, name: where}
-        state = self.model_copy(update={"moved": {key: moved[key] for key in sorted(moved)}})
-        return state._without(name)
+        state = self._without(name)
+        moved = {**state.moved, name: where}
+        return state.model_copy(update={"moved": {key: moved[key] for key in sorted(moved)}})
 
     def with_held(self, agent: AgentId, name: str) -> HomeState:
         """The same home with a thing in an agent's hand, and nowhere else."""
-        moved = {key: where for key, where in self.moved.items() if key != name}
-        return self.model_copy(update={"moved": moved})._without(name).with_agent(agent, thing=name)
+        return self._without(name).with_agent(agent, thing=name)
 
     def with_worn(self, agent: AgentId, name: str) -> HomeState:
         """The same home with a thing worn by a person, and nowhere else."""
-        moved = {key: where for key, where in self.moved.items() if key != name}
-        state = self.model_copy(update={"moved": moved})._without(name)
+        state = self._without(name)
         return state.with_agent(agent, worn=(*state.person(agent).worn, name))
 
     def _without(self, name: str) -> HomeState:
-        """Take a thing out of every hand and off every body; its place must be said at once."""
-        state = self
+        """Take a thing from where it was put, out of every hand and off every body; its place must be said at once."""
+        moved = {key: where for key, where in self.moved.items() if key != name}
+        state = self.model_copy(update={"moved": moved})
         for agent, body in self.agents.items():
             if body.thing == name:
                 state = state.with_agent(agent, thing=None)
@@ -259,23 +249,19 @@ class HomeState(Frozen):
 
     def out_of_box(self, scene: Scene, agent: AgentId, text: str) -> HomeState:
         """The same home with a new thing from the magic box in an agent's hand."""
-        slug = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")[:70]
-        slug = slug if slug[:1].isalpha() else f"thing_{slug}".strip("_")
-        number = 1
-        while scene.object(f"{slug}_{number}") is not None or f"{slug}_{number}" in self.box:
+        label, number = _label(text, most=70), 1
+        while scene.object(f"{label}_{number}") is not None or f"{label}_{number}" in self.box:
             number += 1
+        name = f"{label}_{number}"
         ids = [thing.id for thing in scene.objects] + [known.id for known in self.box.values()]
         new = BoxThing(id=max(ids, default=0) + 1, text=text)
-        return self.model_copy(update={"box": {**self.box, f"{slug}_{number}": new}}).with_agent(
-            agent, thing=f"{slug}_{number}"
-        )
+        return self.model_copy(update={"box": {**self.box, name: new}}).with_agent(agent, thing=name)
 
     def into_box(self, name: str) -> HomeState:
         """The same home without a thing that came out of the magic box."""
         state = self._without(name).without_switch(name)
         return state.model_copy(
             update={
-                "moved": {key: where for key, where in state.moved.items() if key != name},
                 "box": {key: known for key, known in state.box.items() if key != name},
                 "conditions": {key: said for key, said in state.conditions.items() if key != name},
             }
@@ -313,12 +299,17 @@ class HomeState(Frozen):
         return self.model_copy(update={"agents": {**self.agents, agent: state}})
 
 
+def _label(text: str, most: int | None = None) -> str:
+    """Words as a label, cut to so many characters; "thing_" comes before what does not begin with a letter."""
+    slug = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")[:most]
+    return slug if slug[:1].isalpha() else f"thing_{slug}".strip("_")
+
+
 @lru_cache(maxsize=4096)
 def from_box(name: str, known: BoxThing) -> SceneObject:
     """A thing out of the magic box as an object like any other; its class is what it looks like."""
     shape = shape_of(known.text)
-    cls = re.sub(r"[^a-z0-9]+", "_", shape.cls.lower()).strip("_")
-    cls = cls if cls[:1].isalpha() else f"thing_{cls}".strip("_")
+    cls = _label(shape.cls)
     red, green, blue = (round(255 * channel) for channel in shape.rgb)
     return SceneObject(
         id=known.id,

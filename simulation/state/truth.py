@@ -17,8 +17,9 @@ from coopera.core.affordances import affordances, problem_of
 from coopera.core.household import AgentId
 from coopera.simulation.homes.catalogue import surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.homes.spots import Array, Spot, Taken, taken_at, taken_by
+from coopera.simulation.homes.spots import Array, Taken, taken_by
 from coopera.simulation.state.agents import named
+from coopera.simulation.state.free_places import filled
 from coopera.simulation.state.home_state import AgentState, HomeState, PersonState, ThingState
 from coopera.simulation.ways.navigation import Navigator
 
@@ -195,7 +196,7 @@ def _lies_about(state: HomeState, thing: SceneObject) -> bool:
 def _held_up(scene: Scene, state: HomeState, thing: SceneObject, where: ThingState) -> Iterator[str]:
     """What is wrong with what carries or holds a thing, and with the room that it lies in."""
     x, y, z = where.position
-    space = taken_at(Spot(x, y, z, where.yaw), thing.size)
+    space = filled(thing, where)
     carrier = state.find(scene, where.on or where.inside or "")
     room = scene.room_at(x, y)
     if carrier is not None and carrier.fixed:
@@ -222,16 +223,13 @@ def _held_up(scene: Scene, state: HomeState, thing: SceneObject, where: ThingSta
 
 def _space(state: HomeState, thing: SceneObject) -> Taken:
     """The space that furniture or a thing fills now."""
-    if thing.fixed:
-        return taken_by(thing)
-    where = state.thing(thing)
-    return taken_at(Spot(*where.position, where.yaw), thing.size)
+    return taken_by(thing) if thing.fixed else filled(thing, state.thing(thing))
 
 
 def _overlaps(scene: Scene, placed: list[tuple[SceneObject, ThingState]]) -> Iterator[str]:
     """Things that share space with other things, or with furniture that neither carries nor holds them."""
     names = [thing.name for thing, _ in placed]
-    things = _rows(taken_at(Spot(*where.position, where.yaw), thing.size) for thing, where in placed)
+    things = _rows(filled(thing, where) for thing, where in placed)
     for i, j in np.argwhere(_shared(things, _rows(map(taken_by, scene.fixed)))).tolist():
         where, other = placed[i][1], scene.fixed[j].name
         if other not in (where.on, where.inside) and not _within(placed, where, other):

@@ -5,39 +5,23 @@ from __future__ import annotations
 import math
 
 from coopera.simulation import World
-from coopera.simulation.homes.scene import Scene, SceneObject
-from tests.simulation.flat import flat, move, put
+from coopera.simulation.homes.scene import Scene
+from tests.simulation.flat import Row, flat, move, objects, put
 
-KITCHEN = [
-    ("fridge_1", "large kitchen appliance", (6.8, 4.6, 0.0), math.pi, (0.65, 0.66, 1.28), None, True),
-    ("stove_1", "large kitchen appliance", (7.7, 4.6, 0.0), math.pi, (0.62, 0.62, 0.9), None, True),
-    ("kitchen_sink_1", "kitchen bathroom fixture", (7.4, 0.35, 0.0), 0.0, (1.1, 0.62, 0.9), None, True),
-    ("frying_pan_1", "kitchen ware", (8.6, 2.3, 0.9), 0.0, (0.44, 0.25, 0.05), "kitchen_counter_1", False),
-    ("plate_1", "dining ware", (6.65, 3.2, 0.75), 0.0, (0.25, 0.25, 0.025), "dining_table_1", False),
-    ("hat_1", "wearable", (2.3, 2.2, 0.44), 0.0, (0.2, 0.2, 0.1), "coffee_table_1", False),
+KITCHEN: list[Row] = [
+    ("fridge_1", "large kitchen appliance", (6.8, 4.6, 0.0), math.pi, (0.65, 0.66, 1.28), None),
+    ("stove_1", "large kitchen appliance", (7.7, 4.6, 0.0), math.pi, (0.62, 0.62, 0.9), None),
+    ("kitchen_sink_1", "kitchen bathroom fixture", (7.4, 0.35, 0.0), 0.0, (1.1, 0.62, 0.9), None),
+    ("frying_pan_1", "kitchen ware", (8.6, 2.3, 0.9), 0.0, (0.44, 0.25, 0.05), "kitchen_counter_1"),
+    ("plate_1", "dining ware", (6.65, 3.2, 0.75), 0.0, (0.25, 0.25, 0.025), "dining_table_1"),
+    ("hat_1", "wearable", (2.3, 2.2, 0.44), 0.0, (0.2, 0.2, 0.1), "coffee_table_1"),
 ]
 
 
 def kitchen() -> Scene:
     """The flat with a fridge, a stove and a sink, and some things to use there."""
     home = flat()
-    more = [
-        SceneObject(
-            id=100 + i,
-            name=name,
-            cls=name.rsplit("_", 1)[0],
-            category=category,
-            fixed=fixed,
-            room="living room" if position[0] < 4.5 else "kitchen",
-            position=position,
-            yaw=yaw,
-            size=size,
-            colour="#8a5a32",
-            on=on,
-        )
-        for i, (name, category, position, yaw, size, on, fixed) in enumerate(KITCHEN)
-    ]
-    return home.model_copy(update={"objects": [*home.objects, *more]})
+    return home.model_copy(update={"objects": [*home.objects, *objects(KITCHEN, 100)]})
 
 
 HOME = kitchen()

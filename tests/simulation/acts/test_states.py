@@ -5,20 +5,10 @@ from __future__ import annotations
 import json
 import math
 
-import pytest
-
 from coopera.simulation import PersonAgent, RobotAgent, World, load_scene
 from coopera.simulation.acts.plans import Handle, Open
-from coopera.simulation.state.truth import problems
 from tests.simulation.flat import bring, move, put
-from tests.simulation.kitchen import HOME, condition, moves, puts
-
-
-@pytest.fixture
-def home():
-    with World(HOME) as world:
-        yield world
-        assert list(problems(world.layout, world.state)) == []
+from tests.simulation.kitchen import condition, moves, puts
 
 
 def test_what_is_put_inside_a_closed_fridge_is_inside_and_the_fridge_was_opened_and_closed_for_it(home) -> None:

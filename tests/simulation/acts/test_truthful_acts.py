@@ -12,16 +12,8 @@ from coopera.core.errors import SimulationError
 from coopera.simulation import World, load_scene
 from coopera.simulation.acts.plans import Handle, Walk
 from coopera.simulation.motions.library import load_library
-from coopera.simulation.state.truth import problems
 from tests.simulation.flat import bring, move
 from tests.simulation.kitchen import HOME, moves, puts
-
-
-@pytest.fixture
-def home():
-    with World(HOME) as world:
-        yield world
-        assert list(problems(world.layout, world.state)) == []
 
 
 def test_what_the_robot_holds_is_brought_to_the_person_who_puts_it_somewhere(home) -> None:

@@ -165,3 +165,18 @@ def test_parts_of_imported_furniture_are_not_known_and_hinder_nothing() -> None:
     lamp = piece("floor_lamp")
     imported = lamp.model_copy(update={"mesh": [shape]})
     assert spots(imported, (0.2, 0.2, 0.3), []) == spots(lamp, (0.2, 0.2, 0.3), [], through=True)
+
+
+@pytest.mark.parametrize(
+    ("other", "metres"),
+    [
+        (Bounds(3, 0, 4, 1), 2.0),
+        (Bounds(0, 5, 1, 6), 4.0),
+        (Bounds(4, 5, 6, 6), 5.0),
+        (Bounds(1, 0, 2, 1), 0.0),
+        (Bounds(0.2, 0.2, 0.4, 3), 0.0),
+    ],
+)
+def test_the_gap_of_two_rectangles_is_that_of_their_nearest_points(other, metres) -> None:
+    one = Bounds(0, 0, 1, 1)
+    assert one.gap(other) == other.gap(one) == pytest.approx(metres)

@@ -8,6 +8,7 @@ from coopera.core.errors import SimulationError
 from coopera.core.household import PerceptErrors
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
+from tests.simulation.kitchen import HOME, moves, puts
 
 SURE = PerceptErrors(motion_confused=0.0, in_hand_missed=0.0)
 
@@ -15,6 +16,12 @@ SURE = PerceptErrors(motion_confused=0.0, in_hand_missed=0.0)
 @pytest.fixture(scope="module")
 def home():
     with World(flat(), errors=SURE) as world:
+        yield world
+
+
+@pytest.fixture
+def kitchen():
+    with World(HOME, errors=SURE) as world:
         yield world
 
 
@@ -40,6 +47,53 @@ def test_a_percept_of_carrying_names_where_the_thing_went_before_where_it_came_f
     assert percept.near == ["dining_table_1", "kitchen_counter_1"]
     assert percept.motion == "carry or tidy things"
     assert percept.in_hand == "mug"
+
+
+def test_a_percept_tells_the_states_that_an_act_leaves_visible_objects_in(kitchen) -> None:
+    assert kitchen.perform("human", moves("stove_1", "egg", "fry in a pan"), record=True).ok
+    percept = kitchen.percept(rng())
+    assert percept.states["stove_1"] == "on, dirty"
+    assert set(percept.states) <= set(percept.visible)
+    assert kitchen.perform("human", moves("dining_table_1", "fork", "eat a meal"), record=True).ok
+    percept = kitchen.percept(rng())
+    assert percept.states["plate_1"] == "dirty"
+    assert "stove_1" in kitchen.states()
+    assert "stove_1" not in percept.visible
+    assert "stove_1" not in percept.states
+
+
+def test_a_percept_tells_of_what_stands_open_only_where_it_is_seen(kitchen) -> None:
+    assert kitchen.set_open("robot", "fridge_1", True).ok
+    assert kitchen.perform("human", puts("apple_1", "dining_table_1"), record=True).ok
+    assert kitchen.percept(rng()).states == {"fridge_1": "open"}
+    assert kitchen.perform("human", moves("sofa_1", "book_1", "sit and read"), record=True).ok
+    assert kitchen.percept(rng()).states == {}
+    assert kitchen.states() == {"fridge_1": "open"}
+
+
+def test_a_percept_tells_no_state_of_what_is_inside_something_closed_or_in_a_hand(kitchen) -> None:
+    assert kitchen.perform("human", moves("dining_table_1", "fork", "eat a meal")).ok
+    assert kitchen.perform("human", puts("plate_1", "fridge_1", "inside"), record=True).ok
+    percept = kitchen.percept(rng())
+    assert "fridge_1" in percept.visible
+    assert percept.states == {}
+    assert kitchen.perform("human", moves("sofa_1", "plate_1", "sit and rest"), record=True).ok
+    assert kitchen.state.condition(HOME.object("plate_1"))["clean"] is False
+    assert kitchen.percept(rng()).states == {}
+
+
+def test_a_percept_tells_states_as_they_were_when_the_act_ended_or_failed(kitchen) -> None:
+    assert kitchen.set_open("robot", "fridge_1", True).ok
+    assert kitchen.perform("human", puts("apple_1", "dining_table_1"), record=True).ok
+    assert kitchen.set_open("robot", "fridge_1", False).ok
+    assert kitchen.percept(rng()).states == {"fridge_1": "open"}
+    assert not kitchen.perform("human", puts("unicorn_1", "sofa_1"), record=True).ok
+    percept = kitchen.percept(rng())
+    assert "fridge_1" in percept.visible
+    assert percept.states == {}
+    assert kitchen.set_open("robot", "fridge_1", True).ok
+    assert not kitchen.perform("human", puts("unicorn_1", "sofa_1"), record=True).ok
+    assert kitchen.percept(rng()).states == {"fridge_1": "open"}
 
 
 @pytest.mark.parametrize("motion", ["take a nap", "knit and sew", "do squats", "talk on the phone"])
