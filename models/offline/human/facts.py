@@ -15,7 +15,7 @@ from pydantic import field_serializer
 from coopera.core.lazy import made_once
 from coopera.core.naming import plain
 from coopera.core.people import Frozen
-from coopera.models.offline.household.knowledge import Household, key
+from coopera.models.offline.household.knowledge import Activity, Household, key
 from coopera.models.offline.household.statements import sentences
 from coopera.models.offline.human.facts_file import (
     Effects,
@@ -72,6 +72,22 @@ class Facts(Frozen):
     """Logits by activity id, at most `MOST` either way; none of an activity that is never done."""
     because: dict[str, str] = {}
     """Activity id -> the person's own sentence that speaks most directly for it."""
+
+    def kept(self, activity: Activity, household: Household) -> Activity:
+        """An activity without the things, places and motions that are ruled out; another motion may serve."""
+        motions = [motion for motion in activity.all_motions if motion not in self.never_motions]
+        things = {}
+        for thing, usual in activity.things.items():
+            ways = [usual, *(motion for motion in motions if motion in household.uses[thing])]
+            way = next((motion for motion in ways if motion not in self.never_motions), None)
+            if way is not None and plain(thing) not in self.never_things:
+                things[thing] = way
+        places = tuple(place for place in activity.places if plain(place[0]) not in self.never_things)
+        extra = tuple(motion for motion in activity.motions if motion in motions)
+        if not things or (things == activity.things and places == activity.places and extra == activity.motions):
+            return activity
+        fields = {name: getattr(activity, name) for name in Activity.model_fields}
+        return Activity.model_construct(**{**fields, "things": things, "places": places, "motions": extra})
 
     @field_serializer("never", "never_things", "never_motions")
     def _sorted(self, names: frozenset[str]) -> list[str]:

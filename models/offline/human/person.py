@@ -7,7 +7,7 @@ hour, the favourite mug.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property, partial
 
 import numpy as np
@@ -19,6 +19,7 @@ from coopera.core.randomness import rng_at
 from coopera.models.offline.household.knowledge import FIRST, LAST, Activity, Floats, Household, key
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.household.statements import Statements, statements
+from coopera.models.offline.human.facts import Facts, facts
 from coopera.models.offline.human.rhythm import Rhythm, Schedule, due_by_hour, of_day_type, shipped_rhythm
 from coopera.models.offline.human.style import Style
 
@@ -28,9 +29,27 @@ LIKING = 0.7  # standard deviation of the likings that no text explains, in logi
 AVERSION = 0.5  # share of an aversion's closeness that is taken off the affinity
 NEED = 0.3  # share of all these for what everybody needs, such as meals
 HABIT = 1.6  # logits that the habitual hour of an activity gains
-EVIDENCE = 0.17  # by how much a sentence must be nearer to an activity than such sentences and activities are
 SPOT_FAVOUR = 0.7  # scale of the favourites among spots, which custom decides more than taste
 FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of ten things carry most of the weight
+ENOUGH = 5  # things that must be left of an activity, so that its hour can be filled
+OF_AGE = 18  # years up to which somebody of whom nothing else is stated goes to school
+OCCUPATIONS: Mapping[tuple[str, str, bool], str] = {
+    ("employed", "home", False): "desk_work",
+    ("employed", "home", True): "desk_work",
+    ("employed", "outside", True): "work_out_of_home",
+    ("student", "outside", True): "school",
+    ("student", "home", False): "study",
+    ("student", "home", True): "study",
+}
+"""What the hours of work are for, by employment, workplace and whether people may be away; else they are free."""
+AGREES: Mapping[str, Callable[[Schedule], bool]] = {
+    "mornings": lambda one: one.end <= 16,
+    "evenings": lambda one: one.end >= 20,
+    "nights": lambda one: one.end >= 22,
+    "weekdays": lambda one: max(one.days) < 5,
+    "weekends": lambda one: max(one.days) >= 5,
+}
+"""Which hours of work agree with what people state. DEVIATES: nights are the late shift; no day here begins so late."""
 _SET_HOURS = ("sleep_in", "desk_work", "work_out_of_home", "school")
 
 
@@ -44,11 +63,14 @@ class PrivateLife:
         self._who = key(profile)
         self.big_five = big_five
         self.said: Statements = statements(profile)
+        self.facts: Facts = facts(profile, sense.household)
+        """What the profile states, and what binds because of it."""
         self._fit = self._closeness(self.said.habits)
         self.affinity = self._affinity()
         """How much the profile's text speaks for each activity: mean 0, standard deviation 1."""
         self.liking: Floats = self._rng("liking").normal(0.0, LIKING, len(sense.household.activities))
         wanted = TEXT_PULL * self.affinity + TRAIT_PULL * sense.household.trait_pull(big_five) + self.liking
+        wanted = wanted + [self.facts.pulls.get(activity.id, 0.0) for activity in sense.household.activities]
         self.pull = np.where([activity.need for activity in sense.household.activities], NEED * wanted, wanted)
         """Logits by which this person prefers each activity, whatever the hour."""
         self.own_hours = self._own_hours()
@@ -59,11 +81,16 @@ class PrivateLife:
         self.daily: tuple[int, ...] = self._own_needs()
         """Places of what belongs to each day: meals, and this person's way to wash."""
         self._due = {index: self._due_by_hour(index) for index in self.daily}
-        self.can_do = np.ones(len(sense.household.activities), dtype=bool)
+        self._own = {activity.id: self.facts.kept(activity, sense.household) for activity in sense.household.activities}
+        self.can_do = np.array([self._can_do(activity) for activity in sense.household.activities])
         """What the facts that the person states allow; shape (activities,)."""
         self.set_hours = self._has_set_hours()
         """What is done at its own hours, and not because somebody feels like it; shape (activities,)."""
         self._late = self._lateness()
+
+    def own(self, activity: Activity) -> Activity:
+        """An activity as this person does it: without the things, places and motions that facts rule out."""
+        return self._own[activity.id]
 
     def wish(self, weekday: int, hour: int) -> Floats:
         """Logits of each activity for this person in a free hour; shape (activities,)."""
@@ -82,7 +109,9 @@ class PrivateLife:
 
     def occupation(self, *, absence: bool) -> int | None:
         """Place of what fills the hours of work: at home, or away where people may be."""
-        return self.household.index.get("desk_work") if self.schedule else None
+        if self.schedule is None:
+            return None
+        return self.household.index.get(OCCUPATIONS.get((self._employment, self._workplace, absence), ""))
 
     def asleep(self, weekday: int, hour: int, *, already: bool) -> float:
         """Chance to be asleep in an hour of the morning, given that one was until then."""
@@ -120,10 +149,10 @@ class PrivateLife:
         Only motions for this thing at these classes of furniture are in question; without any, the common one is taken.
         Each person has a habitual motion, and now and then makes another.
         """
-        household, common = self._sense.household, activity.things[thing]
-        looks = household.looks_like
-        alike = [m for m in activity.all_motions if looks[m] == looks[common] and m in household.uses[thing]]
-        alike = [m for m in alike if any(affordances().suits(m, spot) for spot in spots)] or [common]
+        common, looks = activity.things[thing], self.household.looks_like
+        made = self.household.uses[thing]
+        alike = [m for m in activity.all_motions if looks[m] == looks[common] and m in made] or [common]
+        alike = [m for m in alike if any(affordances().suits(m, spot) for spot in spots)] or alike
         own = self._rng("motion", activity.id, thing)
         habit = common if own.random() < 0.7 and common in alike else alike[int(own.integers(len(alike)))]
         return habit if rng.random() < 0.9 else alike[int(rng.integers(len(alike)))]
@@ -134,10 +163,8 @@ class PrivateLife:
         return ranked[0]
 
     def evidence(self, activity: Activity) -> str | None:
-        """Return the sentence of the profile that speaks most for an activity, if one does."""
-        fit = self._fit[:, self._sense.household.index[activity.id]]
-        best = int(np.argmax(fit)) if len(fit) else -1
-        return self.said.habits[best] if best >= 0 and fit[best] >= EVIDENCE else None
+        """Return the person's own sentence that speaks for an activity, if one does; a borrowed one is none."""
+        return self.facts.because.get(activity.id)
 
     def strongest_trait(self, activity: Activity) -> tuple[str, float] | None:
         """Return the trait that speaks most for an activity, with this person's score, if one does."""
@@ -172,7 +199,7 @@ class PrivateLife:
         """
         household, order = self._sense.household, self.big_five.conscientiousness - 3.0
         rng = self._rng("hours")
-        shift = float(rng.normal(-0.35 * order, 0.6))
+        shift = float(rng.normal(-0.35 * order, 0.6)) + self.facts.hours_shift
         hours = np.arange(24, dtype=np.float64)
         curves = np.stack([np.interp(hours - shift, hours, row) for row in household.log_hours])
         usual = np.exp(curves[:, FIRST : LAST + 1])
@@ -182,11 +209,35 @@ class PrivateLife:
         bump = np.exp(-0.5 * ((hours[None, :] - habitual[:, None]) / width) ** 2)
         return np.asarray(curves + (HABIT + 0.25 * order) * bump, dtype=np.float64)
 
+    def _can_do(self, activity: Activity) -> bool:
+        """Whether an activity is possible: not ruled out, and with enough left of it, unless it is a need."""
+        own = self._own[activity.id]
+        enough = len(own.things) >= min(ENOUGH, len(activity.things)) and own.places
+        return activity.id not in self.facts.never and (activity.need or bool(enough))
+
+    @property
+    def _employment(self) -> str:
+        """What is stated; else by age, and of most people that they are employed."""
+        if self.facts.employment:
+            return self.facts.employment
+        if self.facts.age is not None and self.facts.age < OF_AGE:
+            return "student"
+        return "retired" if self.facts.life_stage == "older" else "employed"
+
+    @property
+    def _workplace(self) -> str:
+        """What is stated; else students learn outside, and the others work at home, where the study is."""
+        return self.facts.workplace or ("outside" if self._employment == "student" else "home")
+
     def _drawn_schedule(self) -> Schedule | None:
-        """Draw the hours of work from those of the population."""
-        schedules = self._rhythm.schedules
+        """Draw the hours of work or lessons from those of the population that agree with what is stated."""
+        if self._employment not in ("employed", "student"):
+            return None
+        agrees = AGREES.get(self.facts.work_time or "", lambda one: True)
+        schedules = [one for one in self._rhythm.schedules if agrees(one)]
         shares = np.array([one.share for one in schedules])
-        place = int(np.searchsorted(np.cumsum(shares), self._rng("schedule").random()))
+        drawn = self._rng("schedule").random() * (1.0 if len(schedules) == len(self._rhythm.schedules) else shares.sum())
+        place = int(np.searchsorted(np.cumsum(shares), drawn))
         return schedules[place] if place < len(schedules) else None
 
     def _own_needs(self) -> tuple[int, ...]:
@@ -211,6 +262,7 @@ class PrivateLife:
     def _lateness(self) -> float:
         """How much likelier than others this person sleeps late; conscientious people rise earlier (Tsaousis 2010)."""
         z = float(self._rng("lateness").normal()) - 0.5 * (self.big_five.conscientiousness - 3.0)
+        z += self.facts.hours_shift
         return float(np.exp(0.7 * z - 0.25))
 
     def _favour(self, what: str, count: int, scale: float = FAVOUR) -> Floats:

@@ -60,7 +60,8 @@ def profile_type1(
     sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], rng: np.random.Generator
 ) -> PickPlaceReflectionReply:
     """Answer human/reflect_profile_type1: is each placement part of what this person does for the intention?"""
-    person, activity = known(life), sense.recognise(variables["intention"]).activity
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
     items = _placements(variables["tasks"])
     fitting = {activity.places[i] for i in feasible_places(activity, fixed, movable)}
@@ -82,7 +83,8 @@ def profile_type2(
     sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> FreeMotionReflectionReply:
     """Answer human/reflect_profile_type2: do things, spots, motions and their order fit this person's way?"""
-    person, activity = known(life), sense.recognise(variables["intention"]).activity
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
     options = spots(sense, activity, fixed)
     weights = dict(zip(activity.thing_names, person.thing_weights(activity), strict=True))

@@ -18,6 +18,7 @@ from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import own_steps, reflection
 from coopera.models.offline.human.choosing import DONE, favourite_spot, known, person_placements, reasons
 from coopera.models.offline.human.person import PrivateLife
+from coopera.models.offline.human.reflection import MOST
 
 AGAIN = 1.6  # weight of a thing that was already used today, against one that was not
 IN_TURN = ("First", "Then", "Next", "After that", "Finally")
@@ -31,7 +32,8 @@ def pick_and_place(
     """Answer human/tasks_type1: the person's usual placements among those that the home allows, in sensible order."""
     if variables["steps"]:
         return own_steps.placements(sense, variables)
-    person, activity = known(life), sense.recognise(variables["intention"]).activity
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     chosen = person_placements(sense, person, activity, variables, fixed, movable, rng)
@@ -60,7 +62,8 @@ def free_motions(
     """
     if variables["steps"]:
         return own_steps.motions(sense, variables)
-    person, activity = known(life), sense.recognise(variables["intention"]).activity
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     options = spots(sense, activity, Surroundings(variables["fixed"]))
     if not options:
@@ -70,10 +73,11 @@ def free_motions(
     done = sense.mentioned(" ".join(variables["so_far"]), names)
     again = [DONE if name in done else AGAIN if name in used else 1.0 for name in names]
     weights = person.thing_weights(activity) * again
-    count = min(int(variables["n_tasks"]), len(names))
+    count = int(variables["n_tasks"])
     drawn = weighted_order(weights, rng)
     doable = [i for i in drawn if usable(activity, names[i], options)]
-    chosen = [*doable, *(i for i in drawn if i not in doable)][:count]
+    chosen = [*doable, *(i for i in drawn if i not in doable)]
+    chosen = (chosen * count)[: min(count, MOST)] if len(chosen) < count else chosen[:count]
     drafts: list[FreeMotionDraft] = []
     main: Piece | None = None
     for turn, index in enumerate(sorted(chosen)):
