@@ -7,6 +7,7 @@ from itertools import combinations
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
+from scipy import stats
 
 from coopera.core.randomness import rng_at
 from coopera.core.time_use import CATEGORIES, DAY_TYPES, DayType
@@ -70,9 +71,11 @@ class Question(NamedTuple):
 
     check: str
     measure: str
-    statistic: Statistic
     note: str
-    null: bool
+    statistic: Statistic
+    least: float
+    most: float
+    null: bool = False
     """Whether a sample of the table shows something, too."""
 
 
@@ -96,7 +99,8 @@ def time_use_figures(days: Sequence[SpentDay], table: TimeUse, *, seed: int = 0)
     shares (mean over the hours, and the worst hour), television at 8 pm, and for each category how many hours a day it
     has more than in the table, and by how many hours of the clock it is shifted (earth mover's distance). The control
     is what as many person-days would show that were drawn hour by hour from the table itself. Then, how far weekday
-    and weekend are from each other. Intervals resample people; with fewer than three there are none.
+    and weekend are from each other. Intervals resample people (`half_width`); with fewer than three there are
+    none.
 
     Args:
         days: What the simulated days were spent on.
@@ -144,21 +148,24 @@ def _against(lived: Tally, real: Floats, name: str, rng: np.random.Generator) ->
     people = len(lived.totals)
     resampled = lived.shares(rng.multinomial(people, np.full(people, 1 / people), size=RESAMPLES).astype(np.float64))
     drawn = _drawn(lived, real, rng)
-    for check, measure, statistic, note, null in _questions(lived, real):
-        value = float(statistic(lived.pooled))
+    for question in _questions(lived, real):
+        value = float(question.statistic(lived.pooled))
         if np.isnan(value):
-            yield from unmeasured(check, f"{measure}, {name}", why=note or "nothing to compare")
+            yield from unmeasured(question.check, f"{question.measure}, {name}", why=question.note)
             continue
-        notes = [note, f"an interval takes {ENOUGH} people" if people < ENOUGH else ""]
+        low, high, notes = None, None, [question.note]
+        if people < ENOUGH:
+            notes.append(f"an interval takes {ENOUGH} people")
+        elif half := half_width(question.statistic(resampled), people):
+            low, high = max(value - half, question.least), min(value + half, question.most)
         control = None
-        if null:
-            chance = _numbers(statistic(drawn))
-            control = float(chance.mean()) if len(chance) else None
-            notes.append(f"95 % of samples of the table below {np.quantile(chance, 0.95):.3f}" if len(chance) else "")
-        low, high = _interval(_numbers(statistic(resampled))) if people >= ENOUGH else (None, None)
+        chance = _numbers(question.statistic(drawn)) if question.null else np.empty(0)
+        if len(chance):
+            control = float(chance.mean())
+            notes.append(f"95 % of samples of the table below {np.quantile(chance, 0.95):.3f}")
         yield Figure(
-            check=check,
-            measure=f"{measure}, {name}",
+            check=question.check,
+            measure=f"{question.measure}, {name}",
             value=value,
             low=low,
             high=high,
@@ -174,21 +181,21 @@ def _questions(lived: Tally, real: Floats) -> Iterator[Question]:
     hours, pooled = lived.hours, lived.pooled
     worst = hours[int(np.argmax(jensen_shannon(pooled, real)))]
     span = f"{len(hours)} hours from {hours[0]} to {hours[-1]}, {lived.days} person-days"
-    yield Question(CHECK, "distance", lambda shares: jensen_shannon(shares, real).mean(axis=-1), span, null=True)
+    yield Question(CHECK, "distance", span, lambda shares: jensen_shannon(shares, real).mean(axis=-1), 0, 1, null=True)
     yield Question(
-        CHECK, "worst hour", lambda shares: jensen_shannon(shares, real).max(axis=-1), f"at {worst}", null=True
+        CHECK, "worst hour", f"at {worst}", lambda shares: jensen_shannon(shares, real).max(axis=-1), 0, 1, null=True
     )
     if _TV_HOUR in hours:
         at = hours.index(_TV_HOUR)
-        ours, theirs = pooled[at, _TV], real[at, _TV]
+        ours, theirs = float(pooled[at, _TV]), float(real[at, _TV])
         said = f"{100 * ours:.1f} % simulated, {100 * theirs:.1f} % real: {100 * (ours - theirs):+.1f} points"
-        yield Question(CHECK, f"tv at {_TV_HOUR}", lambda shares: shares[..., at, _TV] - theirs, said, null=False)
+        yield Question(CHECK, f"tv at {_TV_HOUR}", said, lambda shares: shares[..., at, _TV] - theirs, -theirs, 1)
     for place, category in enumerate(CATEGORIES):
         yield from _of_category(place, category, hours, pooled, real)
 
 
 def _of_category(place: int, category: str, hours: list[int], pooled: Floats, real: Floats) -> Iterator[Question]:
-    ours, theirs = pooled[:, place].sum(), real[:, place].sum()
+    ours, theirs = float(pooled[:, place].sum()), float(real[:, place].sum())
 
     def more(shares: Floats) -> Floats:
         return np.asarray(shares[..., place].sum(axis=-1) - theirs)
@@ -197,9 +204,9 @@ def _of_category(place: int, category: str, hours: list[int], pooled: Floats, re
         return earth_mover(shares[..., place], real[:, place], hours)
 
     said = f"{ours:.2f} h a day simulated, {theirs:.2f} h real"
-    yield Question(BY_CATEGORY, f"{category}, more hours a day", more, said, null=False)
+    yield Question(BY_CATEGORY, f"{category}, more hours a day", said, more, -theirs, len(hours) - theirs)
     nobody = "nobody simulated does it" if not ours else "nobody in the table does it" if not theirs else ""
-    yield Question(BY_CATEGORY, f"{category}, hours shifted", shift, nobody, null=True)
+    yield Question(BY_CATEGORY, f"{category}, hours shifted", nobody, shift, 0, hours[-1] - hours[0], null=True)
 
 
 def _drawn(lived: Tally, real: Floats, rng: np.random.Generator) -> Floats:
@@ -287,8 +294,14 @@ def _numbers(values: Floats) -> Floats:
     return np.asarray(values[~np.isnan(values)])
 
 
-def _interval(values: Floats) -> tuple[float | None, float | None]:
-    if not len(values):
-        return None, None
-    low, high = np.quantile(values, [0.025, 0.975])
-    return float(low), float(high)
+def half_width(resampled: Floats, people: int) -> float | None:
+    """Half a 95 % interval: Student's t times the standard deviation over resamples of the people.
+
+    Percentiles of the resamples would not do: a resample repeats people, so its distance is larger than theirs, and the
+    interval would lie above the value. The standard deviation is scaled by n / (n - 1), so that of a mean it is the
+    usual standard error. None where the resamples do not differ, as they cannot say how sure one is.
+    """
+    spread = float(np.std(known)) if len(known := _numbers(resampled)) else 0.0
+    if spread < 1e-9:
+        return None
+    return float(stats.t.ppf(0.975, people - 1) * spread * np.sqrt(people / (people - 1)))

@@ -13,7 +13,7 @@ from coopera.evaluation.people.divergence import earth_mover, jensen_shannon
 from coopera.evaluation.people.figures import Figure
 from coopera.evaluation.people.hours_spent import SpentDay, spent
 from coopera.evaluation.people.time_use import TimeUse, read_time_use
-from coopera.evaluation.people.time_use_distance import hour_rows, time_use_figures, within_table
+from coopera.evaluation.people.time_use_distance import half_width, hour_rows, time_use_figures, within_table
 from coopera.evaluation.people.time_use_plot import COLOURS, draw_time_use
 from tests.evaluation.people.lived import day
 from tests.evaluation.people.tables import Shares, rows, says, write
@@ -70,7 +70,7 @@ def test_who_lives_as_the_table_says_is_at_no_distance_and_below_a_samples(tmp_p
     assert "4 hours from 9 to 12, 4 person-days" in distance.note
     assert distance.low is not None
     assert distance.high is not None
-    assert 0 <= distance.low < distance.high <= 1
+    assert distance.low == 0 < distance.high <= 1
     assert found["worst hour, weekday, A"].value == pytest.approx(0)
     assert found["tv, more hours a day, weekday, A"].value == pytest.approx(0)
     assert found["tv, hours shifted, weekday, A"].value == pytest.approx(0)
@@ -104,6 +104,15 @@ def test_fewer_than_three_people_have_no_interval_and_it_says_so(tmp_path: Path)
     found = _by_measure(time_use_figures(_days(["tv"], ["work"]), _table(tmp_path, "A")))
     assert found["distance, weekday, A"].low is None
     assert "an interval takes 3 people" in found["distance, weekday, A"].note
+
+
+def test_the_interval_of_a_mean_is_students_and_people_who_are_all_alike_have_none(tmp_path: Path) -> None:
+    # three people at 0, 0 and 1: standard error sqrt(1/3) / sqrt(3), t(2) = 4.3027
+    people = np.array([0.0, 0.0, 1.0])
+    every = np.array([people[[a, b, c]].mean() for a in range(3) for b in range(3) for c in range(3)])
+    assert half_width(every, 3) == pytest.approx(4.302652729911275 / 3)
+    found = _by_measure(time_use_figures(_days(["tv"], ["tv"], ["tv"]), _table(tmp_path, "A")))
+    assert found["tv, more hours a day, weekday, A"].low is None
 
 
 def test_a_day_type_that_nobody_lived_is_unmeasured(tmp_path: Path) -> None:
