@@ -27,6 +27,8 @@ WorkTime: TypeAlias = Literal["mornings", "evenings", "nights", "weekdays", "wee
 
 _NAMED = re.compile(r"<([a-z_]+)>")
 _GROUP = "(?P<what>"
+_A_WORD = r"(?:(?!(?:not|never|no|hardly|rarely)\b)\w+ )"  # what "(?:\w+ )" in a pattern stands for: no denial
+_WORD_AFTER = r"(?:(?! (?:not|never|no|hardly|rarely)\b) \w+)"
 
 
 def _is_pattern(text: str) -> str:
@@ -176,6 +178,7 @@ class FactsFile(_Part):
         def listed(found: re.Match[str]) -> str:
             return f"(?:{'|'.join(self._written_out(one) for one in self.lists[found.group(1)])})"
 
+        text = text.replace("(?:\\w+ )", _A_WORD).replace("(?: \\w+)", _WORD_AFTER)
         return _GROUP.join(_NAMED.sub(listed, part) for part in text.split(_GROUP))
 
 

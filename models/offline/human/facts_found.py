@@ -19,7 +19,7 @@ HINTS_AGAINST = -1.0
 _WORDS = "three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _DECADES = ("teens", "twenties", "thirties", "forties", "fifties", "sixties", "seventies", "eighties", "nineties")
-_UNITS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"]
+_UNITS = "one two three four five six seven eight nine".split()
 NUMBERS: Mapping[str, int] = {
     **{word: 3 + i for i, word in enumerate([*_WORDS.split(), "nineteen"])},
     **{ten: 20 + 10 * i for i, ten in enumerate(_TENS)},
@@ -32,11 +32,9 @@ _AGES = (
         r"(?: (?:about to (?:be|turn)|turning|almost|nearly|over|past|only|just|currently|now|already|around|about|still))*"
         rf"(?: an?)?(?: the (?:ripe )?(?:old )?age of)? {_NUMBER}(?P<unit> ?(?:years? (?:old|young|of age)|yrs? old|yo\b|y o\b))?"
         r"(?=\s*(?:$|,| and\b| or so\b|(?: \w+)? (?:male|female|man|woman|guy|girl|boy|lady|mom|dad|gentleman)\b|"
-        r" now\b| today\b| this (?:year|month)\b| next (?:year|month)\b| in (?:a|two|three) \w+$)|(?P<rest> .*))"
+        r" now\b| today\b| this (?:year|month)\b| (?:next|last) \w+| in (?:a|two|three) \w+$)|(?P<rest> .*))"
     ),
-    re.compile(
-        rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"
-    ),
+    re.compile(rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"),
     re.compile(rf"\bmy age is {_NUMBER}(?P<unit>)"),
 )
 _DECADE = re.compile(
@@ -86,12 +84,19 @@ def read(sentence: str, file: FactsFile, needs: frozenset[str]) -> Iterator[Foun
     age = _age(heard)
     if age is not None:
         yield _of_age(heard, age, file)
-    for rule in file.rules:
-        if (found := _stated(rule, heard, file)) is not None:
-            says = rule.says.replace("{what}", found)
-            yield Found(sentence, rule.kind, says, rule, gives=rule.gives)
+    yield from _rules(heard, file)
     yield from _food(heard, file)
     yield from _activities(heard, file, needs)
+
+
+def _rules(heard: Heard, file: FactsFile) -> Iterator[Found]:
+    """Tell the facts of a sentence; of several jobs only the best known one: "a teacher", not just "employed"."""
+    stated = [(rule, found) for rule in file.rules if (found := _stated(rule, heard, file)) is not None]
+    jobs = [rule for rule, _ in stated if rule.employment == "employed"]
+    job = max(jobs, key=lambda rule: rule.rank, default=None)
+    for rule, found in stated:
+        if rule is job or rule.employment != "employed":
+            yield Found(heard.sentence, rule.kind, rule.says.replace("{what}", found), rule, gives=rule.gives)
 
 
 def _stated(rule: Rule, heard: Heard, file: FactsFile) -> str | None:
@@ -173,7 +178,7 @@ def _activities(heard: Heard, file: FactsFile, needs: frozenset[str]) -> Iterato
                 never.append(activity)
         elif "does" in near:
             likes[activity] = HINTS
-        elif any(standing in ("never", "dislikes") for standing in near):
+        elif not spoken.strict and any(standing in ("never", "dislikes") for standing in near):
             against[activity] = HINTS_AGAINST
         elif "wish" in about:
             likes[activity] = WISHES
@@ -196,9 +201,7 @@ def _spoken(
     named = ", ".join(file.activities[a].called for a, size in sizes.items() if abs(size) == strongest)
     kind: Kind = "aversion" if effects else "hobby"
     if effects:
-        says = (
-            f"does not do or like: {named}" if strongest >= abs(AGAINST["never"]) else f"has little time for: {named}"
-        )
+        says = f"does not do or like: {named}" if strongest >= abs(AGAINST["never"]) else f"is not much for: {named}"
     else:
         says = f"speaks of {named}" if direct else f"hints at {named}"
     return Found(heard.sentence, kind, says, effects or Effects(), gives=gives, spoken=sizes, direct=direct or {})

@@ -25,12 +25,11 @@ _SHORT = (
     (r"\b(mom|mum|mother|dad|father|brother|sister|wife|husband|son|daughter)'s (?=an?\b|the\b|not\b)", r"\1 is "),
 )
 _FIGURES = re.compile(
-    r"\b(?:dying (?:to|for)|scared to death|dog tired|dog days|hot dogs?|(?:raining )?cats and dogs|cat nap|"
+    r"\b(?:scared to death|dog tired|dog days|hot dogs?|(?:raining )?cats and dogs|cat nap|"
     r"play (?:it by ear|hard to get|with fire|dumb|devil's advocate|the (?:lottery|lotto|market|stock market|field))|"
-    r"(?:running|runs?|ran) (?:(?:a|an|the|my|our|his|her|their|several|two)(?: own)? (?!marathon|half|race|mile|"
-    r"lap|five|ten|[\d.]+|k\b|few|couple|lot|bit)(?:[\w']+ ?){1,3}|out of|late|low|into|away|around like|for "
+    r"(?:running|runs?|ran) (?:out of|late|low|into|away|around like|for "
     r"(?:office|mayor|president)|in (?:my|the|our) family|on coffee|things|errands|wild|deep)|in the long run|"
-    r"read (?:minds?|people|between the lines|palms|the room)|mind reading|mind reader|cook the books|"
+    r"read (?:minds?|people(?: like an? (?:open )?book)?|between the lines|palms|the room)|mind reading|mind reader|cook the books|"
     r"piece of cake|cakewalk|(?:an|my) arm and a leg|pull(?:ing)? (?:my|your|his|her) leg|break a leg|"
     r"blind (?:dates?|faith|spot|as a bat)|colou?r ?blind|love is blind|turn a (?:blind|deaf) \w+|blind in one eye|"
     r"tone deaf|draw (?:attention|the line|a line|blood)|paint (?:the town|a picture of)|swim(?:ming)? in|"
@@ -40,7 +39,7 @@ _FIGURES = re.compile(
     r"work like a (?:dog|horse)|the cat's out|cat got|let the cat|work in progress|on the run|ring a bell|"
     r"(?:took|takes?|taking) a (?:shower of|bath in)|shopping spree for|bookmaker|sleep(?:ing)? with the fishes|"
     r"sing the praises of|green with envy|heart ?broken|broken heart|spill the tea|not my cup of tea|"
-    r"couch surf\w*|channel surf\w*|walk all over|wears? the pants|skate over|fish for compliments)\b"
+    r"(?:let (?:him|her|them) believe|pretend)(?: that)? i\b[^,;]*|couch surf\w*|channel surf\w*|walk all over|wears? the pants|skate over|fish for compliments)\b"
 )
 _SIMILE = re.compile(
     r"\b(?:(?<=feel )|(?<=feels )|(?<=look )|(?<=looks )|(?<=eat )|(?<=sleep )|(?<=work )|(?<=live )|(?<=sing )|"
@@ -75,6 +74,7 @@ _OTHERS = re.compile(
     rf"(?: (?!and\b|i\b|favou?rite\b)[\w']+){{0,3}}? {RELATIVE}(?:'s|s')?\b|(?:mom|mum|dad|he|she|they|his|her|their)\b)"
 )
 _AND_I = re.compile(r"\band (?:i|me|myself)\b|\bi and\b")
+_VERB_ONLY = re.compile(r"^(?:also |really )?(?:love|like|enjoy|prefer|adore|am|have|hate|dislike|work|live|spend|own|teach)\b")
 _LEFT_OVER = re.compile(
     r"^(?:is|has|loves|likes|enjoys|hates|works|plays|lives|does|owns|runs|teaches|wants|drinks|eats|uses|was)\b"
 )
@@ -98,7 +98,7 @@ _WISH = re.compile(
     r"\b(?:want(?:s|ed|ing)? (?:\w+ )?to|wanna|hope|hoping|wish|would (?:really )?(?:like|love)|dream(?:s|ing)?|"
     r"plan(?:s|ning)? (?:to|on)|planning|going to (?:be|become|get|buy|adopt|start)|someday|some day|one day i|"
     r"(?:to|would) become|becoming|studying to be|training to be|school to be|"
-    r"aspir\w+|goal|will (?:be|become|get|have|start)|next year|in the future|thinking (?:of|about)|considering|"
+    r"aspir\w+|dying to|goal|will (?:be|become|get|have|start)|next year|in the future|thinking (?:of|about)|considering|"
     r"cannot wait|looking for|in line for|saving (?:up )?(?:for|to)|could be|should be|trying to (?:be|become|get|start))\b"
 )
 _NEVER = re.compile(
@@ -110,9 +110,11 @@ _SOFTLY = re.compile(
     r"\b(?:like|love|enjoy|care|much|often|always|good|great|time|very|really|big|a lot|fond|fan|into|every|"
     r"interested|keen|crazy|feel|the best|too|all day|anymore|mood)\b"
 )
+_HARD = re.compile(r"\b(?:hate[sd]?|never|not at all)\b")
+_LITTLE = re.compile(r"\b(?:much|often|a lot|anymore|well|enough)\b")
 _DISLIKES = re.compile(
     r"\b(?:dislike[sd]?|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
-    r"rather .* than|^(?:rather than|instead of)|prefer .* over|struggle (?:to|with))\b"
+    r"rather .* than|^(?:rather than|instead of)|prefer .* over|prefer .* to an?\b(?! \w+ing)|struggle (?:to|with))\b"
 )
 _SELDOM = re.compile(r"\b(?:rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b")
 _AFTER = re.compile(
@@ -142,10 +144,11 @@ class Clause(NamedTuple):
         if self.past:
             return "past"
         bare = _NOT_AGAINST.sub(lambda found: " " * len(found.group()), before)
-        if _AFTER.search(after) or (found := _NEVER.search(bare)):
-            hard = not found or not _SOFTLY.search(bare, found.end()) or re.search(r"\b(?:hate|never|not at all)", bare)
-            much = re.search(r"\b(?:much|often|a lot|anymore|very well|well)\b", after)
-            return "never" if hard and not much and not _AFTER.search(after) else "dislikes"
+        if _AFTER.search(after):
+            return "dislikes"
+        if against := _NEVER.search(bare):
+            softly = _SOFTLY.search(bare, against.end()) or _LITTLE.search(after)
+            return "dislikes" if softly and not _HARD.search(bare) else "never"
         if _DISLIKES.search(bare):
             return "dislikes"
         if _SELDOM.search(bare):
@@ -158,6 +161,7 @@ def plain_sentence(sentence: str) -> str:
     text = sentence.lower().replace("’", "'").replace("`", "'")
     for short, full in _SHORT:
         text = re.sub(short, full, text)
+    text = re.sub(r"\b(if|when) i am not (?=\w+ing\b)", r"\1 i am ", text)
     text = re.sub(r"(\d)(?=[a-z]{3})|[-–—/\"()!?.*]+(?!\d)", lambda found: f"{found.group(1) or ''} ", text)
     return re.sub(r"\s+", " ", text).strip(" ,")
 
@@ -178,6 +182,8 @@ def clauses(sentence: str) -> list[Clause]:
         part = text[start : cut.start() if cut else len(text)].strip(" ,")
         start = cut.end() if cut else start
         if part:
+            if own and _VERB_ONLY.search(part):
+                part = f"i {part}"
             own = _speaks_of_self(part, found, own)
             found.append(Clause(part, own, bool(_PAST.search(part)) and not _STILL.search(part)))
     return found
