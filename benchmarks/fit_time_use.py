@@ -21,6 +21,7 @@ from coopera.config.schema import default_data_dir
 from coopera.core.people import TRAITS, BigFive
 from coopera.core.randomness import rng_at
 from coopera.core.time_use import CATEGORIES, DAY_TYPES
+from coopera.evaluation.people.divergence import jensen_shannon
 from coopera.evaluation.people.hours_spent import filled
 from coopera.evaluation.people.time_use import named_time_use
 from coopera.memory import bundled
@@ -33,7 +34,7 @@ from coopera.models.offline.human.rhythm import Rhythm, Schedule, of_day_type
 from coopera.models.offline.human.routine import USUAL_TEMPERATURE, Done, Moment, choose
 
 HOURS = range(FIRST, LAST + 1)
-PEOPLE, DAYS, ROUNDS = 240, 14, 16
+PEOPLE, DAYS, ROUNDS = 200, 14, 12
 STEP = 0.7  # share of the error in logits that a round takes away
 LEAST, MOST = -6.0, 6.0  # logits beyond which a category is as good as never, or always
 FITTED = ("sleeping", "food_prep", "laundry", "tv", "eating", "exercise", "travel")
@@ -82,12 +83,10 @@ def fit(sense: CommonSense, real: Floats, people: Sequence[tuple[str, BigFive]])
     for turn in range(ROUNDS):
         rhythm = _rhythm(asleep, schedules(wanted), logits)
         lived = population(sense, rhythm, people)
-        print(
-            f"round {turn}: JS {np.mean(divergence(lived, real)):.4f} bits, worst {np.max(divergence(lived, real)):.4f}"
-        )
-        wanted = np.clip(
-            wanted * np.clip((work + FEW) / (lived[:, :, CATEGORIES.index("work")] + FEW), 0.8, 1.25), 0, 1
-        )
+        apart = jensen_shannon(lived, real)
+        print(f"round {turn}: {apart.mean():.4f} bits from the table, {apart.max():.4f} in the worst hour")
+        missing = (work + FEW) / (lived[:, :, CATEGORIES.index("work")] + FEW)
+        wanted = np.clip(wanted * np.clip(missing, 0.8, 1.25), 0.0, 1.0)
         error = np.log(real + FEW) - np.log(lived + FEW)
         error = error - error[:, :, CATEGORIES.index("other")][:, :, None]
         for name in FITTED:

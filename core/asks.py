@@ -9,7 +9,7 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - `states` is `{object: its states in words}`, such as "open" or "dirty", of all that is not as at first: for the person
   in their whole home, for the robot where it is and in what it saw;
 - `changes` are what is different in the person's life these days, `{"kind", "text", "strength", "more", "never"}`, the
-  last three as `coopera.core.changes` has them;
+  last three as `coopera.graphs.players.changes` has them;
 - `may_go_on` and `may_leave` say whether an intention may go on for hours, and whether the person may leave the home;
 - `so_far` are the tasks, in words, of the hour that the intention goes on from; empty for a new one;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;

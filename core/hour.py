@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import ConfigDict, Field
 
-from coopera.core.changes import Circumstance
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Belief, BigFive, Frozen, PersonId
@@ -14,6 +13,18 @@ from coopera.core.setting import Setting
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
 """The kinds of candidates: the robot imagines them, and a classifier gives a verdict on each."""
+
+
+ChangeKind: TypeAlias = Literal["mood", "drift", "job", "illness", "hobby", "season", "other"]
+"""What may become different in a life."""
+
+
+class Circumstance(Frozen):
+    """Something that is different in a person's life, as it is felt on a day; `strength` from 0 to 1."""
+
+    kind: ChangeKind
+    text: str
+    strength: float = Field(ge=0, le=1)
 
 
 class Reasons(Frozen):

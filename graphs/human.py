@@ -14,12 +14,12 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 
 from coopera.core.affordances import affordances
-from coopera.core.changes import felt
 from coopera.core.clock import Clock
 from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskVerdict
 from coopera.core.household import FreeMotion, ObjectMap, plain
 from coopera.core.randomness import Address
 from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
+from coopera.graphs.players.changes import felt
 from coopera.graphs.players.checks import findings, repair
 from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
 from coopera.graphs.players.variables import as_tasks, known, motions_here, when

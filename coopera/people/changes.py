@@ -11,11 +11,11 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from coopera.config.files import read_yaml
-from coopera.core.changes import Change, Changes, Logits, no_changes
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import Frozen, PersonId
 from coopera.core.randomness import rng_at
+from coopera.graphs.players.changes import Change, Changes, Logits, no_changes
 
 NONE, SEEDED = "none", "seeded"
 SEASON = 91  # days

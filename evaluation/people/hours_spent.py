@@ -69,7 +69,8 @@ def spent(day: LivedDay, uses: Uses) -> SpentDay:
     it: half to each if there is something on both sides, in the proportions of its own minutes. Other short intentions
     in between, such as the dishes after lunch, are passed over. If there is nothing on either side, they are "other".
     """
-    return SpentDay(day.person, day.seed, day.number, filled(dict(zip(day.hours, map(uses, day.intentions), strict=True))))
+    taken = dict(zip(day.hours, map(uses, day.intentions), strict=True))
+    return SpentDay(day.person, day.seed, day.number, filled(taken))
 
 
 def filled(uses: Mapping[int, Mapping[Category, int]]) -> Floats:

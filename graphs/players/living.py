@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from coopera.core.changes import Changes, no_changes
+from coopera.graphs.players.changes import Changes, no_changes
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,9 +10,9 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias
 from langchain_core.embeddings import Embeddings
 from typing_extensions import TypedDict
 
-from coopera.core.changes import Change, Circumstance
 from coopera.core.clock import Clock
 from coopera.core.hour import (
+    Circumstance,
     DayPlan,
     Found,
     HumanHour,
@@ -27,6 +27,7 @@ from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.graphs.players.changes import Change
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.real_person import Verdict

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from coopera.core.changes import as_variables as as_variables_of_today
 from coopera.core.clock import Clock
 from coopera.core.hour import Task
+from coopera.graphs.players.changes import as_variables as as_variables_of_today
 from coopera.graphs.players.player import HumanContext, HumanState
 from coopera.graphs.robots.recall import as_variables
 

@@ -233,11 +233,11 @@ class PrivateLife:
         """Draw the hours of work or lessons from those of the population that agree with what is stated."""
         if self._employment not in ("employed", "student"):
             return None
-        agrees = AGREES.get(self.facts.work_time or "", lambda one: True)
-        schedules = [one for one in self._rhythm.schedules if agrees(one)]
-        shares = np.array([one.share for one in schedules])
-        drawn = self._rng("schedule").random() * (1.0 if len(schedules) == len(self._rhythm.schedules) else shares.sum())
-        place = int(np.searchsorted(np.cumsum(shares), drawn))
+        schedules, drawn = self._rhythm.schedules, float(self._rng("schedule").random())
+        if stated := self.facts.work_time:
+            schedules = tuple(one for one in schedules if AGREES[stated](one))
+            drawn *= sum(one.share for one in schedules)
+        place = int(np.searchsorted(np.cumsum([one.share for one in schedules]), drawn))
         return schedules[place] if place < len(schedules) else None
 
     def _own_needs(self) -> tuple[int, ...]:

@@ -206,7 +206,8 @@ class Style:
     def _bent(self, lengths: Sequence[float]) -> Floats:
         """Logits for being brief or wordy, given lengths in words, and for the usual or the rare, by place."""
         words, places = np.array(lengths), np.arange(len(lengths), dtype=np.float64)
-        return self._per_word * (words - words.mean()) + self._per_place * (places - places.mean())
+        bent = self._per_word * (words - words.mean()) + self._per_place * (places - places.mean())
+        return np.asarray(bent, dtype=np.float64)
 
     def _liked(self, text: str) -> float:
         """How much this person likes a turn of phrase, wherever it is offered."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import Field
 
+from coopera.core.hour import ChangeKind, Circumstance
 from coopera.core.people import Frozen, PersonId
 
-ChangeKind: TypeAlias = Literal["mood", "drift", "job", "illness", "hobby", "season", "other"]
 Logits = Annotated[float, Field(ge=-10, le=10)]
 DayNumber = Annotated[int, Field(ge=0, le=100_000)]
 
@@ -42,14 +42,6 @@ class Change(Frozen):
         if day < self.day or (self.until is not None and day >= self.until):
             return 0.0
         return min(1.0, (day - self.day + 1) / self.ramp) if self.ramp else 1.0
-
-
-class Circumstance(Frozen):
-    """A change as it is felt on a day; in the trace."""
-
-    kind: ChangeKind
-    text: str
-    strength: float = Field(ge=0, le=1)
 
 
 Changes: TypeAlias = Callable[[PersonId, int], Sequence[Change]]
