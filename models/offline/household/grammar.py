@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from math import prod
-from typing import NamedTuple
 
 MOST = 400
 """Expansions that a template may have: more than anybody could proof-read."""
@@ -23,7 +23,8 @@ _BREAK = re.compile(r"[,:;\u2013\u2014]")
 _PARTS = 8  # parts of a text among which a wording is sought; nobody's wording with a touch has more
 
 
-class Template(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Template:
     """A parsed wording: its pieces in order, each with its alternatives; what is fixed has a single one."""
 
     pieces: tuple[tuple[str, ...], ...]

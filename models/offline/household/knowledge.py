@@ -315,8 +315,7 @@ def _double_wordings(household: Household) -> Iterator[str]:
     seen: dict[str, str] = {}
     for activity in household.activities:
         for text in activity.expansions():
-            if key(text) in seen:
-                other = seen[key(text)]
+            if other := seen.get(key(text)):
                 yield f"activity {activity.id!r}, field 'wordings': {text!r} stands also in activity {other!r}"
             seen[key(text)] = activity.id
 

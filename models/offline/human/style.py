@@ -18,10 +18,10 @@ from coopera.models.offline.household.knowledge import Activity, Floats
 
 TEMPLATE = 0.9  # scale of the Gumbel draws behind favourites among an activity's wordings
 HABIT = 0.5  # the same for an alternative in one activity
-WORD = 0.7  # the same for an alternative wherever it is offered
+WORD = 0.9  # the same for an alternative wherever it is offered
 BREVITY = 0.25  # standard deviation of what a further word adds or takes, in logits
 RARITY = 0.1  # standard deviation of what a place further down the alternatives adds or takes, in logits
-OPEN, WORDY = 0.12, 0.12  # what a point of openness adds per place, and one of extroversion per word
+OPEN, WORDY = 0.18, 0.12  # what a point of openness adds per place, and one of extroversion per word
 STEADY = 0.2  # share by which a point of conscientiousness sharpens all favourites
 TOUCHES = 0.3  # share of intentions that the middle of the scale gives a touch of its own
 CHATTY = 0.05  # by how much a point of extroversion raises that share
@@ -58,7 +58,7 @@ _TOUCHES: dict[tuple[str, int], tuple[str, ...]] = {
         "As planned, …",
         "…, one step after the other",
         "…, from start to finish",
-        "First things first: …",
+        "One thing at a time: …",
         "…, and do it right",
         "Next on the list: …",
     ),

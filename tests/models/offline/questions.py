@@ -163,10 +163,9 @@ def imagine(*, hour: int = 10, day: int = 0, n: int = 5, **changed: Any) -> Any:
 
 def activity(text: str) -> str:
     """Id of the activity that one of its own wordings names, touch or no touch."""
-    for known in shipped().activities:
-        if text in known.wordings or text.split(",")[0] in known.wordings:
-            return known.id
-    raise AssertionError(f"{text!r} is no wording of the household file")
+    known = shipped().named(text)
+    assert known is not None, f"{text!r} is no wording of the household file"
+    return known.id
 
 
 def sample(prompt: str) -> dict[str, Any]:

@@ -76,7 +76,7 @@ def test_meals_come_at_mealtimes_on_most_days_and_the_night_is_prepared_at_night
 def test_after_the_evening_routine_only_quiet_things_follow() -> None:
     known = shipped().activities[shipped().index["bedtime"]]
     nights = [day[day.index("bedtime") + 1 :] for day in _days() if "bedtime" in day]
-    today = [memory(known.wordings[0], 0, 20, Clock(day=0, hour=21))]
+    today = [memory(known.canonical[0], 0, 20, Clock(day=0, hour=21))]
     late = {activity(intend(PEOPLE[0], 21, seed=s, today=today).intention) for s in range(40)}
     assert 3 <= len(late) <= len(known.follows)
     assert late | {doing for night in nights for doing in night} <= set(known.follows)

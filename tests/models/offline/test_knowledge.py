@@ -34,6 +34,21 @@ KINDS = (
     "hobby room",
 )
 
+VERBS = """
+add admire advance alter arrange assemble attempt attend bake banish be begin bend binge breathe bring brood
+browse brush build burn call calm capture care catch challenge chase chat check cheer choose clean clear close
+collect concentrate construct continue cook cram create crochet cross dance daydream deal decide decorate design
+dim display dive do doze draw dress drive eat end enjoy escape exercise experiment feed fiddle fight figure fill
+find finish fix float focus follow fool freshen gain get give go grab groom have heat hold host idle improve
+improvise jam keep knit laugh lean learn let lie lift linger listen look lose make master meet move muse nibble
+nod note organise paint pamper pause pick plan play plunge polish post practise prepare preserve provide push
+put puzzle rack read rearrange receive recover reflect refuel rehearse relax remove repair rescue rest restore
+return review revise romp root round run satisfy savour see seek set settle sew show sing sit sketch sleep slow
+snack sneak snooze soak solve sort speak spend start stay still stitch stop stretch strum study take talk teach
+tend think throw tidy tinker train treat try turn unwind use wake warm wash watch welcome whip wind wipe work
+write
+"""
+
 
 @lru_cache(maxsize=2)
 def _read(name: str) -> Any:
@@ -61,10 +76,27 @@ def test_an_activity_is_described_in_full(activity: Activity) -> None:
 def test_wordings_are_high_level_speak_of_nobody_and_name_no_object(activity: Activity) -> None:
     catalogue = _read("simulation/homes/catalogue.yaml")
     objects = {plain(cls) for kind in ("fixed", "movable") for cls in catalogue[kind]} | set(activity.things)
-    for wording in activity.wordings:
+    named = re.compile(rf"\b({'|'.join(map(re.escape, sorted(objects)))})s?\b")
+    for wording in activity.expansions():
         assert not re.search(r"\b(I|my|me|he|she)\b", wording)
-        named = [thing for thing in objects if re.search(rf"\b{re.escape(thing)}s?\b", wording.lower())]
-        assert named == []
+        assert named.search(wording.lower()) is None, wording
+
+
+def test_an_intention_can_be_put_in_thousands_of_short_ways_that_begin_with_a_verb() -> None:
+    counts = {activity.id: len(list(activity.expansions())) for activity in ACTIVITIES}
+    assert sum(counts.values()) >= 3000
+    assert min(counts.values()) >= 40
+    wordings = [wording for activity in ACTIVITIES for wording in activity.expansions()]
+    assert [wording for wording in wordings if len(wording.split()) > 9] == []
+    assert {wording.split()[0].lower() for wording in wordings} - set(VERBS.split()) == set()
+    assert [wording for wording in wordings if re.search(r"\ba [aeio]|\ban [^aeiouh]|\b(\w+) \1\b|  ", wording)] == []
+
+
+def test_what_a_wording_says_plainly_is_its_first_alternatives() -> None:
+    for activity in ACTIVITIES:
+        assert len(activity.canonical) == len(activity.wordings)
+        assert not any(set(text) & set("{|}") for text in activity.canonical)
+    assert ACTIVITIES[0].canonical[0] == "Start the day with a proper breakfast"
 
 
 def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
@@ -158,6 +190,15 @@ def test_a_correct_small_file_is_read(tmp_path: Path) -> None:
         ("follows", ["fly"], r"activity 'lunch', field 'follows': there is no activity 'fly'"),
         ("motions", ["fly"], r"activity 'lunch', field 'motions': 'fly' is not listed under looks_like"),
         ("assumed", ["openness"], r"activity 'lunch', field 'assumed': 'openness' has no loading in big_five"),
+        (
+            "wordings",
+            ["{Eat|Cook} a {good|proper} {dinner|}", "Eat"],
+            r"'Cook a proper dinner' stands also in .* 'lunch'",
+        ),
+        ("wordings", ["Eat {well|Well}"], r"'lunch', field 'wordings': 'Eat Well' stands also in activity 'lunch'"),
+        ("wordings", ["Eat {well"], r"activity 'lunch', field 'wordings\.0': 'Eat {well' has a brace without"),
+        ("wordings", ["Eat", "Eat {|}"], r"activity 'lunch', field 'wordings\.1': 'Eat {\|}' has braces with nothing"),
+        ("wordings", ["Eat {well}"], r"activity 'lunch', field 'wordings': at least two wordings"),
         ("wordings", ["Cook a proper dinner", "Eat"], r"field 'wordings'.*'Cook a proper dinner'"),
         ("things", {}, r"activity 'lunch', field 'things'"),
         ("colour", "red", r"activity 'lunch', field 'colour'"),

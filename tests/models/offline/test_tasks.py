@@ -37,7 +37,7 @@ def _places(who: dict[str, Any], intention: str = BAKE, *, seed: int = 0, n: int
 
 @pytest.mark.parametrize("known", shipped().activities, ids=lambda a: a.id)
 def test_every_wording_of_every_activity_becomes_that_activitys_tasks(known: Activity) -> None:
-    for seed, wording in enumerate([*known.wordings, f"{known.wordings[0]}, full of energy"]):
+    for seed, wording in enumerate([*known.canonical, f"Carry on: {known.canonical[0]}, full of energy"]):
         moves = _moves(person(), wording, seed=seed)
         assert [task.act.in_hand in known.things for task in moves] == [True] * 5
         assert len({task.act.in_hand for task in moves}) == 5
@@ -86,7 +86,7 @@ def test_what_was_in_hand_today_is_preferred_and_named_in_the_reason() -> None:
 
 _SOME_FIXED = st.sets(st.sampled_from(sorted(FIXED)), min_size=1, max_size=8)
 _SOME_MOVABLE = st.sets(st.sampled_from(sorted(MOVABLE)), min_size=1, max_size=8)
-_WORDINGS = st.sampled_from([a.wordings[0] for a in shipped().activities])
+_WORDINGS = st.sampled_from([a.canonical[0] for a in shipped().activities])
 
 
 @settings(max_examples=40)

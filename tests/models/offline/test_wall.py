@@ -14,7 +14,7 @@ from coopera.core.asks import ASKS
 from tests.models.offline.questions import FIXED, MOVABLE, ask, imagine, live, percept, person, sample, when
 
 ROOT = Path(__file__).parents[3]
-PRIVATE = {f"coopera.models.offline.human.{name}" for name in ("person", "choosing", "replies", "tasks")}
+PRIVATE = {f"coopera.models.offline.human.{name}" for name in ("person", "style", "choosing", "replies", "tasks")}
 
 
 def _imports(module: str) -> set[str]:
