@@ -17,8 +17,9 @@ from coopera.core.people import Frozen
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
 from coopera.core.replies import IntentionsReply, PickPlaceReply, VerdictsReply
-from coopera.models.backends import Backend, household_file, open_backend
+from coopera.models.backends import Backend, open_backend
 from coopera.models.door import Door
+from coopera.models.households import household_file
 from coopera.models.offline.household.knowledge import Household, load
 from coopera.models.schemas import enforced_schema, strays
 from coopera.models.settings import CallSettings
