@@ -65,7 +65,7 @@ def test_an_unknown_model_is_refused_with_what_there_is(spec: str) -> None:
 def test_an_offline_model_knows_the_household_of_the_file_that_it_names() -> None:
     own = Path(__file__).parents[2] / "examples" / "my_household.yaml"
     model: Any = open_backend(f"offline:{own}", "robot", EMBEDDINGS).model
-    plain: Any = open_backend("offline", "robot", EMBEDDINGS).model
+    plain: Any = open_backend("offline", "human", EMBEDDINGS).model
     assert set(model.household.index) - set(plain.household.index) == {"model_railway"}
 
 
