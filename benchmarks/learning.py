@@ -81,7 +81,9 @@ def main() -> None:
     parser.add_argument("--collab", default="1,2")
     parser.add_argument("--methods", default="ours,random", help="comma-separated, each METHOD or METHOD:CLASSIFIER")
     parser.add_argument("--classifier-config", type=Path, help="recipe of lora-instruct")
-    parser.add_argument("--household", default="own", help="what the robot knows of life at home: own, shared or a file")
+    parser.add_argument(
+        "--household", default="own", help="what the robot knows of life at home: own, shared or a file"
+    )
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
     parser.add_argument("--people-per-seed", type=int, default=2)
     parser.add_argument("--workers", type=int, default=2)

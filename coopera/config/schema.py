@@ -123,8 +123,8 @@ class Config(Frozen):
     household: Annotated[
         Text,
         Setting(
-            "What an offline robot and judge know of life at home: common sense of their own (own), the very file that "
-            "the offline person lives by (shared), or a household file. A model named offline:FILE keeps its file.",
+            "What a robot and a judge played by the offline model know of life at home: what the robot's own household "
+            "file says (own), the one that the person lives by (shared), or a file of yours.",
             "own, shared or the path of a household file",
             flag="--household",
             metavar="own|shared|FILE",

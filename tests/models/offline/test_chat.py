@@ -64,6 +64,8 @@ def test_what_is_no_proper_question_gets_one_clear_sentence(message: HumanMessag
 def test_cache_keys_tell_roles_and_rules_apart() -> None:
     assert model("human")._identifying_params != model("robot")._identifying_params
     assert {"role", "rules"} <= set(model("human")._identifying_params)
+    own = OfflineChatModel(role="robot", embeddings=WORDS)
+    assert own._identifying_params != model("robot")._identifying_params
 
 
 def _answers() -> str:
