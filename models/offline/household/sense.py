@@ -13,8 +13,9 @@ from coopera.core.household import plain
 from coopera.models.offline.household.knowledge import Activity, Floats, Household, key
 
 SURE = 0.45
-"""Certainty from which a text counts as recognised. By MiniLM and the robot's file 9 in 10 of the person's wordings that
-are recognised rightly reach it, and 4 in 10 of those whose activity the file lacks (benchmarks/household_overlap.py)."""
+"""Certainty from which a text counts as recognised. By MiniLM and the robot's file 9 in 10 of the person's wordings
+that are recognised rightly reach it, and 4 in 10 of those whose activity that file lacks: `python -m
+benchmarks.household_overlap`."""
 REMEMBERED = 20_000  # vectors kept; 30 MB of MiniLM's
 
 

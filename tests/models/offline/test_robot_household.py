@@ -83,7 +83,7 @@ def test_it_speaks_in_its_own_words_until_it_is_told_the_persons(robot: OfflineC
 
 def test_what_its_household_does_not_know_is_imagined_in_the_persons_own_words(robot: OfflineChatModel) -> None:
     at_this_hour, at_night = (memory(PRAYER, 0, hour, NOW) for hour in (15, 21))
-    assert PRAYER in _imagined(robot, recalled_intentions=[at_this_hour], n_intentions=10)
+    assert PRAYER in _imagined(robot, recalled_intentions=[at_this_hour], n_intentions=8)
     assert PRAYER not in _imagined(robot, recalled_intentions=[at_night], n_intentions=5)
     assert _imagined(robot, recalled_intentions=[at_this_hour] * 3)[0] == PRAYER
     today = memory(PRAYER, 1, 14, NOW)
