@@ -5,7 +5,7 @@
 
 Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home,
 without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
-Finished runs are read, stopped runs go on. Prints a Markdown table: the mean predicate and judge F1 of each day over
+Finished runs are read, stopped runs go on; another --household therefore needs another --out. Prints a Markdown table: the mean predicate and judge F1 of each day over
 person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
@@ -81,6 +81,9 @@ def main() -> None:
     parser.add_argument("--collab", default="1,2")
     parser.add_argument("--methods", default="ours,random", help="comma-separated, each METHOD or METHOD:CLASSIFIER")
     parser.add_argument("--classifier-config", type=Path, help="recipe of lora-instruct")
+    parser.add_argument(
+        "--household", default="own", help="what the robot knows of life at home: own, shared or a file"
+    )
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
     parser.add_argument("--people-per-seed", type=int, default=2)
     parser.add_argument("--workers", type=int, default=2)
@@ -128,6 +131,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         method=job.method,
         seed=job.seed,
         classifier=job.classifier,
+        household=args.household,
         classifier_config=args.classifier_config if job.classifier == "lora-instruct" else None,
         pictures="none",
         earlier_life=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),

@@ -3,7 +3,7 @@
 A *spec* names a model:
 
 - `offline`: the routine model; `offline:words` compares texts by their letters alone, `offline:FILE.yaml` knows a
-  household of one's own;
+  household of one's own; without a file the role decides, and for robot and judge the setting `household`;
 - `openai:MODEL`: any OpenAI-compatible server, at the base URL;
 - `huggingface:REPO-OR-FOLDER`: weights in this process;
 - `recorded:RUN`: the recorded replies of an earlier run;
@@ -19,7 +19,6 @@ import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
@@ -30,8 +29,10 @@ from langchain_core.messages import AIMessage, BaseMessage
 from coopera.core.errors import ConfigError, ModelCallError
 from coopera.core.protocols import Role
 from coopera.models.cache import CachedReply
+from coopera.models.households import household_file, household_of
+from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
-from coopera.models.settings import CallSettings, Structure
+from coopera.models.settings import OWN, CallSettings, Structure
 from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
@@ -154,8 +155,17 @@ def open_backends(
     base_url: str | None = None,
     settings: CallSettings | None = None,
     sleep: Sleep = wait,
+    household: str = OWN,
 ) -> dict[Role, Backend]:
     """Open the model of each role; a role without a spec is played by the offline model.
+
+    Args:
+        specs: The models.
+        embeddings: What the offline model compares texts with.
+        base_url: Where an OpenAI-compatible server listens.
+        settings: How models are called.
+        sleep: Waits for so many seconds before a request is sent again.
+        household: What robot and judge know of life at home, where they are offline: `own`, `shared` or a file.
 
     Raises:
         ConfigError: If a role or spec is unknown, or what a spec needs is not there.
@@ -163,7 +173,10 @@ def open_backends(
     if unknown := sorted(set(specs) - set(ROLES)):
         raise ConfigError(f'there is no role "{unknown[0]}" for a model: the roles are {", ".join(ROLES)}')
     chosen = settings or CallSettings()
-    return {role: open_backend(specs.get(role, "offline"), role, embeddings, base_url, chosen, sleep) for role in ROLES}
+    return {
+        role: open_backend(specs.get(role, "offline"), role, embeddings, base_url, chosen, sleep, household)
+        for role in ROLES
+    }
 
 
 def open_backend(
@@ -173,15 +186,16 @@ def open_backend(
     base_url: str | None = None,
     settings: CallSettings | None = None,
     sleep: Sleep = wait,
+    household: str = OWN,
 ) -> Backend:
-    """Open one model.
+    """Open one model; see `open_backends`.
 
     Raises:
         ConfigError: If the spec is unknown, or what it needs is not there.
     """
     chosen = settings or CallSettings()
     if spec.partition(":")[0] == "offline":
-        return _offline(spec, role, embeddings)
+        return _offline(spec, role, embeddings, household)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
@@ -195,22 +209,16 @@ def open_backend(
     return _any_provider(spec, provider, name, chosen, sleep)
 
 
-def household_file(spec: str) -> Path | None:
-    """The household file of one's own that an offline model's spec names, if it names one."""
-    kind, colon, name = spec.partition(":")
-    return Path(name).expanduser() if kind == "offline" and colon and name != "words" else None
-
-
-def _offline(spec: str, role: Role, embeddings: Embeddings) -> Backend:
+def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> Backend:
     offline = importlib.import_module("coopera.models.offline.chat")
-    knowledge = importlib.import_module("coopera.models.offline.household.knowledge")
     if spec == "offline:words":
         embeddings = importlib.import_module("coopera.models.offline.household.words").WordEmbeddings()
     own = household_file(spec)
     if own is not None and not own.is_file():
         raise ConfigError(f'the model "{spec}" is unknown: there is no such file, and a model may be {_HELP}')
-    household = knowledge.load(own) if own else knowledge.shipped()
-    model = offline.OfflineChatModel(role=role, embeddings=embeddings, household=household)
+    file = household_of(spec, role, household)
+    known = shipped() if file is None else robots() if file == ROBOTS else load(file)
+    model = offline.OfflineChatModel(role=role, embeddings=embeddings, household=known)
     return Backend(spec, model, reads_variables=True)
 
 

@@ -27,7 +27,7 @@ from coopera.models.cache import CachedReply, ReplyCache, key_of
 from coopera.models.parsing import BadReplyError, read_reply
 from coopera.models.recorded import SCHEMA_FOLLOWS, Past
 from coopera.models.schemas import enforced_schema, schema_of, strays
-from coopera.models.settings import CallSettings
+from coopera.models.settings import OWN, CallSettings
 from coopera.models.transport import Sleep, wait
 
 SHOWN = 4000  # characters of a bad reply that the model is shown again
@@ -52,6 +52,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     settings: CallSettings | None = None,
     sleep: Sleep = wait,
     root: Path | None = None,
+    household: str = OWN,
 ) -> Door:
     """Open the models of all roles, and the door before them.
 
@@ -67,12 +68,13 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         settings: How models are called.
         sleep: Waits for so many seconds before a request is sent again.
         root: The run directory, relative to which the record names pictures; without it, by their file names.
+        household: What an offline robot and judge know of life at home: `own`, `shared` or a file.
 
     Raises:
         ConfigError: If a model cannot be opened.
     """
     chosen = settings or CallSettings()
-    backends = open_backends(specs, embeddings, base_url, chosen, sleep)
+    backends = open_backends(specs, embeddings, base_url, chosen, sleep, household)
     cacheable = any(not backend.reads_variables and backend.past is None for backend in backends.values())
     replies = ReplyCache(cache, shared) if cache is not None and cacheable else None
     return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, meter=meter, settings=chosen, root=root)

@@ -9,6 +9,8 @@ from pydantic import Field
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
 
+OWN, SHARED = "own", "shared"
+"""Household files that the setting `household` names by a word: the robot's own, and the person's."""
 Seconds = Annotated[float, Field(gt=0, le=86_400, allow_inf_nan=False)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 Structure: TypeAlias = Literal["auto", "json_schema", "tools", "json_object", "text"]

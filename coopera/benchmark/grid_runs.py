@@ -20,6 +20,7 @@ from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
+from coopera.models.settings import SHARED
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
 from coopera.studies.catalogues import load_catalogues, resolve
@@ -30,6 +31,7 @@ NOBODY = "none"
 """The method by which each life is lived first."""
 
 ROWS = "rows.json"
+_DECIDES = {"models", "household", "classifier", "prompts", "person_model"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,12 +100,13 @@ def claim_folder(bench: Benchmark) -> None:
         ConfigError: If it cannot be written or holds something else.
     """
     path = bench.root / "grid.yaml"
-    shared = bench.jobs[0].config.model_dump(mode="json", include={"models", "classifier", "prompts", "person_model"})
+    shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
     if path.is_file():
         before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
         for key in ("run", "shared"):
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
+        before["shared"].setdefault("household", SHARED)  # of a grid from before there was a choice
         # methods, seeds and settings may be added to what was run
         fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:

@@ -17,11 +17,12 @@ from coopera.core.people import Frozen
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
 from coopera.core.replies import IntentionsReply, PickPlaceReply, VerdictsReply
-from coopera.models.backends import Backend, household_file, open_backend
+from coopera.models.backends import Backend, open_backend
 from coopera.models.door import Door
+from coopera.models.households import household_of
 from coopera.models.offline.household.knowledge import Household, load
 from coopera.models.schemas import enforced_schema, strays
-from coopera.models.settings import CallSettings
+from coopera.models.settings import OWN, CallSettings
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 
@@ -51,8 +52,14 @@ class Tried(NamedTuple):
         return told
 
 
-def check_model(
-    spec: str, *, base_url: str | None, settings: CallSettings, embeddings: Embeddings, homes: Sequence[Path] = ()
+def check_model(  # noqa: PLR0913 - what a run would open the model with
+    spec: str,
+    *,
+    base_url: str | None,
+    settings: CallSettings,
+    embeddings: Embeddings,
+    homes: Sequence[Path] = (),
+    household: str = OWN,
 ) -> tuple[Backend, list[Tried]]:
     """Ask a model what coopera asks of models; the first check must hold for it to be of any use.
 
@@ -62,18 +69,19 @@ def check_model(
         settings: How it is called.
         embeddings: What the offline model compares texts with.
         homes: Folders of imported homes, of which an offline model's household file may speak.
+        household: Which household file an offline model has as the robot, where it names none.
 
     Raises:
         ConfigError: If it cannot be opened.
     """
     roles: tuple[Role, ...] = ("judge", "robot")
-    backends = {role: open_backend(spec, role, embeddings, base_url, settings) for role in roles}
+    backends = {role: open_backend(spec, role, embeddings, base_url, settings, household=household) for role in roles}
     door = Door(prompts=PromptLibrary(), backends=backends, seed=0, settings=settings)
     tried = [_ask(door, "structured reply", "judge/tasks", VerdictsReply)]
     if tried[0].ok:
         tried.append(_ask(door, "objects that exist", "robot/tasks_type1", PickPlaceReply))
         tried.append(_look(door) if backends["robot"].sees else _blind(spec))
-    if own := household_file(spec):
+    if own := household_of(spec, "robot", household):
         tried.append(_knowledge(load(own), homes))
     return backends["judge"], tried
 

@@ -28,7 +28,7 @@ def check(
     ],
     base_url: BaseUrl = None,
     study: Annotated[
-        Path | None, typer.Option(metavar="STUDY.yaml", help="A study file whose `calls` settings to use.")
+        Path | None, typer.Option(metavar="STUDY.yaml", help="A study file whose `calls` and `household` to use.")
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -48,6 +48,7 @@ def check(
             settings=config.calls,
             embeddings=embeddings,
             homes=[config.data_dir / "scenes"],
+            household=config.household,
         )
     works = all(one.ok for one in tried)
     if as_json:

@@ -20,7 +20,7 @@ from coopera.core.household import Collab, PerceptErrors
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
 from coopera.graphs.players.person_models import PERSON_MODELS
-from coopera.models.settings import Budget, CallSettings
+from coopera.models.settings import OWN, SHARED, Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
 
@@ -120,6 +120,16 @@ class Config(Frozen):
         Models,
         Setting("Language model of every role.", flag="--model", metavar="SPEC", unset="offline", listed="models"),
     ] = Models()
+    household: Annotated[
+        Text,
+        Setting(
+            "What a robot and a judge played by the offline model know of life at home: what the robot's own household "
+            "file says (own), the one that the person lives by (shared), or a file of yours.",
+            "own, shared or the path of a household file",
+            flag="--household",
+            metavar="own|shared|FILE",
+        ),
+    ] = OWN
     base_url: Annotated[
         Annotated[str, Field(pattern=r"^https?://\S+$")] | None,
         Setting(
@@ -389,7 +399,7 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
     Raises:
         ConfigError: Naming the file or flag, the field and what was expected.
     """
-    data = in_words_of_today(Config, read_yaml(path, "study file"), str(path)) if path else {}
+    data = _as_it_was_made(path, in_words_of_today(Config, read_yaml(path, "study file"), str(path))) if path else {}
     given = {name: value for name, value in (flags or {}).items() if value is not None}
     merged = {**data, **given}
     for section in (name for name, one in SETTINGS.items() if one.section):
@@ -399,3 +409,9 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
         return Config.model_validate(merged)
     except ValidationError as err:
         raise ConfigError(complaint(err, Config, str(path), given)) from None
+
+
+def _as_it_was_made(path: Path, data: dict[str, Any]) -> dict[str, Any]:
+    """Fill in what the configuration of an older run does not say: its robot read the person's household file."""
+    of_a_run = path.name == "config.yaml" and (path.parent / "run.json").is_file()
+    return {"household": SHARED, **data} if of_a_run else data

@@ -82,7 +82,7 @@ class RunDir:
             people: Those who take part; kept in the run, so that it stays readable without the data folder.
             prompts: SHA of each prompt by name.
             models: Identity of the model behind each role.
-            knowledge: SHA of each household file of one's own, by the model that has it.
+            knowledge: SHA of each household file besides the person's shipped one, by what names it.
             stop: What else stops this run, besides the signals that it listens to itself.
             resumable: Whether it keeps its memory and checkpoints on file.
 

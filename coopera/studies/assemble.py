@@ -108,6 +108,7 @@ def open_ask(
             settings=config.calls,
             sleep=partial(_wait, check),
             root=root,
+            household=config.household,
         )
         yield stack.enter_context(closing(door))
 

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from coopera.config.at_most import cut
-from coopera.config.schema import Config, Models
+from coopera.config.schema import Config
 from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
 from coopera.graphs.players.person_models import PERSON_MODELS
-from coopera.models.backends import household_file
 from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
+from coopera.models.households import chosen_household, household_file
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
 from coopera.people.shipped import read_persona
@@ -77,7 +77,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         _groups("humans", people, n_people, config.setting)
         _groups("scenes", scenes, n_scenes, config.setting)
     load_motions(config.motions)
-    _knowledge(config.models)
+    _knowledge(config)
     if config.out is not None:
         refuse_used(config.out)
     for person in people:
@@ -162,10 +162,10 @@ def _livable(persona: Persona, model: str) -> None:
         )
 
 
-def _knowledge(models: Models) -> None:
+def _knowledge(config: Config) -> None:
     """Refuse a household file of one's own that is wrong before anything is written."""
-    for spec in sorted(set(models.model_dump().values())):
-        own = household_file(spec)
+    named = [household_file(spec) for spec in sorted(set(config.models.model_dump().values()))]
+    for own in (chosen_household(config.household), *named):
         if own is not None and own.is_file():
             load_household(own)
 

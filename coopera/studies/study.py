@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import sqlite3
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
@@ -23,11 +23,12 @@ from coopera.core.hour import Counts, DayPlan
 from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
 from coopera.core.people import PersonId
+from coopera.core.protocols import Role
 from coopera.evaluation import SETTINGS, episode, pool, schedule
 from coopera.graphs import STATE_TYPES, Services, build_study_graph
 from coopera.graphs.players.real_person import Interview
 from coopera.graphs.study import Waiting, waiting
-from coopera.models.backends import household_file
+from coopera.models.households import household_file, household_of
 from coopera.models.settings import Budget
 from coopera.models.transport import NobodyThereError
 from coopera.people.real import open_logs
@@ -110,7 +111,7 @@ def resume_study(
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
         if changed:
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
-        if knowledge_of(run.info["models"].values()) != run.info.get("knowledge", {}):
+        if knowledge_of(run.info["models"], run.config.household) != run.info.get("knowledge", {}):
             raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
         logs = open_logs(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, logs) as services:
@@ -131,13 +132,13 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
     own = [path for id, path in config.files.scenes.items() if id in (config.scenes or [])]
     homes = {name: text for path in own for name, text in home_files(load_scene(path)).items()}
     logs = open_logs(config, plan_days(config))
-    specs = {str(role): spec for role, spec in model_specs(config).items()}
+    specs = model_specs(config)
     made = RunDir.create(
         config,
         people=people,
         prompts=prompts.hashes(),
-        models=specs,
-        knowledge=knowledge_of(specs.values()),
+        models={str(role): spec for role, spec in specs.items()},
+        knowledge=knowledge_of(specs, config.household),
         stop=stop,
         resumable=resumable,
     )
@@ -152,18 +153,26 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
             raise
 
 
-def knowledge_of(specs: Iterable[str]) -> dict[str, str]:
-    """SHA-256 of each household file of one's own that some models name, by the model's name.
+def knowledge_of(specs: Mapping[Role, str], household: str) -> dict[str, str]:
+    """SHA-256 of each household file that is read besides the person's shipped one.
+
+    Args:
+        specs: Model of each role.
+        household: The setting: `own`, `shared` or a file.
+
+    Returns:
+        By the model that names the file, such as "offline:FILE", or by the setting, such as "household: own".
 
     Raises:
-        ConfigError: If one cannot be read.
+        ConfigError: If one is not there or cannot be read.
     """
     found: dict[str, str] = {}
-    for spec in specs:
-        path = household_file(spec)
+    for role, spec in specs.items():
+        path = household_of(spec, role, household)
         if path is not None:
+            by = spec if household_file(spec) else f"household: {household}"
             try:
-                found[spec] = hashlib.sha256(path.read_bytes()).hexdigest()
+                found[by] = hashlib.sha256(path.read_bytes()).hexdigest()
             except OSError as err:
                 raise ConfigError(f"{path}: the household file cannot be read ({reason(err)}).") from err
     return found

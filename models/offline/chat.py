@@ -21,22 +21,27 @@ from coopera.core.errors import ModelCallError
 from coopera.core.lazy import made_once
 from coopera.core.protocols import Role
 from coopera.core.replies import REPLIES
-from coopera.models.offline.household.knowledge import Household, shipped
+from coopera.models.offline.household.knowledge import Household, robots, shipped
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human.replies import Human
 from coopera.models.offline.judge import Judge
 from coopera.models.offline.robot.replies import Robot
 
-RULES = "4"
+RULES = "5"
 """Raised whenever the same question may get another answer; it enters every cache key."""
 
 _SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}
 
 
-@made_once(4)
-def _common_sense(embeddings: Embeddings) -> CommonSense:
-    """What the roles share, and all runs of a process that compare texts in the same way."""
-    return CommonSense(shipped(), embeddings)
+def usual_household(role: Role) -> Household:
+    """The household file of a role: the person has one, robot and judge have another."""
+    return shipped() if role == "human" else robots()
+
+
+@made_once(8)
+def _common_sense(household: Household, embeddings: Embeddings) -> CommonSense:
+    """What the roles of one household share, and all runs of a process that compare texts in the same way."""
+    return CommonSense(household, embeddings)
 
 
 class OfflineChatModel(BaseChatModel):
@@ -47,15 +52,16 @@ class OfflineChatModel(BaseChatModel):
     {"prompt", "variables", "seed", "temperature"}; `coopera.core.asks` lists the variables of each prompt. The reply is
     the JSON of the prompt's reply type. The same question with the same seed gets the same answer on every machine.
 
-    The three roles share common sense, as language models would. Only the role "human" can reach a person's private
-    parameters. docs/offline-model.md explains the uses and the limits.
+    Person and robot differ in common sense, as two people do: each reads a household file of its own, and the judge
+    reads the robot's. Only the role "human" can reach a person's private parameters. docs/offline-model.md explains the
+    uses and the limits.
     """
 
     model_config = ConfigDict(arbitrary_types_allowed=True)
 
     role: Role
     embeddings: Embeddings
-    household: Household = Field(default_factory=shipped)
+    household: Household = Field(default_factory=lambda given: usual_household(given["role"]))
 
     _side: Human | Robot | Judge = PrivateAttr()
     _lock: RLock = PrivateAttr(default_factory=RLock)
@@ -63,8 +69,8 @@ class OfflineChatModel(BaseChatModel):
     @override
     def model_post_init(self, context: Any, /) -> None:
         """Build this role's side; texts are encoded when first needed."""
-        shared = self.household is shipped() and isinstance(self.embeddings, Hashable)
-        sense = _common_sense(self.embeddings) if shared else CommonSense(self.household, self.embeddings)
+        make = _common_sense if isinstance(self.embeddings, Hashable) else CommonSense
+        sense = make(self.household, self.embeddings)
         self._side = _SIDES[self.role](sense)
 
     @property
@@ -75,7 +81,7 @@ class OfflineChatModel(BaseChatModel):
     @property
     @override
     def _identifying_params(self) -> Mapping[str, Any]:
-        return {"model_name": "offline", "role": self.role, "rules": RULES}
+        return {"model_name": "offline", "role": self.role, "rules": RULES, "household": self.household.sha256}
 
     @override
     def _generate(

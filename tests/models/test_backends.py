@@ -16,6 +16,8 @@ from coopera.core.randomness import Address
 from coopera.core.replies import REPLIES, VerdictsReply
 from coopera.models.backends import open_backend, open_backends
 from coopera.models.door import open_door
+from coopera.models.offline.chat import OfflineChatModel
+from coopera.models.offline.household.knowledge import load, robots, shipped
 from coopera.models.settings import CallSettings
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
@@ -65,8 +67,38 @@ def test_an_unknown_model_is_refused_with_what_there_is(spec: str) -> None:
 def test_an_offline_model_knows_the_household_of_the_file_that_it_names() -> None:
     own = Path(__file__).parents[2] / "examples" / "my_household.yaml"
     model: Any = open_backend(f"offline:{own}", "robot", EMBEDDINGS).model
-    plain: Any = open_backend("offline", "robot", EMBEDDINGS).model
+    plain: Any = open_backend("offline", "human", EMBEDDINGS).model
     assert set(model.household.index) - set(plain.household.index) == {"model_railway"}
+
+
+def _known(household: str, **specs: str) -> dict[str, Any]:
+    given: Any = specs
+    opened = open_backends(given, EMBEDDINGS, household=household)
+    return {role: backend.model.household for role, backend in opened.items()}  # type: ignore[union-attr]
+
+
+def test_robot_and_judge_know_a_household_file_of_their_own_unless_told_to_share_the_persons(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("extends: shipped\n")
+    assert _known("own") == {"human": shipped(), "robot": robots(), "judge": robots()}
+    assert _known("shared") == dict.fromkeys(("human", "robot", "judge"), shipped())
+    assert _known(str(mine), judge="offline:words") == dict.fromkeys(("human", "robot", "judge"), load(mine))
+    assert robots() != shipped()
+    default = {role: backend.model.household for role, backend in open_backends({}, EMBEDDINGS).items()}
+    assert default == _known("own")
+    for role, known in default.items():
+        assert OfflineChatModel(role=role, embeddings=EMBEDDINGS).household == known
+
+
+def test_a_file_that_a_model_names_wins_over_the_setting() -> None:
+    own = Path(__file__).parents[2] / "examples" / "my_household.yaml"
+    known = _known("own", robot=f"offline:{own}", human=f"offline:{own}")
+    assert known == {"human": load(own), "robot": load(own), "judge": robots()}
+
+
+def test_a_household_that_is_neither_a_word_nor_a_file_is_refused() -> None:
+    with pytest.raises(ConfigError, match="household: ours is neither own nor shared, and there is no household file"):
+        _known("ours")
 
 
 def test_an_unknown_role_is_refused() -> None:

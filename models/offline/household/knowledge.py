@@ -1,7 +1,8 @@
-"""The shared common sense as data: reads and checks household.yaml. Nothing here is about a particular person."""
+"""Common sense as data: reads and checks household files. Nothing here is about a particular person."""
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
@@ -21,6 +22,9 @@ from coopera.core.time_use import CATEGORIES, Category
 from coopera.models.offline.household.grammar import Template, cores, parse
 
 SHIPPED = Path(__file__).parents[1] / "household.yaml"
+"""The person's common sense."""
+ROBOTS = SHIPPED.with_name("robot_household.yaml")
+"""The robot's, written apart from the person's."""
 FIRST, LAST = 9, 21
 """The hours of day that the activities' curves cover, both inclusive."""
 HOUR = 60  # minutes
@@ -168,6 +172,15 @@ class Household(Frozen):
     looks_like: Annotated[dict[Text, Text], Field(min_length=1)]
     activities: Annotated[tuple[Activity, ...], Field(min_length=2)]
 
+    def __hash__(self) -> int:
+        """By its ids: equal households have the same ones, and what is made of one can be kept for it."""
+        return hash(tuple(self.index))
+
+    @cached_property
+    def sha256(self) -> str:
+        """SHA-256 of all that it says, whatever file it was read from."""
+        return hashlib.sha256(self.model_dump_json().encode()).hexdigest()
+
     @cached_property
     def uses(self) -> dict[str, frozenset[str]]:
         """The motions that anybody makes with each thing, in whatever activity."""
@@ -280,8 +293,14 @@ def _parsed(kind: type[Read], data: Any, path: Path) -> Read:
 
 @made_once()
 def shipped() -> Household:
-    """Return the household file that comes with the package."""
+    """Return the person's household file, as it comes with the package."""
     return load()
+
+
+@made_once()
+def robots() -> Household:
+    """Return the robot's household file, as it comes with the package."""
+    return load(ROBOTS)
 
 
 def _first_problem(err: ValidationError, data: Any) -> str:

@@ -6,14 +6,14 @@ This module and all that it imports know no person: the private parameters are o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from coopera.core.household import plain
 from coopera.core.people import Frozen
 from coopera.core.replies import ImaginedIntention, IntentionsReply
-from coopera.models.offline.household.knowledge import Activity, Floats
+from coopera.models.offline.household.knowledge import Activity, Floats, key
 from coopera.models.offline.household.offers import wants
 from coopera.models.offline.household.reading import Memory, big_five_of, class_of, clip, memories, room_kind
 from coopera.models.offline.household.sense import CommonSense
@@ -29,6 +29,10 @@ BELIEF = 0.3  # logits per point of the inferred traits x loading
 PROFILE = 0.5  # logits per standard deviation of the inferred profile's closeness
 WRONG_ROOM, WRONG_SPOT, WRONG_THING = 0.08, 0.15, 0.2  # likelihoods that perception, or custom, is off
 WRONG_MOTION = 0.15  # share of motions that are recognised wrongly or done for another reason
+
+
+Known: TypeAlias = tuple[Memory, int]
+"""A remembered intention, and the place of the activity that it is."""
 
 
 class Robot:
@@ -55,24 +59,49 @@ class Robot:
         """The n most probable activities, each in the words in which the person is known to put it."""
         household, hour = self._sense.household, int(variables["hour"])
         recalled = memories(variables["recalled_intentions"], hour)
-        known = [(memory, self._sense.index(memory.text)) for memory in recalled]
-        seen = self._sight(variables["percept"], variables["first_task"])
-        logits = household.log_hours[:, hour] + seen + self._recall(known, hour) + self._belief(variables)
+        known, strange = self._sorted(recalled)
+        usual = household.log_hours[:, hour] + self._sight(variables["percept"], variables["first_task"])
+        logits = usual + self._recall(known, hour) + self._belief(variables)
         kinds = {room_kind(room) for room in variables["rooms"]}
         possible = np.array([bool(kinds.intersection(activity.rooms)) for activity in household.activities])
         logits = np.where(possible | ~possible.any(), logits, -1e9)
+        average = float(np.log(np.exp(usual).mean()))  # what is not known is as likely as anything
+        logits = np.append(logits, [average + _of_strange(done, hour) for done in strange])
         best = np.argsort(-np.round(logits, 6), kind="stable")[: int(variables["n_intentions"])]
-        return IntentionsReply(
-            intentions=[
-                ImaginedIntention(
-                    intention=clip(_wording(household.activities[int(i)], int(i), known), 300),
-                    reason_human=clip(_of_person(household.activities[int(i)], variables), 400),
-                    reason_intentions=clip(_of_past(int(i), known, hour), 400),
-                    reason_tasks=clip(_of_tasks(variables["recalled_tasks"]), 400),
-                    reason_vision=clip(_of_sight(household.activities[int(i)], variables), 400),
-                )
-                for i in best
-            ]
+        return IntentionsReply(intentions=[self._imagined(int(i), known, strange, hour, variables) for i in best])
+
+    def _sorted(self, recalled: Sequence[Memory]) -> tuple[list[Known], list[list[Memory]]]:
+        """Memories of activities that the household file has, with these; and the others, by what they say."""
+        known: list[Known] = []
+        strange: dict[str, list[Memory]] = {}
+        for memory in recalled:
+            found = self._sense.recognise(memory.text)
+            if found.sure:
+                known.append((memory, self._sense.household.index[found.activity.id]))
+            else:
+                strange.setdefault(key(memory.text), []).append(memory)
+        return known, list(strange.values())
+
+    def _imagined(
+        self,
+        i: int,
+        known: Sequence[Known],
+        strange: Sequence[Sequence[Memory]],
+        hour: int,
+        variables: Mapping[str, Any],
+    ) -> ImaginedIntention:
+        """An activity as an intention or, after the last activity, something remembered that no activity is."""
+        activities = self._sense.household.activities
+        activity = activities[i] if i < len(activities) else None
+        done = [] if activity else strange[i - len(activities)]
+        wording = _wording(activity, i, known) if activity else done[0].text
+        past = _of_past(i, known if activity else [(memory, i) for memory in done], hour)
+        return ImaginedIntention(
+            intention=clip(wording, 300),
+            reason_human=clip(_of_person(activity, variables), 400),
+            reason_intentions=clip(past, 400),
+            reason_tasks=clip(_of_tasks(variables["recalled_tasks"]), 400),
+            reason_vision=clip(_of_sight(activity, variables), 400),
         )
 
     def _sight(self, percept: Mapping[str, Any] | None, first_task: str | None) -> Floats:
@@ -111,14 +140,14 @@ class Robot:
         spot = want.spot in [b for _, b in pairs]
         return float(np.log(0.3 if thing and spot else 0.15 if thing else 0.05 if spot else 0.02))
 
-    def _recall(self, known: Sequence[tuple[Memory, int]], hour: int) -> Floats:
+    def _recall(self, known: Sequence[Known], hour: int) -> Floats:
         """Logits for what was done at like hours of earlier days, against what was done today, for what follows it."""
         household = self._sense.household
         total = np.zeros(len(household.activities))
         latest = min((memory.hours_ago for memory, _ in known if memory.today), default=0)
         for memory, index in known:
             if not memory.today:
-                total[index] += SEEN_BEFORE * float(np.exp(-0.5 * ((memory.hour - hour) / LIKE_HOUR) ** 2))
+                total[index] += _seen_before(memory, hour)
                 continue
             if not household.activities[index].repeatable or memory.hours_ago < 3:
                 total[index] -= ALREADY_TODAY
@@ -137,21 +166,33 @@ class Robot:
         return np.asarray(total, dtype=np.float64)
 
 
+def _seen_before(memory: Memory, hour: int) -> float:
+    """Logits for what was done on an earlier day: the nearer the hour of day, the more."""
+    return SEEN_BEFORE * float(np.exp(-0.5 * ((memory.hour - hour) / LIKE_HOUR) ** 2))
+
+
+def _of_strange(done: Sequence[Memory], hour: int) -> float:
+    """Logits for what no activity is, by when it was done; nothing says that it comes again on one day."""
+    return sum(-ALREADY_TODAY if memory.today else _seen_before(memory, hour) for memory in done)
+
+
 def _spot_fit(activity: Activity, near: Sequence[str]) -> float:
     """Likelihood of acting at these classes of furniture, nearest first, under an activity."""
     ranks = [near.index(cls) for cls in activity.fixed if cls in near]
     return max(WRONG_SPOT, 1.0 / (1 + min(ranks)) / len(activity.fixed) ** 0.5) if ranks else WRONG_SPOT
 
 
-def _wording(activity: Activity, index: int, known: Sequence[tuple[Memory, int]]) -> str:
+def _wording(activity: Activity, index: int, known: Sequence[Known]) -> str:
     """The person's own words where they are remembered, the newest first; else the household file's."""
     own = sorted((memory.hours_ago, memory.text) for memory, other in known if other == index)
     return own[0][1] if own else activity.canonical[0]
 
 
-def _of_person(activity: Activity, variables: Mapping[str, Any]) -> str:
+def _of_person(activity: Activity | None, variables: Mapping[str, Any]) -> str:
     if not variables["big_five"]:
         return "Nothing is known of this person yet."
+    if activity is None:
+        return "What kind of people do this is not known."
     score = {trait: float(variables["big_five"][trait]) for trait in activity.big_five}
     pull = {trait: load * (score[trait] - 3.0) for trait, load in activity.big_five.items()}
     best = max(pull, key=lambda trait: (abs(pull[trait]), trait), default=None)
@@ -161,7 +202,7 @@ def _of_person(activity: Activity, variables: Mapping[str, Any]) -> str:
     return f"An inferred {best} of {score[best]:.1f} {way}."
 
 
-def _of_past(index: int, known: Sequence[tuple[Memory, int]], hour: int) -> str:
+def _of_past(index: int, known: Sequence[Known], hour: int) -> str:
     for memory, other in known:
         if other == index and not memory.today:
             return f'On an earlier day, {abs(memory.hour - hour)} h from this time of day, it was "{memory.text}".'
@@ -175,8 +216,10 @@ def _of_tasks(recalled: Sequence[Any]) -> str:
     return f"A remembered task: {tasks[0].text}." if tasks else "No earlier task is known."
 
 
-def _of_sight(activity: Activity, variables: Mapping[str, Any]) -> str:
+def _of_sight(activity: Activity | None, variables: Mapping[str, Any]) -> str:
     percept, first_task = variables["percept"], variables["first_task"]
+    if activity is None:
+        return "What is needed for it is not known, so what is seen does not speak for it or against it."
     said = [f"The first task was: {first_task}."] if first_task else []
     if percept is not None:
         fits = []

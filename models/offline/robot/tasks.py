@@ -11,6 +11,7 @@ from coopera.core.errors import ModelCallError
 from coopera.core.household import HandOver, PickPlace, plain
 from coopera.core.people import Frozen
 from coopera.core.replies import HandOverDraft, HandOverReply, PickPlaceDraft, PickPlaceReply
+from coopera.models.offline.household.knowledge import Activity
 from coopera.models.offline.household.offers import wants
 from coopera.models.offline.household.placing import (
     Placement,
@@ -25,6 +26,7 @@ from coopera.models.offline.household.sense import CommonSense
 
 USED_BEFORE = 1.5  # logits for a thing or a placement that a recalled task of this person shows
 HALF_USED = 0.5  # the same for a placement of which only the thing was used
+LIKE = 0.6  # cosine from which two intentions are alike where the household file does not know them
 DOUBT = 0.5  # scale of the noise among equally plausible things at the usual temperature
 USUAL_TEMPERATURE = 0.7
 
@@ -35,9 +37,13 @@ def pick_and_place(
     sense: CommonSense, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float
 ) -> PickPlaceReply:
     """Answer robot/tasks_type1: the most plausible placements that the home allows, without the one already done."""
-    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
-    fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    count, fixed, movable = (
+        int(variables["n_tasks"]),
+        Surroundings(variables["fixed"]),
+        Surroundings(variables["movable"]),
+    )
     recalled = memories(variables["recalled_tasks"], int(variables["hour"]))
+    activity = _as_told(sense, variables, recalled)
     used = wants([memory.text for memory in recalled])
     done = variables["first_task"] or ""
     places = [i for i in feasible_places(activity, fixed, movable) if not _is(activity.places[i], done)]
@@ -70,8 +76,8 @@ def hand_overs(
     sense: CommonSense, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float
 ) -> HandOverReply:
     """Answer robot/tasks_type2: the things that the activity most plausibly needs, from a box that has everything."""
-    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
-    recalled = memories(variables["recalled_tasks"], int(variables["hour"]))
+    recalled, count = memories(variables["recalled_tasks"], int(variables["hour"])), int(variables["n_tasks"])
+    activity = _as_told(sense, variables, recalled)
     names = activity.thing_names
     used = sense.mentioned(" ".join(memory.text for memory in recalled), names)
     order = _ranked([USED_BEFORE if name in used else 0.0 for name in names], rng, temperature)
@@ -86,6 +92,40 @@ def hand_overs(
             for thing in things
         ]
     )
+
+
+def _as_told(sense: CommonSense, variables: Mapping[str, Any], recalled: Sequence[Memory]) -> Activity:
+    """The activity that an intention speaks of, with what this person was told to use or to place for like ones.
+
+    Without that a robot whose common sense differs from the person's could never offer what it was told. A task is of a
+    like intention if one remembered of the same hour is recognised as the same activity or, where either is not known
+    to the household file, if the two intentions are alike in meaning.
+    """
+    intention = str(variables["intention"])
+    found = sense.recognise(intention)
+
+    def like(other: str) -> bool:
+        theirs = sense.recognise(other)
+        if found.sure and theirs.sure:
+            return theirs.activity is found.activity
+        return sense.similarity(other, intention) >= LIKE
+
+    past = memories(variables["recalled_intentions"], int(variables["hour"]))
+    hours = {memory.hours_ago for memory in past if like(memory.text)}
+    told = [want for want in wants([m.text for m in recalled if m.hours_ago in hours]) if want.spot]
+    things = {want.thing: want.motion for want in told if want.motion and want.thing not in found.activity.things}
+    places = dict.fromkeys((_class(want.thing), _class(str(want.spot))) for want in told if not want.motion)
+    return Activity.model_construct(
+        **{
+            **dict(found.activity),
+            "things": {**found.activity.things, **things},
+            "places": tuple(dict.fromkeys([*found.activity.places, *places])),
+        }
+    )
+
+
+def _class(words: str) -> str:
+    return words.replace(" ", "_")
 
 
 def _ranked(logits: Sequence[float], rng: np.random.Generator, temperature: float) -> list[int]:

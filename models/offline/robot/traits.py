@@ -25,11 +25,13 @@ _PARTS = (("morning", 0, 12), ("afternoon", 12, 18), ("evening", 18, 24))
 def infer(sense: CommonSense, variables: Mapping[str, Any]) -> TraitsReply:
     """Answer robot/traits: shrunk estimates, and a profile that revises the earlier one.
 
-    The profile names the person's activities, their hours and their things. The activities of the earlier profile stay
+    The profile names the person's activities, their hours and their things; what the robot's common sense does not know
+    says nothing to it. The activities of the earlier profile stay
     first if today confirms them.
     """
     lived = memories(variables["intentions"], 24)
-    seen = [(memory, sense.index(memory.text)) for memory in lived]
+    found = [(memory, sense.recognise(memory.text)) for memory in lived]
+    seen = [(memory, sense.household.index[it.activity.id]) for memory, it in found if it.sure]
     earlier = _named_before(sense, variables["profile"])
     weights: Counter[int] = Counter()
     for _, index in seen:

@@ -45,6 +45,11 @@ def files_in(folder: Path) -> list[str]:
         (["run", "--pictures", "film"], "--pictures must be sampled, none or video, not 'film'."),
         (["run", "--prompts", "missing"], "prompts: missing must be a folder of prompt files"),
         (["run", "--model", "recorded:missing"], "missing: this folder holds no run"),
+        (
+            ["run", "--household", "ours"],
+            "household: ours is neither own nor shared, and there is no household file of",
+        ),
+        (["run", "--household", "misspelt.yaml"], "misspelt.yaml: field 'looks_like': Field required"),
         (["run", "missing.yaml"], "missing.yaml: there is no such study file."),
         (["run", "misspelt.yaml"], "misspelt.yaml: there is no field 'dayz' (did you mean days?)."),
         (["run", "--out", "taken"], "out: taken already holds another run"),

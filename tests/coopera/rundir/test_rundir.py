@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from coopera.config.schema import Config, Models
+from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, ModelCallError, RunError, StoppedError
 from coopera.core.hour import FeedbackItem, HourRecord, HumanHour
 from coopera.evaluation.measuring import all_measures
@@ -22,7 +22,7 @@ from coopera.rundir.directory import RunDir
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import summarise
 from coopera.studies.catalogues import resolve
-from coopera.studies.study import knowledge_of, resume_study
+from coopera.studies.study import resume_study
 from tests.coopera.fake_run import fake_run
 
 
@@ -110,19 +110,6 @@ def test_metrics_have_a_row_per_hour_and_measure(small_run: RunDir) -> None:
 
 def _mended(human: HumanHour | None, times: int) -> HumanHour | None:
     return human and human.model_copy(update={"repairs": ["Task 9.1 was dropped."] * times})
-
-
-def test_a_run_whose_household_file_has_changed_is_not_resumed(tmp_path: Path) -> None:
-    own = tmp_path / "own.yaml"
-    own.write_text("extends: shipped\n")
-    spec = f"offline:{own}"
-    config = resolve(Config(out=tmp_path / "run", models=Models(human=spec), data_dir=tmp_path))
-    known = knowledge_of([spec, "offline"])
-    with RunDir.create(config, people=[], prompts=PromptLibrary().hashes(), models={"human": spec}, knowledge=known):
-        pass
-    own.write_text("extends: shipped\nlooks_like: {}\n")
-    with pytest.raises(RunError, match="the household file has changed since this run began"):
-        resume_study(tmp_path / "run")
 
 
 def test_the_summary_adds_up_the_hours_of_a_day(small_run: RunDir) -> None:

@@ -64,7 +64,8 @@ _NOTHING: dict[str, Any] = {
 
 @lru_cache(maxsize=3)
 def model(role: str) -> OfflineChatModel:
-    return OfflineChatModel(role=role, embeddings=WORDS)  # type: ignore[arg-type]
+    """A role by its rules alone: whatever it plays, it knows the person's household file."""
+    return OfflineChatModel(role=role, embeddings=WORDS, household=shipped())  # type: ignore[arg-type]
 
 
 def ask(prompt: str, *, seed: int = 0, temperature: float = 0.7, **variables: Any) -> Any:

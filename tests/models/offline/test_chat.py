@@ -15,6 +15,7 @@ from coopera.core.asks import ASKS
 from coopera.core.errors import ModelCallError
 from coopera.core.replies import REPLIES
 from coopera.models.offline.chat import OfflineChatModel
+from coopera.models.offline.household.knowledge import shipped
 from tests.models.offline.questions import WORDS, ask, ask_model, live, model, person, sample
 
 ROOT = Path(__file__).parents[3]
@@ -63,6 +64,8 @@ def test_what_is_no_proper_question_gets_one_clear_sentence(message: HumanMessag
 def test_cache_keys_tell_roles_and_rules_apart() -> None:
     assert model("human")._identifying_params != model("robot")._identifying_params
     assert {"role", "rules"} <= set(model("human")._identifying_params)
+    own = OfflineChatModel(role="robot", embeddings=WORDS)
+    assert own._identifying_params != model("robot")._identifying_params
 
 
 def _answers() -> str:
@@ -78,7 +81,7 @@ def test_another_process_with_another_hash_seed_gives_the_same_bytes() -> None:
 
 
 def test_an_answer_does_not_depend_on_what_was_asked_before() -> None:
-    fresh = OfflineChatModel(role="robot", embeddings=WORDS)
+    fresh = OfflineChatModel(role="robot", embeddings=WORDS, household=shipped())
     used = model("robot")
     for _ in range(3):
         ask("robot/traits", **sample("robot/traits"))

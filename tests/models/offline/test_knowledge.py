@@ -16,12 +16,13 @@ from coopera.core.affordances import affordances
 from coopera.core.errors import ConfigError
 from coopera.core.household import plain
 from coopera.core.people import TRAITS, BigFive
-from coopera.models.offline.household.knowledge import SHIPPED, Activity, load, shipped
+from coopera.models.offline.household.knowledge import SHIPPED, Activity, load, robots, shipped
 from coopera.models.offline.household.placing import Placement
 from coopera.models.offline.household.reading import Piece
 
 ROOT = Path(__file__).parents[3]
 ACTIVITIES = shipped().activities
+BOTH = (*ACTIVITIES, *robots().activities)
 KINDS = (
     "kitchen",
     "living room",
@@ -72,7 +73,7 @@ def test_an_activity_is_described_in_full(activity: Activity) -> None:
     assert activity.source
 
 
-@pytest.mark.parametrize("activity", ACTIVITIES, ids=lambda a: a.id)
+@pytest.mark.parametrize("activity", BOTH, ids=lambda a: a.id)
 def test_wordings_are_high_level_speak_of_nobody_and_name_no_object(activity: Activity) -> None:
     catalogue = _read("simulation/homes/catalogue.yaml")
     objects = {plain(cls) for kind in ("fixed", "movable") for cls in catalogue[kind]} | set(activity.things)
@@ -101,14 +102,14 @@ def test_what_a_wording_says_plainly_is_its_first_alternatives() -> None:
 
 def test_everything_placed_and_every_spot_is_a_class_that_homes_have() -> None:
     catalogue = _read("simulation/homes/catalogue.yaml")
-    for activity in ACTIVITIES:
+    for activity in BOTH:
         assert {thing for thing, _ in activity.places} <= set(catalogue["movable"])
         assert {spot for _, spot in activity.places} | set(activity.fixed) <= set(catalogue["fixed"])
 
 
 def test_each_motion_of_an_activity_can_be_made_at_one_of_its_spots() -> None:
     suits = affordances().suits
-    homeless = [(a.id, m) for a in ACTIVITIES for m in a.all_motions if not any(suits(m, spot) for spot in a.fixed)]
+    homeless = [(a.id, m) for a in BOTH for m in a.all_motions if not any(suits(m, spot) for spot in a.fixed)]
     assert homeless == []
 
 
@@ -133,12 +134,13 @@ def test_everything_that_is_placed_fits_where_it_is_placed() -> None:
                 return True
         return spot in catalogue["movable"][thing]["put"]  # homes have it there, so it does
 
-    assert [(a.id, *place) for a in ACTIVITIES for place in a.places if not fits(*place)] == []
+    assert [(a.id, *place) for a in BOTH for place in a.places if not fits(*place)] == []
 
 
 def test_motions_are_those_of_the_simulation_and_look_as_it_says() -> None:
     motions = _read("simulation/motions/motions.yaml")["motions"]
-    assert shipped().looks_like == {motion["caption"]: motion["class"] for motion in motions}
+    for household in (shipped(), robots()):
+        assert household.looks_like == {motion["caption"]: motion["class"] for motion in motions}
 
 
 def test_activities_can_be_told_apart_by_more_than_one_thing() -> None:
@@ -288,10 +290,12 @@ def test_a_file_of_ones_own_may_neither_double_an_id_nor_take_a_wording_of_anoth
 
 
 def test_what_is_assumed_says_so_and_the_documentation_counts_it() -> None:
-    assert [a.id for a in ACTIVITIES if bool(a.assumed) != ("assumption" in a.source)] == []
-    assumed = sum(len(activity.assumed) for activity in ACTIVITIES)
-    loadings = sum(len(activity.big_five) for activity in ACTIVITIES)
-    assert f"{assumed} of the {loadings} loadings" in (ROOT / "docs/offline-model.md").read_text(encoding="utf-8")
+    assert [a.id for a in BOTH if bool(a.assumed) != ("assumption" in a.source)] == []
+    said = (ROOT / "docs/offline-model.md").read_text(encoding="utf-8")
+    for household, words in ((shipped(), "{} of the {} loadings"), (robots(), "{} of the robot's {}")):
+        assumed = sum(len(activity.assumed) for activity in household.activities)
+        loadings = sum(len(activity.big_five) for activity in household.activities)
+        assert words.format(assumed, loadings) in said
 
 
 def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:

@@ -65,6 +65,33 @@ def test_a_process_with_only_their_sides_has_not_loaded_the_private_modules() ->
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
 
 
+_ASKED = """
+import sys
+read = set()
+sys.addaudithook(lambda event, given: read.add(str(given[0])) if event == "open" else None)
+from coopera.core.asks import ASKS
+from coopera.core.randomness import Address
+from coopera.core.replies import REPLIES
+from coopera.models.backends import open_backend
+from coopera.models.door import Door
+from coopera.prompts import PromptLibrary
+from coopera.prompts.examples import examples
+opened = {role: open_backend("offline:words", role, None, household=sys.argv[1]) for role in ("robot", "judge")}
+door = Door(prompts=PromptLibrary(), backends=opened, seed=0)
+for name, spec in ASKS.items():
+    for variables in examples(name) if spec.role != "human" else ():
+        door(name, REPLIES[spec.reply], at=Address("nora", 0, 9, "node"), variables=variables)
+print(*sorted(name.replace("\\\\", "/").rpartition("/")[2] for name in read if name.endswith("household.yaml")))
+"""
+
+
+@pytest.mark.parametrize(("household", "read"), [("own", "robot_household.yaml"), ("shared", "household.yaml")])
+def test_robot_and_judge_read_their_own_household_file_and_never_the_persons(household: str, read: str) -> None:
+    code = [sys.executable, "-c", _ASKED, household]
+    done = subprocess.run(code, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == [read]
+
+
 def test_no_prompt_of_robot_or_judge_is_given_who_the_person_is() -> None:
     for spec in ASKS.values():
         if spec.role != "human":
