@@ -12,6 +12,8 @@ from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 from coopera.commands.rows import rows_of
 
+_FORMAT = "What the file is. [default: told by its content]"
+
 app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 
 
@@ -96,6 +98,38 @@ def import_humans(
         typer.echo(f"{len(done.written)} written and {len(done.kept)} kept in {folder}{failed}.")
     if done.failed:
         raise typer.Exit(1)
+
+
+@app.command()
+def diary(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="HOMER schedules (JSON), or atusact_YEAR.dat.")],
+    kind: Annotated[str | None, typer.Option("--format", metavar="homer|atus", help=_FORMAT)] = None,
+    who: Annotated[str | None, typer.Option(metavar="A/train|TUCASEID", help="Only this person.")] = None,
+    limit: Annotated[int, typer.Option(min=1, help="Take the first people only.")] = 10,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Where the diaries go.")] = Path("diaries"),
+    force: Annotated[bool, typer.Option("--force", help="Write anew those that are there already.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Make a diary of each person of a published time-use file, to be lived with --played-by log:FILE."""
+    from coopera.people.import_diary import read_published, store, summary
+
+    found = read_published(file, kind, who=who, limit=limit)
+    kept = store(found.people, out, force=force).kept
+    rows = [{**summary(one, out), "kept": out / f"{one.name}.csv" in kept} for one in found.people]
+    for note in found.notes:
+        typer.echo(note, err=True)
+    if as_json:
+        typer.echo(json.dumps({"people": rows, "notes": found.notes}))
+        return
+    for row in rows:
+        about = f" ({row['about']})" if row["about"] else ""
+        there = ", which was there and is kept" if row["kept"] else ""
+        typer.echo(
+            f"{row['file']}{there}: {row['person']}{about}, {row['days']} days, {row['episodes']} episodes; from 9 am to "
+            f"9 pm {row['hours']} hours, {row['continued']} continued and {row['away']} away, and {row['open']} open."
+        )
+    if rows:
+        typer.echo(f"To live one: coopera run --played-by log:{rows[0]['file']} --humans ID --days {rows[0]['days']}")
 
 
 @app.command()
