@@ -48,6 +48,7 @@ class Activity(Frozen):
 
     id: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
     wordings: Annotated[tuple[Text, ...], Field(min_length=2)]
+    also: tuple[Text, ...] = ()
     statement: Text
     hours: Annotated[tuple[Weight, ...], Field(min_length=LAST - FIRST + 1, max_length=LAST - FIRST + 1)]
     rooms: Annotated[tuple[Text, ...], Field(min_length=1)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
 from typing import NamedTuple, Protocol
@@ -12,6 +13,10 @@ from numpy.typing import NDArray
 from coopera.core.household import plain
 from coopera.models.offline.household.knowledge import Activity, Floats, Household, key
 
+_WHEN = re.compile(
+    r"(?<=\w) (?:after|before) (?:breakfast|lunch|dinner|supper|a meal|meals|eating|food|work|school|bed|bedtime)\b",
+    re.IGNORECASE,
+)
 REMEMBERED = 20_000  # vectors kept; 30 MB of MiniLM's
 
 
@@ -41,7 +46,8 @@ class CommonSense:
         self._embeddings = embeddings
         self._vectors: dict[str, NDArray[np.float32]] = {}
         self._cosine = lru_cache(maxsize=REMEMBERED)(self._work_out_cosine)
-        self._by_wording = {key(w): a for a in household.activities for w in a.wordings}
+        self._by_wording = {key(w): a for a in household.activities for w in a.also}
+        self._by_wording |= {key(w): a for a in household.activities for w in a.wordings}
 
     def vectors(self, texts: Sequence[str]) -> NDArray[np.float32]:
         """Return unit vectors of the texts, shape (n, d)."""
@@ -68,14 +74,18 @@ class CommonSense:
         return best, cosines[best]
 
     def recognise(self, text: str) -> Recognised:
-        """Name the activity that an intention's text speaks of, also one that is not from the household file."""
+        """Name the activity that an intention's text speaks of, also one that is not from the household file.
+
+        When it is done does not count: "Wash the dishes after breakfast" is about dishes, not about breakfast.
+        """
         said = key(text)
-        for known in (said, key(text.split(",")[0])):
+        act = _WHEN.sub("", text)
+        for known in (said, key(text.split(",")[0]), key(act)):
             if known in self._by_wording:
                 return Recognised(self._by_wording[known], 1.0)
-        fit = self.fit([text])[0]
-        best = int(np.argmax(fit))
-        return Recognised(self.household.activities[best], float(fit[best]))
+        cosines = self._ways_to_say @ self._vector(act)
+        best = int(np.argmax(cosines))
+        return Recognised(self._said_of[best], float(cosines[best]))
 
     def index(self, text: str) -> int:
         """Return the place of the activity that a text speaks of."""
@@ -134,6 +144,14 @@ class CommonSense:
     @cached_property
     def _activity_texts(self) -> NDArray[np.float32]:
         return self.vectors([text for a in self.household.activities for text in (a.statement, *a.wordings)])
+
+    @cached_property
+    def _said_of(self) -> list[Activity]:
+        return [a for a in self.household.activities for _ in (a.statement, *a.wordings, *a.also)]
+
+    @cached_property
+    def _ways_to_say(self) -> NDArray[np.float32]:
+        return self.vectors([text for a in self.household.activities for text in (a.statement, *a.wordings, *a.also)])
 
     @cached_property
     def _starts(self) -> list[int]:
