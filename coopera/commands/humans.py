@@ -125,8 +125,8 @@ def diary(
         about = f" ({row['about']})" if row["about"] else ""
         there = ", which was there and is kept" if row["kept"] else ""
         typer.echo(
-            f"{row['file']}{there}: {row['person']}{about}, {row['days']} days, {row['episodes']} episodes; from 9 am to "
-            f"9 pm {row['hours']} hours, {row['continued']} continued and {row['away']} away, and {row['open']} open."
+            f"{row['file']}{there}: {row['person']}{about}, days: {row['days']}, episodes: {row['episodes']}; from 9 am "
+            f"to 9 pm {row['hours']} hours, {row['continued']} continued and {row['away']} away, and {row['open']} open."
         )
     if rows:
         typer.echo(f"To live one: coopera run --played-by log:{rows[0]['file']} --humans ID --days {rows[0]['days']}")
