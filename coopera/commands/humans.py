@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 from coopera.commands.rows import rows_of
+
+if TYPE_CHECKING:
+    from coopera.core.hour import LoggedHour
 
 _FORMAT = "What the file is. [default: told by its content]"
 
@@ -124,9 +127,10 @@ def diary(
     for row in rows:
         about = f" ({row['about']})" if row["about"] else ""
         there = ", which was there and is kept" if row["kept"] else ""
+        marks = f"{row['continued']} continued, {row['away']} away"
         typer.echo(
-            f"{row['file']}{there}: {row['person']}{about}, days: {row['days']}, episodes: {row['episodes']}; from 9 am "
-            f"to 9 pm {row['hours']} hours, {row['continued']} continued and {row['away']} away, and {row['open']} open."
+            f"{row['file']}{there}: {row['person']}{about}, days: {row['days']}, episodes: {row['episodes']}; "
+            f"9 am to 9 pm: {row['hours']} hours ({marks}), {row['open']} open."
         )
     if rows:
         typer.echo(f"To live one: coopera run --played-by log:{rows[0]['file']} --humans ID --days {rows[0]['days']}")
@@ -134,14 +138,25 @@ def diary(
 
 @app.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A persona file (.yaml), or a CSV to be imported.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="A persona file, a log or diary, or a CSV to be imported.")
+    ],
     as_json: AsJson = False,
 ) -> None:
-    """Say whether a file can be used, and if not, why."""
-    if file.suffix.lower() == ".csv":
+    """Say whether a file can be used, and if not, why; of a log or diary, the hours that it is lived in."""
+    from coopera.people.log_file import looks_like_log, open_log
+
+    if looks_like_log(file):
+        log = open_log(file)
+        days = len({hour.day for hour in log.hours})
+        kind = "diary" if log.diary else "log"
+        hours = [hour.model_dump() for hour in log.hours]
+        what: dict[str, Any] = {"file": str(file), "kind": kind, "days": days, "hours": hours}
+        sentence = "\n".join([*map(_hour_line, log.hours), f"{file}: a {kind} with {len(hours)} hours (days: {days})."])
+    elif file.suffix.lower() == ".csv":
         from coopera.people.import_chat import read_rows
 
-        what: dict[str, Any] = {"file": str(file), "rows": len(read_rows(file))}
+        what = {"file": str(file), "rows": len(read_rows(file))}
         sentence = f"{file}: {what['rows']} people can be imported."
     else:
         from coopera.people.shipped import read_persona
@@ -150,3 +165,10 @@ def check(
         what = {"file": str(file), "id": person.id, "name": person.name}
         sentence = f"{file}: this is {person.name} ({person.id})."
     typer.echo(json.dumps(what) if as_json else sentence)
+
+
+def _hour_line(hour: LoggedHour) -> str:
+    from coopera.core.clock import hour_label
+
+    marks = [f" ({mark})" for mark, yes in (("goes on", hour.continues), ("away", hour.away)) if yes]
+    return f"day {hour.day}, {hour_label(hour.hour)}: {hour.intention}{''.join(marks)}"

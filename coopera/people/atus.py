@@ -1,13 +1,15 @@
 """Diary days of the American Time Use Survey, as the U.S. Bureau of Labor Statistics publishes them.
 
 Of the activity file (atusact_2023.dat, comma-separated) these columns are read: TUCASEID, TUSTARTTIM, TUSTOPTIME,
-TEWHERE, and the activity's code from TRCODEP, else TRCODE, else TUTIER1CODE, TUTIER2CODE and TUTIER3CODE. Beside it, under
-the published names: TUDIARYDAY (1 is Sunday) of the respondent file (atusresp_2023.dat), and the age from TEAGE of the
-roster (atusrost_2023.dat) or PRTAGE of the CPS file (atuscps_2023.dat), where TULINENO is 1. Files are read as a stream.
+TEWHERE, and the activity's code from TRCODEP, else TRCODE, else TUTIER1CODE, TUTIER2CODE and TUTIER3CODE. Beside it,
+under the published names: TUDIARYDAY (1 is Sunday) of the respondent file (atusresp_2023.dat), and the age from TEAGE
+of the roster (atusrost_2023.dat) or PRTAGE of the CPS file (atuscps_2023.dat), where TULINENO is 1. Files are read as a
+stream, so that they may be of any size.
 
-A respondent has one day, from 4 am to 4 am; what lasts longer ends there. Its number in the diary is the weekday, 0 being
-Monday. TEWHERE 1 is the respondent's home; travelling (18) is away wherever it is, and where the place is not known or was
-not asked (0 and below, as for sleep), work (05) alone is away. Activities of 50 are not known, and stay open.
+A respondent has one day, from 4 am to 4 am; what lasts longer ends there. Its number in the diary is the weekday, 0
+being Monday. TEWHERE 1 is the respondent's home; travelling (18) is away wherever it is, and where the place is not
+known or was not asked (0 and below, as for sleep), work (05) alone is away. Activities of 50 are
+not known, and stay open.
 """
 
 from __future__ import annotations
@@ -56,12 +58,13 @@ def read_atus(path: Path, who: str | None, limit: int | None) -> Published:
     open_: Counter[str] = Counter()
     with _lines(path, ("TUCASEID", "TUSTARTTIM", "TUSTOPTIME", "TEWHERE"), _CODES) as lines:
         for case, group in groupby(lines, key=_case):
+            day = list(group)
             if case in met:
-                raise ConfigError(f"{next(group).where}: the respondent {case} has stood before, with others between.")
+                raise ConfigError(f"{day[0].where}: the respondent {case} has stood before, with others between.")
             met[case] = None
             if who in (None, case):
                 weekday = weekdays.get(case)
-                episodes = list(_episodes(list(group), weekday or 0, by_category, open_))
+                episodes = list(_episodes(day, weekday or 0, by_category, open_))
                 people.append(PersonDiary(case, _about(weekday, ages.get(case)), episodes))
             if people and (who is not None or len(people) == limit):
                 break
@@ -96,7 +99,9 @@ def _episodes(lines: Sequence[_Line], day: int, by_category: Counter[str], open_
     for at, line in enumerate(lines):
         start, end = _since_four(line, "TUSTARTTIM"), _since_four(line, "TUSTOPTIME")
         if start < before:
-            raise ConfigError(f"{line.where}: TUSTARTTIM is {as_clock(start % DAY)}, before the activity before has ended.")
+            raise ConfigError(
+                f"{line.where}: TUSTARTTIM is {as_clock(start % DAY)}, before the activity before has ended."
+            )
         if end <= start:
             if at + 1 < len(lines):
                 stop = as_clock(end % DAY)

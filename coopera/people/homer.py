@@ -43,8 +43,8 @@ def read_homer(path: Path, who: str | None, limit: int | None) -> Published:
         if who in (None, person)
     ][:limit]
     new: dict[str, int] = {}
-    for person in people:
-        for episode in person.episodes:
+    for one in people:
+        for episode in one.episodes:
             if episode.activity not in {*words("homer").values(), OUT}:
                 new[episode.activity] = new.get(episode.activity, 0) + 1
     return Published(people, [f"Without words of their own, read as they stand: {counted(new)}."] if new else [])
@@ -79,7 +79,9 @@ def _episodes(where: str, number: int, day: Any) -> list[Episode]:
     episodes: list[Episode] = []
     for at, (activity, start, end) in enumerate(rows):
         if at and start < rows[at - 1][2]:
-            raise ConfigError(f"{where}, row {at + 1}: {activity} begins at {start}, before {rows[at - 1][0]} has ended.")
+            raise ConfigError(
+                f"{where}, row {at + 1}: {activity} begins at {start}, before {rows[at - 1][0]} has ended."
+            )
         episodes.append(Episode(day=number, start=start, end=end, activity=plain(activity)))
         back = rows[at + 1][1] if at + 1 < len(rows) else DAY
         if activity == _LEAVING and end < back:
@@ -90,7 +92,7 @@ def _episodes(where: str, number: int, day: Any) -> list[Episode]:
 def _row(where: str, row: Any) -> tuple[str, int, int]:
     """An activity with its start and end."""
     if not isinstance(row, list) or len(row) != 3:
-        raise ConfigError(f"{where}: expected an activity, its start and its end, such as [\"breakfast\", 485, 528].")
+        raise ConfigError(f'{where}: expected an activity, its start and its end, such as ["breakfast", 485, 528].')
     activity, *times = row
     if not isinstance(activity, str) or not 1 <= len(plain(activity)) <= 300:
         raise ConfigError(f"{where}: an activity must be a text of 1 to 300 characters, not {str(activity)[:60]!r}.")

@@ -48,8 +48,8 @@ def recognise(path: Path) -> Format:
     if start.startswith(("{", "[")):
         return "homer"
     raise ConfigError(
-        f"{path}: this is neither HOMER schedules (JSON) nor an activity file of the American Time Use Survey (a header "
-        "with TUCASEID); --format says which one it is meant to be."
+        f"{path}: this is neither HOMER schedules (JSON) nor an activity file of the American Time Use Survey (with a "
+        "header that has TUCASEID); --format says which one it is meant to be."
     )
 
 

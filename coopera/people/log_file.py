@@ -2,7 +2,7 @@
 
 Both are CSV with a header, or JSONL with one object per line; the columns tell which it is. Days count from 0.
 A log has day, hour, intention and perhaps tasks, continues and away. A diary has day, start, end, activity and perhaps
-tasks and away (`coopera.people.diary`). In CSV several tasks are parted by semicolons, in JSONL they are a list of texts.
+tasks and away (`coopera.people.diary`). In CSV several tasks are parted by semicolons, in JSONL they are a list.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.hour import LoggedHour
 from coopera.people.diary import COLUMNS as DIARY
 from coopera.people.diary import hours_of, read_episodes
-from coopera.people.rows import Rows, read_rows, refuse_missing
+from coopera.people.rows import JSONL, Rows, read_limited, read_rows, refuse_missing
 
 FIELDS = tuple(LoggedHour.model_fields)
 _NEEDED = ("day", "hour", "intention")
@@ -54,7 +54,9 @@ def open_log(path: Path) -> Log:
     if is_diary(rows):
         hours = hours_of(read_episodes(path, rows))
         if not hours:
-            raise ConfigError(f"{path}: every episode of the diary is after midnight, on a day without a row of its own.")
+            raise ConfigError(
+                f"{path}: every episode of the diary is after midnight, on a day without a row of its own."
+            )
         return Log(hours, True)
     refuse_missing(path, rows, _NEEDED)
     seen: dict[tuple[int, int], int] = {}
@@ -72,6 +74,18 @@ def open_log(path: Path) -> Log:
     if not hours:
         raise ConfigError(f"{path}: the log holds no hour.")
     return Log(sorted(hours, key=lambda hour: (hour.day, hour.hour)), False)
+
+
+def looks_like_log(path: Path) -> bool:
+    """Whether a file is meant to be a log or a diary: JSONL, or CSV with a column day.
+
+    Raises:
+        ConfigError: If a CSV cannot be read.
+    """
+    if path.suffix.lower() == ".csv":
+        header = read_limited(path, "CSV file").partition("\n")[0]
+        return "day" in [name.strip().lower() for name in header.split(",")]
+    return path.suffix.lower() in JSONL
 
 
 def is_diary(rows: Rows) -> bool:

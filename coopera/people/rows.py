@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from coopera.config.files import read_text, reason
 from coopera.core.errors import ConfigError
 
+JSONL = (".jsonl", ".ndjson")
 LARGEST = 64 * 1024**2  # bytes; ten years of diary have a hundredth of it
 _FLAGS = {"": None, "yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
@@ -40,7 +41,7 @@ def read_rows(path: Path, what: str) -> Rows:
         ConfigError: If the file cannot be read or is too large, or a line is neither; names the file and the line.
     """
     text = read_limited(path, what)
-    if path.suffix.lower() in (".jsonl", ".ndjson"):
+    if path.suffix.lower() in JSONL:
         rows = list(_jsonl(path, text))
         return Rows(list(rows[0].cells) if rows else [], False, rows)
     return _csv(path, text)

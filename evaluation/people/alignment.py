@@ -52,12 +52,12 @@ def alignment(
     }
     why = {"generic": "nobody without a profile was named", "mismatched": "it takes a second simulated person"}
     figures = []
-    for name, found in values.items():
-        if not found:
+    for name, cosines in values.items():
+        if not cosines:
             figures += unmeasured("like people", name, why=why[name])
             continue
-        interval = bootstrap(found, lambda some: float(np.mean(some)), seed=seed)
-        low, high = (interval.low, interval.high) if len(found) > 1 else (None, None)
+        interval = bootstrap(cosines, lambda some: float(np.mean(some)), seed=seed)
+        low, high = (interval.low, interval.high) if len(cosines) > 1 else (None, None)
         figures.append(
             Figure(
                 check="like people",
@@ -65,7 +65,7 @@ def alignment(
                 value=interval.mean,
                 low=low,
                 high=high,
-                n=len(found),
+                n=len(cosines),
                 unit="recorded people",
             )
         )

@@ -117,7 +117,10 @@ def test_an_episode_past_midnight_goes_on_in_the_next_day_if_that_has_a_row(tmp_
     ("rows", "said"),
     [
         ("", "the diary holds no episode"),
-        ("0,09:00,10:00,Cook\n0,09:30,09:45,Eat\n", 'line 3: day 0, "Eat" from 09:30 to 09:45 overlaps with day 0, "Cook"'),
+        (
+            "0,09:00,10:00,Cook\n0,09:30,09:45,Eat\n",
+            'line 3: day 0, "Eat" from 09:30 to 09:45 overlaps with day 0, "Cook"',
+        ),
         ("0,22:00,06:00,Sleep\n1,05:00,07:00,Run\n", "overlaps with day 0"),
         ("0,09:00,10:00,Cook\n0,09:00,10:00,Cook\n", "in line 2; a person does one thing at a time"),
         ("0,10:00,09:30,Cook\n", 'line 2: "Cook" from 10:00 to 09:30 ends before it starts; past midnight'),
@@ -179,7 +182,9 @@ def test_an_hour_that_a_diary_leaves_open_is_left_to_the_model(tmp_path: Path) -
 
 def test_a_day_without_any_of_the_hours_that_are_lived_is_refused(tmp_path: Path) -> None:
     path = diary(tmp_path, HEADER + "0,22:00,06:00,Sleep\n")
-    with pytest.raises(ConfigError, match="day 0 of the diary says nothing of the hours that the run lives, 9 am to 10 am"):
+    with pytest.raises(
+        ConfigError, match="day 0 of the diary says nothing of the hours that the run lives, 9 am to 10 am"
+    ):
         open_logs(Config(played_by=f"log:{path}"), plans("joan", hours=2))
 
 

@@ -74,9 +74,15 @@ def test_an_activity_without_words_is_read_as_it_stands_and_named(tmp_path: Path
         ({"A/train/000": {"schedule": []}}, "with at least one activity"),
         ({"A/train/000": {"schedule": [["lunch", 700]]}}, "row 1: expected an activity, its start and its end"),
         ({"A/train/000": {"schedule": [["lunch", 700, 690]]}}, "row 1: lunch ends at 690, and starts at 700"),
-        ({"A/train/000": {"schedule": [["lunch", 700, 9999]]}}, "must be minutes of the day, from 0 to 2880, not '9999'"),
+        (
+            {"A/train/000": {"schedule": [["lunch", 700, 9999]]}},
+            "must be minutes of the day, from 0 to 2880, not '9999'",
+        ),
         ({"A/train/000": {"schedule": [["lunch", "noon", 780]]}}, "must be minutes of the day"),
-        ({"A/train/000": {"schedule": [["lunch", 700, 730], ["nap", 720, 800]]}}, "row 2: nap begins at 720, before lunch"),
+        (
+            {"A/train/000": {"schedule": [["lunch", 700, 730], ["nap", 720, 800]]}},
+            "row 2: nap begins at 720, before lunch",
+        ),
         ({"A/train/000": {"schedule": [["", 700, 730]]}}, "an activity must be a text"),
         ({"train": {"schedule": [["lunch", 700, 730]]}}, "'train' must be a person and the number of a day"),
         ({"A/0": {"schedule": [["nap", 1, 2]]}, "A/00": {"schedule": [["nap", 1, 2]]}}, "day 0 of A is there twice"),
