@@ -37,7 +37,14 @@ class Reasons(Frozen):
 
 
 class Intention(Frozen):
-    """What the person is up to this hour: high level, naming no object."""
+    """What the person is up to this hour: high level, naming no object.
+
+    Attributes:
+        text: In words.
+        reasons: Why, where a model has said so.
+        continues: Whether it goes on from the hour before.
+        away: Whether the person is outside the home: no tasks, and the robot has nothing to see.
+    """
 
     text: str
     reasons: Reasons = Reasons()
@@ -123,12 +130,17 @@ class HumanHour(Frozen):
 
 
 class LoggedHour(Frozen):
-    """What a real person wrote down of an hour: the intention and, where known, the tasks in their own words."""
+    """What a real person wrote down of an hour: the intention and, where known, the tasks in their own words.
+
+    `continues` and `away` as in `Intention`.
+    """
 
     day: int = Field(ge=0)
     hour: int = Field(ge=0, le=23)
     intention: str = Field(min_length=1, max_length=300)
     tasks: Annotated[list[Annotated[str, Field(min_length=1, max_length=300)]], Field(max_length=8)] = []
+    continues: bool = False
+    away: bool = False
 
 
 class Observation(Frozen):

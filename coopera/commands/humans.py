@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 from coopera.commands.rows import rows_of
+
+if TYPE_CHECKING:
+    from coopera.core.hour import LoggedHour
+
+_FORMAT = "What the file is. [default: told by its content]"
 
 app = typer.Typer(help="The people who can take part.", no_args_is_help=True)
 
@@ -99,15 +104,59 @@ def import_humans(
 
 
 @app.command()
-def check(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A persona file (.yaml), or a CSV to be imported.")],
+def diary(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="HOMER schedules (JSON), or atusact_YEAR.dat.")],
+    kind: Annotated[str | None, typer.Option("--format", metavar="homer|atus", help=_FORMAT)] = None,
+    who: Annotated[str | None, typer.Option(metavar="A/train|TUCASEID", help="Only this person.")] = None,
+    limit: Annotated[int, typer.Option(min=1, help="Take the first people only.")] = 10,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Where the diaries go.")] = Path("diaries"),
+    force: Annotated[bool, typer.Option("--force", help="Write anew those that are there already.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Say whether a file can be used, and if not, why."""
-    if file.suffix.lower() == ".csv":
+    """Make a diary of each person of a published time-use file, to be lived with --played-by log:FILE."""
+    from coopera.people.import_diary import read_published, store, summary
+
+    found = read_published(file, kind, who=who, limit=limit)
+    kept = store(found.people, out, force=force).kept
+    rows = [{**summary(one, out), "kept": out / f"{one.name}.csv" in kept} for one in found.people]
+    for note in found.notes:
+        typer.echo(note, err=True)
+    if as_json:
+        typer.echo(json.dumps({"people": rows, "notes": found.notes}))
+        return
+    for row in rows:
+        about = f" ({row['about']})" if row["about"] else ""
+        there = ", which was there and is kept" if row["kept"] else ""
+        marks = f"{row['continued']} continued, {row['away']} away"
+        typer.echo(
+            f"{row['file']}{there}: {row['person']}{about}, days: {row['days']}, episodes: {row['episodes']}; "
+            f"9 am to 9 pm: {row['hours']} hours ({marks}), {row['open']} open."
+        )
+    if rows:
+        typer.echo(f"To live one: coopera run --played-by log:{rows[0]['file']} --humans ID --days {rows[0]['days']}")
+
+
+@app.command()
+def check(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="A persona file, a log or diary, or a CSV to be imported.")
+    ],
+    as_json: AsJson = False,
+) -> None:
+    """Say whether a file can be used, and if not, why; of a log or diary, the hours that it is lived in."""
+    from coopera.people.log_file import looks_like_log, open_log
+
+    if looks_like_log(file):
+        log = open_log(file)
+        days = len({hour.day for hour in log.hours})
+        kind = "diary" if log.diary else "log"
+        hours = [hour.model_dump() for hour in log.hours]
+        what: dict[str, Any] = {"file": str(file), "kind": kind, "days": days, "hours": hours}
+        sentence = "\n".join([*map(_hour_line, log.hours), f"{file}: a {kind} with {len(hours)} hours (days: {days})."])
+    elif file.suffix.lower() == ".csv":
         from coopera.people.import_chat import read_rows
 
-        what: dict[str, Any] = {"file": str(file), "rows": len(read_rows(file))}
+        what = {"file": str(file), "rows": len(read_rows(file))}
         sentence = f"{file}: {what['rows']} people can be imported."
     else:
         from coopera.people.shipped import read_persona
@@ -116,3 +165,10 @@ def check(
         what = {"file": str(file), "id": person.id, "name": person.name}
         sentence = f"{file}: this is {person.name} ({person.id})."
     typer.echo(json.dumps(what) if as_json else sentence)
+
+
+def _hour_line(hour: LoggedHour) -> str:
+    from coopera.core.clock import hour_label
+
+    marks = [f" ({mark})" for mark, yes in (("goes on", hour.continues), ("away", hour.away)) if yes]
+    return f"day {hour.day}, {hour_label(hour.hour)}: {hour.intention}{''.join(marks)}"

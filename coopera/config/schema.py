@@ -198,7 +198,7 @@ class Config(Frozen):
         str,
         Field(pattern=r"^(simulated|me|log:.+)$"),
         Setting(
-            "Who plays the person: the simulation, you (asked hour by hour), or a real person's log.",
+            "Who plays the person: the simulation, you (asked hour by hour), or a real person's log or diary.",
             "simulated, me or log:FILE",
             flag="--played-by",
             formerly="human",

@@ -1,23 +1,23 @@
-"""What a real person did, hour by hour, as a file: CSV or JSONL with day, hour, intention and, where known, tasks.
+"""What a real person did, as a file: a log hour by hour, or a diary with times.
 
-CSV has a header with the columns day, hour, intention and perhaps tasks, of which several are parted by semicolons.
-JSONL has one object with these fields per line, tasks being a list of texts. Days count from 0.
+Both are CSV with a header, or JSONL with one object per line; the columns tell which it is. Days count from 0.
+A log has day, hour, intention and perhaps tasks, continues and away. A diary has day, start, end, activity and perhaps
+tasks and away (`coopera.people.diary`). In CSV several tasks are parted by semicolons, in JSONL they are a list.
 """
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from coopera.config.files import read_text
 from coopera.core.errors import ConfigError
 from coopera.core.hour import LoggedHour
+from coopera.people.diary import COLUMNS as DIARY
+from coopera.people.diary import hours_of, read_episodes
+from coopera.people.rows import JSONL, Rows, read_limited, read_rows, refuse_missing
 
 FIELDS = tuple(LoggedHour.model_fields)
 _NEEDED = ("day", "hour", "intention")
@@ -26,21 +26,42 @@ _EXPECTED = {
     "hour": "a whole number from 0 to 23",
     "intention": "a text of 1 to 300 characters",
     "tasks": "at most 8 texts of 1 to 300 characters",
+    "continues": "yes or no",
+    "away": "yes or no",
 }
 
 
+class Log(NamedTuple):
+    """The hours of a person, sorted; in a diary an hour without an episode is open, in a log it is an omission."""
+
+    hours: list[LoggedHour]
+    diary: bool
+
+
 def read_log(path: Path) -> list[LoggedHour]:
-    """Read a person's log, sorted by day and hour.
+    """Read the hours of a log or a diary, sorted by day and hour; errors as in `open_log`."""
+    return open_log(path).hours
+
+
+def open_log(path: Path) -> Log:
+    """Read a person's log or diary.
 
     Raises:
-        ConfigError: If the file cannot be read, lacks a field, holds a wrong value, the same hour twice, or nothing;
-            names the file, the line and what was expected.
+        ConfigError: If the file cannot be read, lacks a field, holds a wrong value, the same hour twice, episodes that
+            overlap, or nothing; names the file, the line and what was expected.
     """
-    text = read_text(path, "log of a person")
-    rows = _jsonl(path, text) if path.suffix.lower() in (".jsonl", ".ndjson") else _csv(path, text)
+    rows = read_rows(path, "log of a person")
+    if is_diary(rows):
+        hours = hours_of(read_episodes(path, rows))
+        if not hours:
+            raise ConfigError(
+                f"{path}: every episode of the diary is after midnight, on a day without a row of its own."
+            )
+        return Log(hours, True)
+    refuse_missing(path, rows, _NEEDED)
     seen: dict[tuple[int, int], int] = {}
     hours = []
-    for line, row in rows:
+    for line, row in rows.rows:
         hour = _hour(path, line, row)
         key = (hour.day, hour.hour)
         if key in seen:
@@ -52,43 +73,25 @@ def read_log(path: Path) -> list[LoggedHour]:
         hours.append(hour)
     if not hours:
         raise ConfigError(f"{path}: the log holds no hour.")
-    return sorted(hours, key=lambda hour: (hour.day, hour.hour))
+    return Log(sorted(hours, key=lambda hour: (hour.day, hour.hour)), False)
 
 
-def _csv(path: Path, text: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
-    try:
-        header = [name.strip().lower() for name in next(reader, [])]
-        for field in _NEEDED:
-            if field not in header:
-                found = ", ".join(header) or "an empty line"
-                raise ConfigError(f"{path}, line 1: the column {field} is missing; the header has {found}.")
-        for cells in reader:
-            if not any(cell.strip() for cell in cells):
-                continue
-            if len(cells) != len(header):
-                raise ConfigError(
-                    f"{path}, line {reader.line_num}: expected {len(header)} cells as in the header, found "
-                    f"{len(cells)} (a text with a comma in it stands in quotes)."
-                )
-            row: dict[str, Any] = {name: cell.strip() for name, cell in zip(header, cells, strict=True)}
-            row["tasks"] = [task.strip() for task in row.get("tasks", "").split(";") if task.strip()]
-            yield reader.line_num, row
-    except csv.Error as err:
-        raise ConfigError(f"{path}, line {reader.line_num}: this is not valid CSV ({err}).") from err
+def looks_like_log(path: Path) -> bool:
+    """Whether a file is meant to be a log or a diary: JSONL, or CSV with a column day.
+
+    Raises:
+        ConfigError: If a CSV cannot be read.
+    """
+    if path.suffix.lower() == ".csv":
+        header = read_limited(path, "CSV file").partition("\n")[0]
+        return "day" in [name.strip().lower() for name in header.split(",")]
+    return path.suffix.lower() in JSONL
 
 
-def _jsonl(path: Path, text: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
-    for line, part in enumerate(text.splitlines(), 1):
-        if not part.strip():
-            continue
-        try:
-            row = json.loads(part)
-        except (ValueError, RecursionError) as err:
-            raise ConfigError(f"{path}, line {line}: this is not valid JSON ({err}).") from err
-        if not isinstance(row, dict):
-            raise ConfigError(f"{path}, line {line}: expected an object with {', '.join(_NEEDED)}.")
-        yield line, row
+def is_diary(rows: Rows) -> bool:
+    """Whether the columns are a diary's: start, end or activity, and neither hour nor intention."""
+    theirs = set(DIARY) - set(FIELDS)
+    return not theirs.isdisjoint(rows.columns) and {"hour", "intention"}.isdisjoint(rows.columns)
 
 
 def _hour(path: Path, line: int, row: Mapping[str, Any]) -> LoggedHour:

@@ -31,11 +31,11 @@ from coopera.graphs.robots.learning import KINDS, Learner
 from coopera.graphs.robots.own_robot import MakeRobot, OwnRobot
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
-from coopera.models.backends import household_file
 from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
+from coopera.models.households import household_file
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.transport import wait

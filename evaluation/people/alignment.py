@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from langchain_core.embeddings import Embeddings
@@ -29,12 +29,17 @@ def alignment(
     """Cosine of what simulated and recorded people intend over their days, over the recorded people.
 
     `aligned` compares a recorded person with their own simulation, `mismatched` with the simulations of the others,
-    `generic` with somebody who was simulated without a profile (an id in `lives`).
+    `generic` with somebody who was simulated without a profile (an id in `lives`). Of a recorded day only the hours of
+    day that somebody in `lives` has lived count, and of these only those at home, since nobody is simulated elsewhere.
     """
     if not recorded:
         return unmeasured("like people", *_MEASURES, why="no log of a real person was given")
+    lived = {hour for day in lives.days for hour in day.hours}
+    days = {person: found for person, hours in sorted(recorded.items()) if (found := _days(hours, lived))}
+    if not days:
+        return unmeasured("like people", *_MEASURES, why="the logs have no hour at home of those that were simulated")
     simulated = {p: week([day.intentions for day in lives.of(p)], embeddings) for p in lives.people}
-    real = {person: week(_days(hours), embeddings) for person, hours in sorted(recorded.items())}
+    real = {person: week(texts, embeddings) for person, texts in days.items()}
     nobody = simulated.pop(generic) if generic else None
     values: dict[str, list[float]] = {
         "aligned": [float(vector @ simulated[person]) for person, vector in real.items()],
@@ -47,12 +52,12 @@ def alignment(
     }
     why = {"generic": "nobody without a profile was named", "mismatched": "it takes a second simulated person"}
     figures = []
-    for name, found in values.items():
-        if not found:
+    for name, cosines in values.items():
+        if not cosines:
             figures += unmeasured("like people", name, why=why[name])
             continue
-        interval = bootstrap(found, lambda some: float(np.mean(some)), seed=seed)
-        low, high = (interval.low, interval.high) if len(found) > 1 else (None, None)
+        interval = bootstrap(cosines, lambda some: float(np.mean(some)), seed=seed)
+        low, high = (interval.low, interval.high) if len(cosines) > 1 else (None, None)
         figures.append(
             Figure(
                 check="like people",
@@ -60,7 +65,7 @@ def alignment(
                 value=interval.mean,
                 low=low,
                 high=high,
-                n=len(found),
+                n=len(cosines),
                 unit="recorded people",
             )
         )
@@ -77,8 +82,10 @@ def week(days: Sequence[Sequence[str]], embeddings: Embeddings) -> Floats:
     return np.asarray(mean / np.linalg.norm(mean), dtype=np.float64)
 
 
-def _days(hours: Sequence[LoggedHour]) -> list[list[str]]:
+def _days(hours: Sequence[LoggedHour], lived: Collection[int]) -> list[list[str]]:
+    """The intentions of each recorded day, of the hours of day that count."""
     days: dict[int, list[str]] = {}
-    for hour in sorted(hours, key=lambda one: (one.day, one.hour)):
+    counting = (hour for hour in hours if hour.hour in lived and not hour.away)
+    for hour in sorted(counting, key=lambda one: (one.day, one.hour)):
         days.setdefault(hour.day, []).append(hour.intention)
     return list(days.values())

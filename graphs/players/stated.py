@@ -26,25 +26,33 @@ from coopera.graphs.players.real_person import (
 from coopera.graphs.players.simulated import Simulated, ask_for_tasks
 from coopera.graphs.robots.method import Numbers
 
-Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour]
-"""What a real person wrote down of an hour."""
+Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
+"""What a real person wrote down of an hour; None for an hour that they left open."""
 
 
 @dataclass(frozen=True, slots=True)
 class Logged:
-    """A person whose intentions, and tasks where given, are those of a log; a model does what the log leaves open."""
+    """A person whose intentions, and tasks where given, are those of a log; a model does what the log leaves open.
+
+    Of an hour without a word in the log the model makes the intention, too.
+    """
 
     logs: Logs
     otherwise: Simulated = Simulated()
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
-        """Take the intention from the log."""
-        return Intention(text=self.logs(ctx.plan, state["clock"]).intention)
+        """Take the intention from the log, if it has one of this hour."""
+        hour = self.logs(ctx.plan, state["clock"])
+        if hour is None:
+            return self.otherwise.intention(state, ctx)
+        return Intention(text=hour.intention, continues=hour.continues, away=hour.away)
 
     def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
         """Take the tasks from the log, if it has any of this hour."""
-        steps = self.logs(ctx.plan, state["clock"]).tasks
-        return _taken_over(steps, state, ctx) if steps else self.otherwise.tasks(state, ctx)
+        hour = self.logs(ctx.plan, state["clock"])
+        if hour is None or not hour.tasks:
+            return self.otherwise.tasks(state, ctx)
+        return _taken_over(hour.tasks, state, ctx)
 
     def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
         """Have the model answer for the person."""

@@ -183,6 +183,21 @@ def test_of_a_logged_hour_the_model_only_decomposes(make_services: MakeServices)
     assert "human/intention" not in {prompt for prompt, _, _ in ask.asked}
 
 
+def test_what_a_diary_says_of_an_hour_stands_in_the_trace_and_an_open_hour_is_the_models(
+    make_services: MakeServices,
+) -> None:
+    log = {9: LoggedHour(day=0, hour=9, intention="Travel", continues=True, away=True)}
+    ask = ScriptedAsk(type2_answers())
+    services = make_services(ask=ask, method="none", player=Logged(lambda plan, clock: log.get(clock.hour)))
+    build_study_graph().invoke({"schedule": [DAY]}, context=services)
+    first, second = (hour.human for hour in services.recorder.read_day(0))
+    assert first is not None
+    assert second is not None
+    assert (first.intention.text, first.intention.continues, first.intention.away) == ("Travel", True, True)
+    assert (second.intention.continues, second.intention.away) == (False, False)
+    assert [at.hour for prompt, at, _ in ask.asked if prompt == "human/intention"] == [10]
+
+
 @pytest.mark.parametrize(
     ("step", "collab", "said"),
     [

@@ -82,6 +82,7 @@ class Activity(Frozen):
 
     id: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
     wordings: tuple[Wording, ...]
+    also: tuple[Text, ...] = ()
     statement: Text
     hours: Annotated[tuple[Weight, ...], Field(min_length=LAST - FIRST + 1, max_length=LAST - FIRST + 1)]
     rooms: Annotated[tuple[Text, ...], Field(min_length=1)]
@@ -208,7 +209,11 @@ class Household(Frozen):
     def named(self, text: str) -> Activity | None:
         """Return the activity that a text names by one of its wordings, with or without a person's touch around it."""
         found = (self.by_wording.get(key(core)) for core in cores(text))
-        return next(filter(None, found), None)
+        return next(filter(None, found), None) or self._also.get(key(text))
+
+    @cached_property
+    def _also(self) -> dict[str, Activity]:
+        return {key(said): activity for activity in self.activities for said in activity.also}
 
     @cached_property
     def log_hours(self) -> Floats:

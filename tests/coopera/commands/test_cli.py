@@ -207,6 +207,37 @@ def test_people_homes_and_prompts_can_be_shown_and_checked(coopera: Cli, tmp_pat
     assert "can be used" in coopera("prompts", "check").out
 
 
+def test_published_diaries_become_files_and_their_hours_can_be_seen(coopera: Cli, tmp_path: Path) -> None:
+    day = {
+        "schedule": [["breakfast", 530, 560], ["leave_home", 580, 600], ["come_home", 730, 740], ["sleep", 1300, 1800]]
+    }
+    (tmp_path / "days.json").write_text(json.dumps({"A/train/000": day}))
+    said = coopera("humans", "diary", "days.json")
+    assert said.out.splitlines() == [
+        "diaries/a-train.csv: A/train, days: 1, episodes: 5; 9 am to 9 pm: 5 hours (1 continued, 2 away), 8 open.",
+        "To live one: coopera run --played-by log:diaries/a-train.csv --humans ID --days 1",
+    ]
+    assert "which was there and is kept" in coopera("humans", "diary", "days.json").out
+    (person,) = coopera("humans", "diary", "days.json", "--force", "--json").json["people"]
+    assert (person["file"], person["hours"], person["kept"]) == ("diaries/a-train.csv", 5, False)
+    hours = coopera("humans", "check", "diaries/a-train.csv").out.splitlines()
+    assert hours[:4] == [
+        "day 0, 8 am: Have breakfast",
+        "day 0, 9 am: Get ready and leave the home",
+        "day 0, 10 am: Be out of the home (away)",
+        "day 0, 11 am: Be out of the home (goes on) (away)",
+    ]
+    assert hours[-1] == "diaries/a-train.csv: a diary with 8 hours (days: 1)."
+    for args, sentence in (
+        (["--format", "csv"], "--format must be homer or atus, not 'csv'."),
+        (["--who", "B/train"], "--who: days.json has no 'B/train' (it begins with A/train)."),
+        (["--limit", "0"], "Invalid value for '--limit'"),
+    ):
+        said = coopera("humans", "diary", "days.json", *args)
+        assert said.code == 2
+        assert sentence in said.err
+
+
 def test_trace_and_report_read_a_run(coopera: Cli, tmp_path: Path) -> None:
     fake_run(tmp_path / "run", days=1, hours=2, frames=1)
     assert "day 0, 10 am" in coopera("trace", "run").out

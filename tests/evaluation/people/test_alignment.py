@@ -41,3 +41,13 @@ def test_what_was_not_given_is_unmeasured_with_the_reason() -> None:
     figures = {f.measure: f for f in alignment(lives([day("ann", does=["aaa"])]), logs, LETTERS)}
     assert figures["generic"].note == "nobody without a profile was named"
     assert figures["mismatched"].note == "it takes a second simulated person"
+
+
+def test_only_hours_at_home_that_were_simulated_count_of_a_recorded_day() -> None:
+    at_night = LoggedHour(day=0, hour=3, intention="zzz")
+    away = LoggedHour(day=0, hour=10, intention="zzz", away=True)
+    logs = {ANN: [LoggedHour(day=0, hour=9, intention="aaa"), away, at_night]}
+    alone = {ANN: [LoggedHour(day=0, hour=9, intention="aaa")]}
+    assert [f.value for f in alignment(PEOPLE, logs, LETTERS)] == [f.value for f in alignment(PEOPLE, alone, LETTERS)]
+    figures = alignment(PEOPLE, {ANN: [away, at_night]}, LETTERS)
+    assert {f.note for f in figures} == {"the logs have no hour at home of those that were simulated"}

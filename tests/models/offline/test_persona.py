@@ -141,3 +141,18 @@ def test_with_the_real_encoder_an_aversion_draws_away(real: CommonSense) -> None
 def test_with_the_real_encoder_foreign_words_are_recognised(real: CommonSense) -> None:
     assert real.recognise("Make some biscuits in the oven").activity.id == "bake"
     assert real.recognise("Finish the scarf I am making").activity.id == "knit"
+
+
+@pytest.mark.parametrize(
+    ("text", "activity"),
+    [
+        ("Wash the dishes after dinner", "dishes"),
+        ("Brush my teeth before bed", "wash_up"),
+        ("Look after the pets", "pet_care"),
+        ("Listen to music", "listen"),
+        ("Work at my job", "desk_work"),
+    ],
+)
+def test_what_people_write_in_diaries_is_understood_whatever_meal_it_comes_after(text: str, activity: str) -> None:
+    found = CommonSense(shipped(), bundled()).recognise(text)
+    assert (found.activity.id, found.certainty) == (activity, 1.0)
