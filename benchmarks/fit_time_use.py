@@ -28,6 +28,7 @@ from coopera.memory import bundled
 from coopera.models.offline.household.knowledge import FIRST, LAST, Floats, shipped
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import rhythm as human_rhythm
+from coopera.models.offline.human.circumstances import Circumstances
 from coopera.models.offline.human.person import PrivateLife
 from coopera.models.offline.human.persona import shipped_aspects
 from coopera.models.offline.human.rhythm import Rhythm, Schedule, of_day_type
@@ -80,9 +81,10 @@ def fit(sense: CommonSense, real: Floats, people: Sequence[tuple[str, BigFive]])
     logits[:, CATEGORIES.index("work")] = UNSCHEDULED
     asleep = real[:, :, CATEGORIES.index("sleeping")]
     rhythm = _rhythm(asleep, schedules(wanted), logits)
+    lives = [PrivateLife(sense, profile, big_five, rhythm) for profile, big_five in people]
     for turn in range(ROUNDS):
         rhythm = _rhythm(asleep, schedules(wanted), logits)
-        lived = population(sense, rhythm, people)
+        lived = population([life.keeping(rhythm) for life in lives])
         apart = jensen_shannon(lived, real)
         print(f"round {turn}: {apart.mean():.4f} bits from the table, {apart.max():.4f} in the worst hour")
         missing = (work + FEW) / (lived[:, :, CATEGORIES.index("work")] + FEW)
@@ -95,35 +97,38 @@ def fit(sense: CommonSense, real: Floats, people: Sequence[tuple[str, BigFive]])
     return rhythm
 
 
-def population(sense: CommonSense, rhythm: Rhythm, people: Sequence[tuple[str, BigFive]], days: int = DAYS) -> Floats:
+def population(lives: Sequence[PrivateLife], days: int = DAYS) -> Floats:
     """Return shares of time, (day types, hours, categories), of people who live some days where they please."""
     taken, lived = np.zeros((len(DAY_TYPES), len(HOURS), len(CATEGORIES))), np.zeros(len(DAY_TYPES))
-    for number, (profile, big_five) in enumerate(people):
-        life = PrivateLife(sense, profile, big_five, rhythm)
+    for number, life in enumerate(lives):
+        activities = life.household.activities
         for day in range(days):
-            spent = {one.hour: sense.household.activities[one.activity].minutes for one in a_day(life, number, day)}
+            spent = {one.hour: activities[one.activity].minutes for one in a_day(life, number, day)}
             taken[of_day_type(day % 7)] += filled(spent)[list(HOURS)]
             lived[of_day_type(day % 7)] += 1
     return taken / lived[:, None, None]
 
 
-def a_day(life: PrivateLife, number: int, day: int) -> list[Done]:
-    """Live a day at home and away, with nothing broken, dirty or new."""
+def a_day(
+    life: PrivateLife, who: object, day: int, *, absence: bool = True, today: Circumstances | None = None
+) -> list[Done]:
+    """Live a day with nothing broken or dirty; `who` tells lives of one person apart."""
     count = len(life.household.activities)
-    today: list[Done] = []
+    can_do = np.ones(count, dtype=bool) if today is None else today.can_do
+    done: list[Done] = []
     for hour in HOURS:
         free = Moment(
             hour=hour,
             weekday=day % 7,
-            today=today,
+            today=done,
             lasting=True,
-            absence=True,
-            possible=np.ones(count, dtype=bool),
-            extra=np.zeros(count),
+            absence=absence,
+            possible=can_do,
+            extra=np.zeros(count) if today is None else today.pull,
         )
-        choice = choose(life, free, rng_at(0, "fit", number, day, hour), USUAL_TEMPERATURE)
-        today.append(Done(choice.activity, hour))
-    return today
+        choice = choose(life, free, rng_at(0, "lived", who, day, hour), USUAL_TEMPERATURE)
+        done.append(Done(choice.activity, hour))
+    return done
 
 
 def somebody(count: int) -> Iterator[tuple[str, BigFive]]:

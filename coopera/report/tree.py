@@ -138,7 +138,13 @@ def _chosen(run: RunDir, day: int, hour: int | None) -> list[HourRecord]:
 
 
 def _add_human(tree: Tree, human: HumanHour) -> None:
-    _add_reasons(tree.add(f"intention: [bold cyan]{escape(human.intention.text)}[/]"), human.intention.reasons)
+    intention = human.intention
+    mark = " (away from home)" if intention.away else " (goes on)" if intention.continues else ""
+    _add_reasons(tree.add(f"intention: [bold cyan]{escape(intention.text)}[/]{mark}"), intention.reasons)
+    for one in human.circumstances:
+        tree.add(f"these days: {escape(one.text)} [dim]({one.kind}, strength {one.strength:.2f})[/]")
+    if intention.away:
+        return
     recalled = tree.add(f"recalled {len(human.recalled)}")
     for one in human.recalled:
         figures = f"{one.score:.3f} = recency {one.recency:.3f} x relevance {one.relevance:.3f}"

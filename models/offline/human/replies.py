@@ -112,9 +112,9 @@ class Human:
 
     def _why(self, life: PrivateLife, activity: Activity, choice: Choice, hour: int, changes: Sequence[Any]) -> str:
         """What is different today, the person's own words where they bear on it, their traits; else a habit."""
-        parts = [str(change["text"]) for change in changes if speaks_for(change, activity)][:1]
+        parts = [f"{change['text']}." for change in changes if speaks_for(change, activity)][:1]
         if sentence := life.evidence(activity):
-            parts.append(f'I say of myself: "{sentence.rstrip(".")}".')
+            parts.append(f'I say of myself: "{sentence.rstrip(" .,;")}".')
         if choice.why == "wish" and (found := life.strongest_trait(activity)):
             trait, score = found
             parts.append(f"My {trait} of {score:.1f} speaks for it.")

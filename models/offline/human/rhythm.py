@@ -20,6 +20,7 @@ from coopera.models.offline.household.knowledge import FIRST, LAST, Floats, Hous
 
 _FILE = Path(__file__).parent / "rhythm.yaml"
 _HOURS = LAST - FIRST + 1
+WEEKEND = DAY_TYPES.index("weekend")
 
 Share = Annotated[float, Field(ge=0, le=1)]
 ByHour = Annotated[tuple[Share, ...], Field(min_length=_HOURS, max_length=_HOURS)]

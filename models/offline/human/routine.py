@@ -98,7 +98,7 @@ class _Day:
         went_on = index in self._done
         if went_on and not self._moment.lasting:
             return None
-        chance = self._life.asleep(self._moment.weekday, self._moment.hour, already=went_on)
+        chance = self._life.time.asleep(self._moment.weekday, self._moment.hour, already=went_on)
         return Choice(index, went_on, "asleep") if rng.random() < chance else None
 
     def what_is_needed(self, rng: np.random.Generator) -> Choice | None:
@@ -106,11 +106,11 @@ class _Day:
         if self._closed:
             return None
         due = {}
-        for index in self._life.daily:
+        for index in self._life.time.daily:
             if self._fresh[index] and not self._served(index):
                 missed = 1.0
                 for hour in (self._moment.hour, *self._taken_up()):
-                    missed *= 1.0 - self._life.due(index, hour)
+                    missed *= 1.0 - self._life.time.due(index, hour)
                 if rng.random() < 1.0 - missed:
                     due[index] = 1.0 - missed
         return Choice(max(due, key=lambda index: (due[index], -index)), False, "need") if due else None
@@ -130,13 +130,13 @@ class _Day:
 
     def work_away(self, rng: np.random.Generator) -> Choice | None:
         """Work where nothing of home is done in between, not even a meal."""
-        index = self._life.occupation(absence=self._moment.absence)
+        index = self._life.time.occupation(absence=self._moment.absence)
         return self.work(rng) if index is not None and self._household.activities[index].away else None
 
     def work(self, rng: np.random.Generator) -> Choice | None:
         """Work in the hours of work; a day that did not begin with it is a day off."""
-        index = self._life.occupation(absence=self._moment.absence)
-        schedule = self._life.schedule
+        index = self._life.time.occupation(absence=self._moment.absence)
+        schedule = self._life.time.schedule
         if index is None or schedule is None or not self._allowed[index]:
             return None
         if not schedule.covers(self._moment.weekday, self._moment.hour):
@@ -158,7 +158,7 @@ class _Day:
         between = 1.0
         for index in recent:
             activity = self._household.activities[index]
-            if activity.lasts > 1 and self._allowed[index] and index != self._life.occupation(absence=True):
+            if activity.lasts > 1 and self._allowed[index] and index != self._life.time.occupation(absence=True):
                 chance = between * (1.0 - 1.0 / activity.lasts)
                 return Choice(index, continues=True, why="going on") if rng.random() < chance else None
             if activity.whole:
@@ -168,7 +168,7 @@ class _Day:
 
     def wish(self, rng: np.random.Generator, temperature: float) -> int:
         """Draw from what the person feels like; without anything new, from all that is possible."""
-        open_to = self._fresh & ~self._life.set_hours
+        open_to = self._fresh & ~self._life.time.set_hours
         if self._closed:
             follows = self._household.follow_matrix[self._last_closing] > 0
             open_to = self._allowed & follows if (self._allowed & follows).any() else self._allowed
@@ -196,11 +196,11 @@ class _Day:
 
     def _served(self, index: int) -> bool:
         """Whether a need has been met today, by this or by what serves as well."""
-        return bool({index, *self._life.serves(index)} & self._done)
+        return bool({index, *self._life.time.serves(index)} & self._done)
 
     def _taken_up(self) -> list[int]:
         """The hours just before this one that sleep or another need took: what was due then still is."""
-        busy = {*self._life.daily, self._household.index.get("sleep_in", -1)}
+        busy = {*self._life.time.daily, self._household.index.get("sleep_in", -1)}
         hours: list[int] = []
         for one in reversed(self._moment.today):
             if one.activity not in busy:
@@ -218,9 +218,9 @@ class _Day:
 
     def _may_begin(self, start: int) -> bool:
         """Whether work may begin now: at its first hour, or where only needs and sleep have come before."""
-        needs = {*self._life.daily, self._household.index.get("sleep_in", -1)}
-        for index in self._life.daily:
-            needs |= set(self._life.serves(index))
+        needs = {*self._life.time.daily, self._household.index.get("sleep_in", -1)}
+        for index in self._life.time.daily:
+            needs |= set(self._life.time.serves(index))
         since = [one.activity for one in self._moment.today if one.hour >= start]
         return all(index in needs or self._household.activities[index].after for index in since)
 

@@ -24,6 +24,7 @@ from coopera.models.offline.robot import traits as robot_traits
 NEXT = 0.6  # logits for what tends to follow the intention before
 SEEN_BEFORE = 1.6  # logits for what the person did at this very hour of an earlier day
 LIKE_HOUR = 1.5  # hours within which a remembered hour counts as a like one
+GOES_ON = 2.0  # logits for what was done in the hour before, times the chance that such a thing goes on
 ALREADY_TODAY = 2.5  # logits against what was done today and does not repeat
 BELIEF = 0.3  # logits per point of the inferred traits x loading
 PROFILE = 0.5  # logits per standard deviation of the inferred profile's closeness
@@ -63,7 +64,7 @@ class Robot:
         usual = household.log_hours[:, hour] + self._sight(variables["percept"], variables["first_task"])
         logits = usual + self._recall(known, hour) + self._belief(variables)
         kinds = {room_kind(room) for room in variables["rooms"]}
-        possible = np.array([bool(kinds.intersection(activity.rooms)) for activity in household.activities])
+        possible = np.array([bool(kinds.intersection(a.rooms)) and not a.away for a in household.activities])
         logits = np.where(possible | ~possible.any(), logits, -1e9)
         average = float(np.log(np.exp(usual).mean()))  # what is not known is as likely as anything
         logits = np.append(logits, [average + _of_strange(done, hour) for done in strange])
@@ -149,7 +150,10 @@ class Robot:
             if not memory.today:
                 total[index] += _seen_before(memory, hour)
                 continue
-            if not household.activities[index].repeatable or memory.hours_ago < 3:
+            activity = household.activities[index]
+            if memory.hours_ago == 1 and activity.lasts > 1:
+                total[index] += GOES_ON * (1.0 - 1.0 / activity.lasts)
+            elif not activity.repeatable or memory.hours_ago < 3:
                 total[index] -= ALREADY_TODAY
             if memory.hours_ago == latest:
                 total += NEXT * household.follow_matrix[index]
