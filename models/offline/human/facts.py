@@ -122,7 +122,13 @@ class _Weighing:
         return Facts(
             listed=tuple(dict.fromkeys(listed)),
             unstated=tuple(
-                Fact(sentence="", own=False, kind=self._kind(name), says=self._file.requires.says[name], effects=_said(one))
+                Fact(
+                    sentence="",
+                    own=False,
+                    kind=self._kind(name),
+                    says=self._file.requires.says[name],
+                    effects=_said(one),
+                )
                 for name, one in missing.items()
                 if _said(one)
             ),
@@ -166,7 +172,9 @@ class _Weighing:
             update={
                 "never": known(effects.never),
                 "never_things": tuple(t for t in effects.never_things if t in self._things and t not in things),
-                "never_motions": tuple(m for m in effects.never_motions if m in household.looks_like and m not in motions),
+                "never_motions": tuple(
+                    m for m in effects.never_motions if m in household.looks_like and m not in motions
+                ),
                 "more": {a: more[a] for a in more if a in household.index},
                 "less": {a: less[a] for a in known(less)},
                 "speaks_for": tuple(a for a in effects.speaks_for if a in household.index),
@@ -178,7 +186,9 @@ class _Weighing:
         requires, missing = self._file.requires, {}
         for name in requires.says:
             if name not in self._given:
-                never = tuple(a for a, fact in requires.activities.items() if fact == name and a in self._household.index)
+                never = tuple(
+                    a for a, fact in requires.activities.items() if fact == name and a in self._household.index
+                )
                 things = tuple(t for t, fact in requires.things.items() if fact == name and t in self._things)
                 missing[name] = Effects(never=never, never_things=things)
         return missing

@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, Self, TypeAlias
 
 import yaml
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, model_validator
-from typing_extensions import Self
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
@@ -190,7 +189,7 @@ def load(path: Path = SHIPPED) -> FactsFile:
         ConfigError: Naming the file and the field, and what was expected.
     """
     try:
-        data = yaml.load(path.read_text(encoding="utf-8"), Loader=StrictLoader)  # noqa: S506 - a SafeLoader
+        data = yaml.load(path.read_text(encoding="utf-8"), Loader=StrictLoader)
         return FactsFile.model_validate(_with_tuples(data))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
