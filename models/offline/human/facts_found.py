@@ -56,7 +56,7 @@ _EATING = re.compile(
     r" and|,))){0,6}"
     r"(?:,| or| and)? ?$"
 )
-_ALLERGY = re.compile(r"^ (?:allerg(?:y|ies|ic)|intolerant|intolerance|free(?: diet)?)\b")
+_ALLERGY = re.compile(r"^ (?:allerg(?:y|ies|ic)|intolerant|intolerance|disease|free(?: diet)?)\b")
 _CANNOT_EAT = re.compile(r"\b(?:celiac|coeliac|lactose intoleran(?:t|ce)|allergic to)\b")
 
 

@@ -100,7 +100,7 @@ _PAST = re.compile(
     r"(?<!am )(?<!get )(?<!got )(?<!are )(?<!getting )(?<!is )\bused to (?!be an? (?:\w+ ){0,2}and still)"
     r"|\b(?:as an? (?:(?:young|little|small) )?(?:kid|child|boy|girl|teen|teenager|youth)|growing up|"
     r"in my (?:youth|childhood)|"
-    r"years ago|back (?:then|in)|in the past|formerly|in (?:high )?school i|my (?:former|old|last|previous|"
+    r"years ago|back (?:then|in (?:the|my|high|\d))|in the past|formerly|in (?:high )?school i|my (?:former|old|last|previous|"
     r"first) (?:job|career|boss)|"
     r"last (?:year|summer|month|week|spring|fall|winter))\b"
     r"|(?:^|\b)i (?:(?:always|also|really|once|never|often|just|even) )?(?:was|were|had(?! to)|did(?! not)|"
@@ -123,7 +123,7 @@ _WISH = re.compile(
 _NEVER = re.compile(
     r"\b(?:hate[sd]?|hating|detest|loathe|despise|abhor|cannot|never|not|no|avoid(?:ing)?|refuse to|unable to|"
     r"nor|neither|"
-    r"no longer|stopped|quit|gave up|given up|giving up|do without|without|zero|nothing|terrified of|"
+    r"no longer|dropped out of|stopped|quit|gave up|given up|giving up|do without|without|zero|nothing|terrified of|"
     r"allergic to|sick of|"
     r"banned from|free of|afraid of|scared of|phobia of|fear of|anti)\b"
 )
@@ -134,11 +134,13 @@ _SOFTLY = re.compile(
 _HARD = re.compile(r"\b(?:hate[sd]?|never|not at all)\b")
 _LITTLE = re.compile(r"\b(?:much|often|a lot|anymore|well|enough)\b")
 _DISLIKES = re.compile(
-    r"\b(?:dislike[sd]?|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
+    r"\b(?:dislike[sd]?|too (?:old|shy|lazy|weak|tired|fat) (?:for|to)|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
     r"rather .* than|^(?:rather than|instead of)|prefer .* over|prefer .* to an?\b(?! \w+ing)|struggle (?:to|"
     r"with))\b"
 )
-_SELDOM = re.compile(r"\b(?:rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b")
+_SELDOM = re.compile(
+    r"\b(?:no time (?:for|to)|not (?:often |ever )?have (?:the |much |any |enough )?time (?:to|for)|rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b"
+)
 _AFTER = re.compile(
     r"^(?:[\w']+ ){0,2}?(?:(?:is|are|was)(?: (?:just|really|so|very|such|all))* (?:not|n't|boring|exhausting|"
     r"disgusting|"
@@ -171,13 +173,13 @@ class Clause(NamedTuple):
         bare = _NOT_AGAINST.sub(lambda found: " " * len(found.group()), before)
         if _AFTER.search(after):
             return "dislikes"
+        if _SELDOM.search(bare):
+            return "seldom"
         if against := _NEVER.search(bare):
             softly = _SOFTLY.search(bare, against.end()) or _LITTLE.search(after)
             return "dislikes" if softly and not _HARD.search(bare) else "never"
         if _DISLIKES.search(bare):
             return "dislikes"
-        if _SELDOM.search(bare):
-            return "seldom"
         return "wish" if _WISH.search(before) else "does"
 
 
