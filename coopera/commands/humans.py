@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +16,7 @@ from coopera.commands.rows import rows_of
 
 if TYPE_CHECKING:
     from coopera.core.hour import LoggedHour
+    from coopera.models.offline.human.facts import Fact, Facts
 
 _FORMAT = "What the file is. [default: told by its content]"
 
@@ -38,16 +41,38 @@ def show(
     ],
     as_json: AsJson = False,
 ) -> None:
-    """Show one person: self-introduction and Big Five."""
+    """Show one person: self-introduction, Big Five, and the facts that the offline person reads out of it."""
     from coopera.config.schema import default_data_dir
+    from coopera.models.offline.household.knowledge import shipped
+    from coopera.models.offline.human.facts import facts
     from coopera.people.shipped import find, read_persona
     from coopera.studies.own_files import names_file
 
     found = read_persona(Path(person)) if names_file(person) else find(person, default_data_dir())
+    stated = facts(found.profile, shipped())
     if as_json:
-        typer.echo(found.model_dump_json())
+        typer.echo(json.dumps({**found.model_dump(mode="json"), "facts": stated.model_dump(mode="json")}))
         return
-    typer.echo(f"{found.name} ({found.id}, from {found.source})\n\n{found.profile}\n\n{found.big_five}")
+    typer.echo(f"{found.name} ({found.id}, from {found.source})\n\n{found.profile}\n\n{found.big_five}\n")
+    typer.echo("\n".join(_facts_lines(stated)))
+
+
+def _facts_lines(stated: Facts) -> Iterator[str]:
+    """Say for each sentence what it states and what follows, then what is never done because it is not stated."""
+    yield "What is stated, and what follows for the offline person:"
+    if not stated.listed:
+        yield "  nothing stated"
+    for sentence, rows in groupby(stated.listed, key=lambda fact: fact.sentence):
+        facts = list(rows)
+        yield f"  {sentence}{'' if facts[0].own else '  (added by the import)'}"
+        yield from (f"    {fact.kind}: {fact.says}{_follows(fact)}" for fact in facts)
+    if stated.unstated:
+        yield "Not stated, and therefore:"
+        yield from (f"    {fact.kind}: {fact.says}{_follows(fact)}" for fact in stated.unstated)
+
+
+def _follows(fact: Fact) -> str:
+    return f" -> {'; '.join(fact.effects)}" if fact.effects else ""
 
 
 @app.command("import")

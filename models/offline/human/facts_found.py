@@ -19,7 +19,7 @@ HINTS_AGAINST = -1.0
 _WORDS = "three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
 _DECADES = ("teens", "twenties", "thirties", "forties", "fifties", "sixties", "seventies", "eighties", "nineties")
-_UNITS = "one two three four five six seven eight nine".split()
+_UNITS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine"]
 NUMBERS: Mapping[str, int] = {
     **{word: 3 + i for i, word in enumerate([*_WORDS.split(), "nineteen"])},
     **{ten: 20 + 10 * i for i, ten in enumerate(_TENS)},
@@ -28,26 +28,35 @@ NUMBERS: Mapping[str, int] = {
 _NUMBER = rf"(?P<n>\d{{1,3}}|{'|'.join(sorted(NUMBERS, key=len, reverse=True))})"
 _AGES = (
     re.compile(
-        r"\bi (?:am|will (?:soon )?be|will (?:soon )?turn|have (?:just )?turned|(?:just |recently )?turned|just became)"
-        r"(?: (?:about to (?:be|turn)|turning|almost|nearly|over|past|only|just|currently|now|already|around|about|still))*"
-        rf"(?: an?)?(?: the (?:ripe )?(?:old )?age of)? {_NUMBER}(?P<unit> ?(?:years? (?:old|young|of age)|yrs? old|yo\b|y o\b))?"
+        r"\bi (?:am|will (?:soon )?be|will (?:soon )?turn|have (?:just )?turned|(?:just |recently )?turned|"
+        r"just became)"
+        r"(?: (?:about to (?:be|turn)|turning|almost|nearly|over|past|only|just|currently|now|already|around|"
+        r"about|still))*"
+        rf"(?: an?)?(?: the (?:ripe )?(?:old )?age of)? {_NUMBER}(?P<unit> ?(?:years? (?:old|young|of age)|"
+        rf"yrs? old|yo\b|y o\b))?"
         r"(?=\s*(?:$|,| and\b| or so\b|(?: \w+)? (?:male|female|man|woman|guy|girl|boy|lady|mom|dad|gentleman)\b|"
         r" now\b| today\b| this (?:year|month)\b| (?:next|last) \w+| in (?:a|two|three) \w+$)|(?P<rest> .*))"
     ),
-    re.compile(rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"),
+    re.compile(
+        rf"\bi (?:am|have)\b(?: (?!to\b|of\b|with\b|for\b)[\w']+,?){{0,4}}? {_NUMBER}(?P<unit> years? (?:old|"
+        rf"young|of age))(?! \w*(?:dog|cat|car|house|son|daughter|kid|child|boy|girl friend))"
+    ),
     re.compile(rf"\bmy age is {_NUMBER}(?P<unit>)"),
 )
 _DECADE = re.compile(
-    rf"\bin my (?P<part>early|mid|middle|late)?(?: to (?:mid|late))? ?(?:(?P<word>{'|'.join(_DECADES)})|(?P<n>[1-9]0) ?'?s)\b"
+    rf"\bin my (?P<part>early|mid|middle|late)?(?: to (?:mid|late))? ?(?:(?P<word>{'|'.join(_DECADES)})|"
+    rf"(?P<n>[1-9]0) ?'?s)\b"
 )
 _PART = {"early": 2, "late": 8}
 _EATING = re.compile(
-    r"\b(?:eat(?:ing)?|like|love|drink(?:ing)?|stand|touch|tolerate|digest|consume|have|allergic to|allerg(?:y|ies) to|"
+    r"\b(?:eat(?:ing)?|like|love|drink(?:ing)?|stand|touch|tolerate|digest|consume|have|allergic to|allerg(?:y|"
+    r"ies) to|"
     r"intolerant (?:to|of)|hate|dislike|avoid|detest|despise|loathe|fan of|gave up|smell of|taste of|sensitive to)"
-    r"(?:(?:,| or| and| to)? (?:the|any|raw|eat|all|taste|smell|of|cooked|green|red|dark|white|[\w']+,?(?= or| and|,))){0,6}"
+    r"(?:(?:,| or| and| to)? (?:the|any|raw|eat|all|taste|smell|of|cooked|green|red|dark|white|[\w']+,?(?= or|"
+    r" and|,))){0,6}"
     r"(?:,| or| and)? ?$"
 )
-_ALLERGY = re.compile(r"^ (?:allerg(?:y|ies|ic)|intolerant|intolerance|free(?: diet)?)\b")
+_ALLERGY = re.compile(r"^ (?:allerg(?:y|ies|ic)|intolerant|intolerance|disease|free(?: diet)?)\b")
 _CANNOT_EAT = re.compile(r"\b(?:celiac|coeliac|lactose intoleran(?:t|ce)|allergic to)\b")
 
 
@@ -75,6 +84,7 @@ class Heard(NamedTuple):
 
     @classmethod
     def of(cls, sentence: str) -> Heard:
+        """Split a sentence."""
         return cls(sentence, unfigured(plain_sentence(sentence)), clauses(sentence))
 
 

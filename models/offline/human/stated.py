@@ -26,10 +26,12 @@ _SHORT = (
 )
 _FIGURES = re.compile(
     r"\b(?:scared to death|dog tired|dog days|hot dogs?|(?:raining )?cats and dogs|cat nap|"
-    r"play (?:it by ear|hard to get|with fire|dumb|devil's advocate|the (?:lottery|lotto|market|stock market|field))|"
+    r"play (?:it by ear|hard to get|with fire|dumb|devil's advocate|the (?:lottery|lotto|market|stock market|"
+    r"field))|"
     r"(?:running|runs?|ran) (?:out of|late|low|into|away|around like|for "
     r"(?:office|mayor|president)|in (?:my|the|our) family|on coffee|things|errands|wild|deep)|in the long run|"
-    r"read (?:minds?|people(?: like an? (?:open )?book)?|between the lines|palms|the room)|mind reading|mind reader|cook the books|"
+    r"read (?:minds?|people(?: like an? (?:open )?book)?|between the lines|palms|the room)|mind reading|"
+    r"mind reader|cook the books|"
     r"piece of cake|cakewalk|(?:an|my) arm and a leg|pull(?:ing)? (?:my|your|his|her) leg|break a leg|"
     r"blind (?:dates?|faith|spot|as a bat)|colou?r ?blind|love is blind|turn a (?:blind|deaf) \w+|blind in one eye|"
     r"tone deaf|draw (?:attention|the line|a line|blood)|paint (?:the town|a picture of)|swim(?:ming)? in|"
@@ -39,7 +41,8 @@ _FIGURES = re.compile(
     r"work like a (?:dog|horse)|the cat's out|cat got|let the cat|work in progress|on the run|ring a bell|"
     r"(?:took|takes?|taking) a (?:shower of|bath in)|shopping spree for|bookmaker|sleep(?:ing)? with the fishes|"
     r"sing the praises of|green with envy|heart ?broken|broken heart|spill the tea|not my cup of tea|"
-    r"(?:let (?:him|her|them) believe|pretend)(?: that)? i\b[^,;]*|couch surf\w*|channel surf\w*|walk all over|wears? the pants|skate over|fish for compliments)\b"
+    r"(?:let (?:him|her|them) believe|pretend)(?: that)? i\b[^,;]*|i remember when\b[^,;]*|couch surf\w*|"
+    r"channel surf\w*|walk all over|wears? the pants|skate over|fish for compliments)\b"
 )
 _SIMILE = re.compile(
     r"\b(?:(?<=feel )|(?<=feels )|(?<=look )|(?<=looks )|(?<=eat )|(?<=sleep )|(?<=work )|(?<=live )|(?<=sing )|"
@@ -47,50 +50,64 @@ _SIMILE = re.compile(
     r"(?<=just )|(?<=more ))like (?:an?|my|the|some)\b[^,;]*|\bas \w+ as an?\b[^,;]*"
 )
 _NOT_AGAINST = re.compile(
-    r"\b(?:(?:do|did|will|would|could|can|am|have) ?not|never|hate to|cannot) (?:(?:ever|really|to) )?(?:skip|miss|forget|"
+    r"\b(?:(?:do|did|will|would|could|can|am|have) ?not|never|hate to|cannot) (?:(?:ever|really|to) )?(?:skip|"
+    r"miss|forget|"
     r"stop|wait|mind|(?:get|have) enough|imagine|live without|go (?:a|one|through a) \w+ without|be without|help|"
     r"resist|tire|get tired|say no|trade|sit still|do without|leave (?:\w+ )?without|function without|put \w+ down|"
     r"sleep without|start (?:\w+ )*without)\b"
-    r"|\bnot (?:only|just|to mention)\b|\bnothing (?:better|beats)\b|\bno (?:matter|doubt|wonder)\b|\bnever without\b"
+    r"|\bnot (?:only|just|to mention)\b|\bnothing (?:better|beats)\b|\bno (?:matter|doubt|wonder)\b|"
+    r"\bnever without\b"
     r"|\bcannot \w+ without\b"
 )
 _BREAKS = re.compile(
-    r"[;:]\s*|,?\s*\b(?:but|because|although|though|while|whereas|unless|so that|when|whenever|after(?= \w+ing| i\b)|"
+    r"[;:]\s*|,?\s*\b(?:but|because|although|though|while|whereas|unless|so that|when|whenever|after(?= \w+ing|"
+    r" i\b)|"
     r"before(?= \w+ing| i\b)|until(?= i\b| my\b)|(?=who\b)|which|where|since(?= i\b| my\b| \w+ing\b)|if)\b\s*"
     r"|(?:,\s*(?:and|or|so)?|\b(?:and|or|so))\s*(?=(?:then |now |also |sometimes |therefore )?"
     r"(?:i|we|my|our|he|she|they|it|his|her|their|the only)\b)"
-    r"|,?\s*\band (?=(?:also |really )?(?:love|like|enjoy|prefer|adore|am|have|hate|dislike|work|live|spend|own|teach)\b)"
+    r"|,?\s*\band (?=(?:also |really )?(?:love|like|enjoy|prefer|adore|am|have|hate|dislike|work|live|spend|own|"
+    r"teach)\b)"
     r"|(?=\b(?:rather than|instead of)\b)"
 )
 RELATIVE = (
-    r"(?:(?:step|half|great|god)[ -]?)*(?:grand ?)?(?:father|mother|dad|daddy|mom|mum|mommy|mummy|pa|ma|parents?|brothers?|"
+    r"(?:(?:step|half|great|god)[ -]?)*(?:grand ?)?(?:father|mother|dad|daddy|mom|mum|mommy|mummy|pa|ma|"
+    r"parents?|brothers?|"
     r"sisters?|sons?|daughters?|uncles?|aunts?|aunties|cousins?|nephews?|nieces?|husband|wife|spouse|partner|"
-    r"boyfriend|girlfriend|fianc[eé]e?|kids?|child(?:ren)?|bab(?:y|ies)|toddlers?|friends?|boss|neighbou?rs?|family|"
+    r"boyfriend|girlfriend|fianc[eé]e?|kids?|child(?:ren)?|bab(?:y|ies)|toddlers?|friends?|boss|neighbou?rs?|"
+    r"family|"
     r"roommates?|flatmates?|ex|twins?|girls|boys|folks|in laws?|pa|grandma|grandpa|granny|coworkers?|colleagues?)"
 )
 _KIN = re.compile(rf"(?:my|our|his|her|their|a|the)(?: (?!and\b|i\b)[\w']+){{0,2}}? {RELATIVE}(?:'s|s')?\b")
 _OTHERS = re.compile(
     rf"^(?:(?:and|also|now|today|sometimes|both|all|one|two|some|most) (?:of )?)*(?:(?:my|our|his|her|their)"
-    rf"(?: (?!and\b|i\b|favou?rite\b)[\w']+){{0,3}}? {RELATIVE}(?:'s|s')?\b|(?:mom|mum|dad|he|she|they|his|her|their)\b)"
+    rf"(?: (?!and\b|i\b|favou?rite\b)[\w']+){{0,3}}? {RELATIVE}(?:'s|s')?\b|(?:mom|mum|dad|he|she|they|his|her|"
+    rf"their)\b)"
 )
 _AND_I = re.compile(r"\band (?:i|me|myself)\b|\bi and\b")
-_VERB_ONLY = re.compile(r"^(?:also |really )?(?:love|like|enjoy|prefer|adore|am|have|hate|dislike|work|live|spend|own|teach)\b")
+_VERB_ONLY = re.compile(
+    r"^(?:also |really )?(?:love|like|enjoy|prefer|adore|am|have|hate|dislike|work|live|spend|own|teach)\b"
+)
 _LEFT_OVER = re.compile(
     r"^(?:is|has|loves|likes|enjoys|hates|works|plays|lives|does|owns|runs|teaches|wants|drinks|eats|uses|was)\b"
 )
 _WITH = re.compile(r"\b(?:with|and|to|for|of|from|about|at|by|near|than|take|bring|meet|visit)$")
 _PREFACE = re.compile(
-    r"\b(?:watch(?:ing)?|see(?:ing)?|hear(?:ing)?|let(?:ting)?|driv(?:e|ing)|cheer(?:ing)? (?:on|for)|support(?:ing)?|"
+    r"\b(?:watch(?:ing)?|see(?:ing)?|hear(?:ing)?|let(?:ting)?|driv(?:e|ing)|cheer(?:ing)? (?:on|for)|"
+    r"support(?:ing)?|"
     r"listen(?:ing)? to|love|loved|like|hate|miss)$"
 )
 _PAST = re.compile(
     r"(?<!am )(?<!get )(?<!got )(?<!are )(?<!getting )(?<!is )\bused to (?!be an? (?:\w+ ){0,2}and still)"
-    r"|\b(?:as an? (?:(?:young|little|small) )?(?:kid|child|boy|girl|teen|teenager|youth)|growing up|in my (?:youth|childhood)|"
-    r"years ago|back (?:then|in)|in the past|formerly|in (?:high )?school i|my (?:former|old|last|previous|first) (?:job|career|boss)|"
+    r"|\b(?:as an? (?:(?:young|little|small) )?(?:kid|child|boy|girl|teen|teenager|youth)|growing up|"
+    r"in my (?:youth|childhood)|"
+    r"years ago|back (?:then|in (?:the|my|high|\d))|in the past|formerly|in (?:high )?school i|my (?:former|old|last|previous|"
+    r"first) (?:job|career|boss)|"
     r"last (?:year|summer|month|week|spring|fall|winter))\b"
-    r"|(?:^|\b)i (?:(?:always|also|really|once|never|often|just|even) )?(?:was|were|had(?! to)|did(?! not)|loved|liked|enjoyed|"
+    r"|(?:^|\b)i (?:(?:always|also|really|once|never|often|just|even) )?(?:was|were|had(?! to)|did(?! not)|"
+    r"loved|liked|enjoyed|"
     r"played|worked|cooked|danced|lived|collected|painted|studied|taught|ran|wrote|wanted|owned|attended|served|"
-    r"went|spent|raced|drove|swam|sang|helped|competed|grew|trained|wrestled|hated|won|met|thought|tried|rode|coached)\b"
+    r"went|spent|raced|drove|swam|sang|helped|competed|grew|trained|wrestled|hated|won|met|thought|tried|rode|"
+    r"coached)\b"
     r"|\b(?:my|our)(?: [\w']+){1,5} (?:was|were|used to)\b|\b(?:ex|former|formerly)\b"
 )
 _STILL = re.compile(r"\b(?:still|to this day|ever since|nowadays|these days|currently|now i)\b")
@@ -98,12 +115,16 @@ _WISH = re.compile(
     r"\b(?:want(?:s|ed|ing)? (?:\w+ )?to|wanna|hope|hoping|wish|would (?:really )?(?:like|love)|dream(?:s|ing)?|"
     r"plan(?:s|ning)? (?:to|on)|planning|going to (?:be|become|get|buy|adopt|start)|someday|some day|one day i|"
     r"(?:to|would) become|becoming|studying to be|training to be|school to be|"
-    r"aspir\w+|dying to|goal|will (?:be|become|get|have|start)|next year|in the future|thinking (?:of|about)|considering|"
-    r"cannot wait|looking for|in line for|saving (?:up )?(?:for|to)|could be|should be|trying to (?:be|become|get|start))\b"
+    r"aspir\w+|dying to|goal|will (?:be|become|get|have|start)|next year|in the future|thinking (?:of|about)|"
+    r"considering|"
+    r"cannot wait|looking for|in line for|saving (?:up )?(?:for|to)|could be|should be|trying to (?:be|become|"
+    r"get|start))\b"
 )
 _NEVER = re.compile(
-    r"\b(?:hate[sd]?|hating|detest|loathe|despise|abhor|cannot|never|not|no|avoid(?:ing)?|refuse to|unable to|nor|neither|"
-    r"no longer|stopped|quit|gave up|given up|giving up|do without|without|zero|nothing|terrified of|allergic to|sick of|"
+    r"\b(?:hate[sd]?|hating|detest|loathe|despise|abhor|cannot|never|not|no|avoid(?:ing)?|refuse to|unable to|"
+    r"nor|neither|"
+    r"no longer|dropped out of|stopped|quit|gave up|given up|giving up|do without|without|zero|nothing|terrified of|"
+    r"allergic to|sick of|"
     r"banned from|free of|afraid of|scared of|phobia of|fear of|anti)\b"
 )
 _SOFTLY = re.compile(
@@ -113,14 +134,20 @@ _SOFTLY = re.compile(
 _HARD = re.compile(r"\b(?:hate[sd]?|never|not at all)\b")
 _LITTLE = re.compile(r"\b(?:much|often|a lot|anymore|well|enough)\b")
 _DISLIKES = re.compile(
-    r"\b(?:dislike[sd]?|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
-    r"rather .* than|^(?:rather than|instead of)|prefer .* over|prefer .* to an?\b(?! \w+ing)|struggle (?:to|with))\b"
+    r"\b(?:dislike[sd]?|too (?:old|shy|lazy|weak|tired|fat) (?:for|to)|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
+    r"rather .* than|^(?:rather than|instead of)|prefer .* over|prefer .* to an?\b(?! \w+ing)|struggle (?:to|"
+    r"with))\b"
 )
-_SELDOM = re.compile(r"\b(?:rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b")
+_SELDOM = re.compile(
+    r"\b(?:no time (?:for|to)|not (?:often |ever )?have (?:the |much |any |enough )?time (?:to|for)|rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b"
+)
 _AFTER = re.compile(
-    r"^(?:[\w']+ ){0,2}?(?:(?:is|are|was)(?: (?:just|really|so|very|such|all))* (?:not|n't|boring|exhausting|disgusting|"
-    r"overrated|awful|terrible|horrible|gross|a waste|the worst|hard for me|stupid|something i (?:hate|never|do not))|"
-    r"bores? me|(?:boring|exhausting|disgusting|pointless|stressful)\b|(?:make|makes|making) me (?:sick|ill|anxious|sad))"
+    r"^(?:[\w']+ ){0,2}?(?:(?:is|are|was)(?: (?:just|really|so|very|such|all))* (?:not|n't|boring|exhausting|"
+    r"disgusting|"
+    r"overrated|awful|terrible|horrible|gross|a waste|the worst|hard for me|stupid|something i (?:hate|never|"
+    r"do not))|"
+    r"bores? me|(?:boring|exhausting|disgusting|pointless|stressful)\b|(?:make|makes|making) me (?:sick|ill|"
+    r"anxious|sad))"
 )
 
 
@@ -146,13 +173,13 @@ class Clause(NamedTuple):
         bare = _NOT_AGAINST.sub(lambda found: " " * len(found.group()), before)
         if _AFTER.search(after):
             return "dislikes"
+        if _SELDOM.search(bare):
+            return "seldom"
         if against := _NEVER.search(bare):
             softly = _SOFTLY.search(bare, against.end()) or _LITTLE.search(after)
             return "dislikes" if softly and not _HARD.search(bare) else "never"
         if _DISLIKES.search(bare):
             return "dislikes"
-        if _SELDOM.search(bare):
-            return "seldom"
         return "wish" if _WISH.search(before) else "does"
 
 

@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from coopera.core.randomness import rng_at
 from coopera.core.replies import Grade, GradesReply, VerdictReply, VerdictsReply
+from coopera.models.offline.household.knowledge import key
 from coopera.models.offline.household.offers import Want, wants
-from coopera.models.offline.household.reading import clip, said
+from coopera.models.offline.household.reading import big_five_of, clip, said
 from coopera.models.offline.household.sense import CommonSense
 
 MEANS_THE_SAME = 0.7  # cosine from which another wording still means the person's intention
 SERVES = 3  # grade from which the answer is a yes
 NEARLY = 0.8  # similarity from which a thing is nearly the one wanted
 HARDLY = 0.4  # similarity under which a thing has nothing to do with the one wanted
-HELPS = 0.6  # PAPER §4.3: similarity from which a thing serves as well as the one wanted
+HELPS = 0.6  # similarity from which a thing serves the average person as well as the one wanted, as in PAPER §4.3
+LENIENT = 0.03  # by how much a point of agreeableness lowers it
+FUSSY = 0.05  # by how much people differ in it besides
 
 
 def feedback_intentions(sense: CommonSense, variables: Mapping[str, Any]) -> VerdictsReply:
@@ -62,11 +66,22 @@ def _guesses(sense: CommonSense, variables: Mapping[str, Any]) -> list[Grade]:
 
 
 def _offers(sense: CommonSense, variables: Mapping[str, Any]) -> list[Grade]:
-    needed = wants(variables["tasks"])
-    return [_helps(sense, offer, needed) for offer in wants(variables["offers"])]
+    needed, from_ = wants(variables["tasks"]), serves_from(variables)
+    return [_helps(sense, offer, needed, from_) for offer in wants(variables["offers"])]
 
 
-def _helps(sense: CommonSense, offer: Want, needed: Sequence[Want]) -> Grade:
+def serves_from(variables: Mapping[str, Any]) -> float:
+    """Return the similarity from which a thing serves this person; some are content with less than others.
+
+    DEVIATES: in the paper the measure and the person would draw the line at the same place. Drawn from the profile's
+    text, so that somebody is as particular every evening.
+    """
+    agreeable = big_five_of(variables["big_five"]).agreeableness - 3.0
+    own = float(rng_at(0, "private life", key(str(variables["profile"])), "fussy").normal(0.0, FUSSY))
+    return HELPS - LENIENT * agreeable + own
+
+
+def _helps(sense: CommonSense, offer: Want, needed: Sequence[Want], from_: float) -> Grade:
     if not needed:
         return Grade(grade=1, reason="There was nothing left to help with.")
     # Where things are put somewhere, both the thing and the place must serve; where a thing is handed over, it must.
@@ -80,7 +95,7 @@ def _helps(sense: CommonSense, offer: Want, needed: Sequence[Want]) -> Grade:
     want, score = needed[best], scores[best]
     if score >= 0.999:
         return Grade(grade=5, reason=clip(f"Yes, I needed just that: {want.text}.", 400))
-    if score >= HELPS:
+    if score >= from_:
         reason = f"Yes, that would have served me to {want.text}."
         return Grade(grade=4 if score >= NEARLY else SERVES, reason=clip(reason, 400))
     reason = f"No, I had no use for it; I went on to {needed[0].text}."
