@@ -52,7 +52,7 @@ class Tried(NamedTuple):
         return told
 
 
-def check_model(  # noqa: PLR0913 - what a run would open the model with
+def check_model(
     spec: str,
     *,
     base_url: str | None,

@@ -17,11 +17,9 @@ from coopera.core.errors import ConfigError, ModelCallError, RunError, StoppedEr
 from coopera.core.hour import FeedbackItem, HourRecord, HumanHour
 from coopera.evaluation.measuring import all_measures
 from coopera.people.shipped import find
-from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import summarise
-from coopera.studies.catalogues import resolve
 from coopera.studies.study import resume_study
 from tests.coopera.fake_run import fake_run
 
