@@ -46,8 +46,6 @@ def test_a_run_says_which_household_file_its_robot_read_and_goes_on_with_that_on
     with RunDir.create(config, people=[], prompts=PromptLibrary().hashes(), models=models, knowledge=known) as run:
         said = json.loads((run.root / "run.json").read_text())["knowledge"]
         assert said == {f"household: {own}": hashlib.sha256(own.read_bytes()).hexdigest()}
-            f"household: {own}": hashlib.sha256(own.read_bytes()).hexdigest()
-        }
     own.write_text("extends: shipped\nlooks_like: {}\n")
     with pytest.raises(RunError, match="the household file has changed since this run began"):
         resume_study(tmp_path / "run")
