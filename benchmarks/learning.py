@@ -5,8 +5,9 @@
 
 Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home,
 without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
-Finished runs are read, stopped runs go on; another --household therefore needs another --out. Prints a Markdown table: the mean predicate and judge F1 of each day over
-person-episodes, and last day minus first day, each with a 95 % bootstrap interval.
+Finished runs are read, stopped runs go on, so another --household needs another --out. Prints a Markdown table: the
+mean predicate and judge F1 of each day over person-episodes, and last day minus first day, each with a 95 % bootstrap
+interval.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes

@@ -44,9 +44,8 @@ def test_a_run_says_which_household_file_its_robot_read_and_goes_on_with_that_on
     config = resolve(Config(out=tmp_path / "run", household=str(own), data_dir=tmp_path))
     known = knowledge_of(models, config.household)
     with RunDir.create(config, people=[], prompts=PromptLibrary().hashes(), models=models, knowledge=known) as run:
-        assert json.loads((run.root / "run.json").read_text())["knowledge"] == {
-            f"household: {own}": hashlib.sha256(own.read_bytes()).hexdigest()
-        }
+        said = json.loads((run.root / "run.json").read_text())["knowledge"]
+        assert said == {f"household: {own}": hashlib.sha256(own.read_bytes()).hexdigest()}
     own.write_text("extends: shipped\nlooks_like: {}\n")
     with pytest.raises(RunError, match="the household file has changed since this run began"):
         resume_study(tmp_path / "run")
