@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,6 +12,10 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from coopera.config.complaints import complaint
 from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
+from coopera.config.sections import Files as Files
+from coopera.config.sections import Models as Models
+from coopera.config.sections import Text
+from coopera.config.sections import default_data_dir as default_data_dir
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.hour import SearchSizes
@@ -24,42 +27,10 @@ from coopera.models.settings import OWN, SHARED, Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
 
-Text = Annotated[str, Field(min_length=1)]
 Ids = Annotated[list[Text], Field(min_length=1)]
 Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
 
-_MODEL = "a model such as offline"
 SMALL, LARGE = (320, 240), (1024, 768)
-
-
-class Models(Frozen):
-    """Which language model plays which role."""
-
-    human: Annotated[Text, Setting("Language model of the person.", _MODEL, flag="--human-model", metavar="SPEC")] = (
-        "offline"
-    )
-    robot: Annotated[Text, Setting("Language model of the robot.", _MODEL, flag="--robot-model", metavar="SPEC")] = (
-        "offline"
-    )
-    judge: Annotated[Text, Setting("Language model of the judge.", _MODEL, flag="--judge-model", metavar="SPEC")] = (
-        "offline"
-    )
-
-
-class Files(Frozen):
-    """Where people and homes are that no catalogue has, by id."""
-
-    humans: Annotated[dict[str, Path], Setting("Persona files by id.", "a mapping of ids to files")] = {}
-    scenes: Annotated[dict[str, Path], Setting("Files of homes by id.", "a mapping of ids to files")] = {}
-
-
-def default_data_dir() -> Path:
-    """Where imported people and homes live: COOPERA_DATA_DIR, else the user's own data folder."""
-    given = os.environ.get("COOPERA_DATA_DIR")
-    if given:
-        return Path(given).expanduser()
-    base = os.environ.get("XDG_DATA_HOME")
-    return (Path(base) if base else Path.home() / ".local" / "share") / "coopera"
 
 
 class Config(Frozen):

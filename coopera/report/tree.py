@@ -141,8 +141,8 @@ def _add_human(tree: Tree, human: HumanHour) -> None:
     intention = human.intention
     mark = " (away from home)" if intention.away else " (goes on)" if intention.continues else ""
     _add_reasons(tree.add(f"intention: [bold cyan]{escape(intention.text)}[/]{mark}"), intention.reasons)
-    for one in human.circumstances:
-        tree.add(f"these days: {escape(one.text)} [dim]({one.kind}, strength {one.strength:.2f})[/]")
+    for felt in human.circumstances:
+        tree.add(f"these days: {escape(felt.text)} [dim]({felt.kind}, strength {felt.strength:.2f})[/]")
     if intention.away:
         return
     recalled = tree.add(f"recalled {len(human.recalled)}")

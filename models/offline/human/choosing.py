@@ -89,7 +89,9 @@ def reasons(
 ) -> Reasons:
     """Return the three reasons of a task: the person, the intention, and the tasks before it."""
     sentence = person.evidence(activity)
-    human = f'I say of myself: "{sentence.rstrip(" .,;")}".' if sentence else f"The {thing} is what I usually reach for."
+    human = f"It is a habit: the {thing} is what I usually reach for."
+    if sentence:
+        human = f'I say of myself: "{sentence.rstrip(" .,;")}".'
     earlier = [memory for memory in before if f" {thing} " in f" {memory.text} "]
     if earlier:
         tasks = f"I already had the {thing} today, when I wanted to {earlier[0].text}."
