@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from coopera.benchmark.grid_runs import claim_folder, plan, shared_config
 from coopera.config.schema import Config, Models, load_config
-from coopera.core.errors import RunError
+from coopera.core.errors import ConfigError, RunError
+from coopera.evaluation.grid import read_grid
 from coopera.people.shipped import find
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
@@ -70,3 +72,21 @@ def test_a_run_from_before_there_was_a_choice_goes_on_with_the_persons_household
     study = tmp_path / "study.yaml"
     study.write_text(path.read_text())
     assert load_config(study).household == "own"
+
+
+def test_a_benchmark_from_before_there_was_a_choice_goes_on_with_the_persons_household_file(tmp_path: Path) -> None:
+    sizes = {"days": 1, "hours": 1, "episodes": 1, "seeds": 1}
+    grid = read_grid({"settings": ["1"], "methods": ["random"], **sizes}, "the grid")
+
+    def claim(household: str) -> None:
+        config = shared_config(grid, None, {"data_dir": tmp_path, "household": household})
+        claim_folder(plan(grid, tmp_path / "benchmark", config))
+
+    claim("shared")
+    path = tmp_path / "benchmark" / "grid.yaml"
+    told = path.read_text()
+    path.write_text(told.replace("  household: shared\n", ""))
+    assert path.read_text() != told
+    with pytest.raises(ConfigError, match="holds a grid with other shared"):
+        claim("own")
+    claim("shared")
