@@ -100,7 +100,8 @@ _PAST = re.compile(
     r"(?<!am )(?<!get )(?<!got )(?<!are )(?<!getting )(?<!is )\bused to (?!be an? (?:\w+ ){0,2}and still)"
     r"|\b(?:as an? (?:(?:young|little|small) )?(?:kid|child|boy|girl|teen|teenager|youth)|growing up|"
     r"in my (?:youth|childhood)|"
-    r"years ago|back (?:then|in (?:the|my|high|\d))|in the past|formerly|in (?:high )?school i|my (?:former|old|last|previous|"
+    r"years ago|back (?:then|in (?:the|my|high|\d))|in the past|formerly|in (?:high )?school i|my (?:former|old|"
+    r"last|previous|"
     r"first) (?:job|career|boss)|"
     r"last (?:year|summer|month|week|spring|fall|winter))\b"
     r"|(?:^|\b)i (?:(?:always|also|really|once|never|often|just|even) )?(?:was|were|had(?! to)|did(?! not)|"
@@ -134,12 +135,14 @@ _SOFTLY = re.compile(
 _HARD = re.compile(r"\b(?:hate[sd]?|never|not at all)\b")
 _LITTLE = re.compile(r"\b(?:much|often|a lot|anymore|well|enough)\b")
 _DISLIKES = re.compile(
-    r"\b(?:dislike[sd]?|too (?:old|shy|lazy|weak|tired|fat) (?:for|to)|bad at|terrible at|awful at|poor at|horrible at|worst|bored (?:of|by|with)|tired of|"
+    r"\b(?:dislike[sd]?|too (?:old|shy|lazy|weak|tired|fat) (?:for|to)|bad at|terrible at|awful at|poor at|"
+    r"horrible at|worst|bored (?:of|by|with)|tired of|"
     r"rather .* than|^(?:rather than|instead of)|prefer .* over|prefer .* to an?\b(?! \w+ing)|struggle (?:to|"
     r"with))\b"
 )
 _SELDOM = re.compile(
-    r"\b(?:no time (?:for|to)|not (?:often |ever )?have (?:the |much |any |enough )?time (?:to|for)|rarely|seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b"
+    r"\b(?:no time (?:for|to)|not (?:often |ever )?have (?:the |much |any |enough )?time (?:to|for)|rarely|"
+    r"seldom|hardly(?: ever)?|barely|scarcely|put off|putting off|skip|neglect|forget)\b"
 )
 _AFTER = re.compile(
     r"^(?:[\w']+ ){0,2}?(?:(?:is|are|was)(?: (?:just|really|so|very|such|all))* (?:not|n't|boring|exhausting|"

@@ -11,7 +11,8 @@ import pytest
 
 import coopera.studies.study
 from coopera.core.errors import ModelCallError
-from coopera.people.shipped import shipped_ids
+from coopera.core.people import BigFive, Persona, PersonId
+from coopera.people.shipped import shipped_ids, write_persona
 from coopera.rundir.directory import RunDir
 from tests.coopera.conftest import Said
 from tests.coopera.fake_run import fake_run
@@ -199,7 +200,14 @@ def test_lists_are_lists_of_objects_with_ids(coopera: Cli) -> None:
 def test_people_homes_and_prompts_can_be_shown_and_checked(coopera: Cli, tmp_path: Path) -> None:
     shown = coopera("humans", "show", "joan")
     assert "Biscuit" in shown.out
-    assert coopera("humans", "show", "joan", "--json").json["name"] == "Joan Whitaker"
+    assert "job: is retired -> never: desk_work" in shown.out
+    assert "states to play no piano -> never: piano" in shown.out
+    joan = coopera("humans", "show", "joan", "--json").json
+    assert joan["name"] == "Joan Whitaker"
+    assert (joan["facts"]["age"], joan["facts"]["employment"]) == (73, "retired")
+    assert all(fact["sentence"].rstrip(";,") in joan["profile"] for fact in joan["facts"]["listed"])
+    write_persona(Persona(id=PersonId("nobody"), name="Nobody", profile="I say nothing.", big_five=BigFive()), tmp_path)
+    assert "nothing stated" in coopera("humans", "show", "./nobody.yaml").out
     (tmp_path / "x.csv").write_text("user 1 personas,user 2 personas,Best Generated Conversation\na,b,c\n")
     assert coopera("humans", "check", "x.csv", "--json").json == {"file": "x.csv", "rows": 1}
     assert "version: " in coopera("prompts", "show", "human/intention").out
