@@ -234,6 +234,20 @@ class Household(Frozen):
         return matrix
 
     @cached_property
+    def away(self) -> NDArray[np.bool_]:
+        """Which activities are done outside the home; shape (activities,)."""
+        return np.array([activity.away for activity in self.activities])
+
+    @cached_property
+    def chores(self) -> dict[str, dict[int, float]]:
+        """What may come right after an activity, by its id: the chance, by place."""
+        left: dict[str, dict[int, float]] = {activity.id: {} for activity in self.activities}
+        for place, activity in enumerate(self.activities):
+            for cause, chance in activity.after.items():
+                left[cause][place] = chance
+        return left
+
+    @cached_property
     def loadings(self) -> Floats:
         """Big-Five loadings in the order of `TRAITS`; shape (activities, 5)."""
         rows = [[activity.big_five.get(trait, 0.0) for trait in TRAITS] for activity in self.activities]

@@ -85,8 +85,7 @@ class _Day:
         self._life, self._moment = life, moment
         self._household: Household = life.household
         self._done = {one.activity for one in moment.today}
-        away = np.array([activity.away for activity in self._household.activities])
-        allowed = np.where(away, moment.absence, moment.possible) & life.can_do
+        allowed = np.where(self._household.away, moment.absence, moment.possible) & life.can_do
         self._allowed = allowed if allowed.any() else np.ones_like(allowed)
         self._fresh = self._allowed & self._not_done_lately()
 
@@ -122,9 +121,8 @@ class _Day:
             return None
         cause = self._household.activities[last].id
         more = ORDER * (self._life.big_five.conscientiousness - 3.0)
-        for index, activity in enumerate(self._household.activities):
-            usual = activity.after.get(cause, 0.0)
-            if usual and self._allowed[index] and rng.random() < np.clip(usual + more, 0.0, 0.95):
+        for index, usual in self._household.chores[cause].items():
+            if self._allowed[index] and rng.random() < min(max(usual + more, 0.0), 0.95):
                 return Choice(index, continues=False, why="chore")
         return None
 
@@ -146,7 +144,8 @@ class _Day:
             return None
         if not self._moment.lasting and not self._fresh[index]:
             return None
-        if rng.random() >= (AT_WORK if begun else TO_WORK):
+        stays = 1.0 if self._household.activities[index].away else AT_WORK  # nobody is home for an hour in between
+        if rng.random() >= (stays if begun else TO_WORK):
             return None
         return Choice(index, continues=begun and self._moment.lasting, why="work")
 
