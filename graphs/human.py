@@ -22,7 +22,7 @@ from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionR
 from coopera.graphs.players.changes import felt
 from coopera.graphs.players.checks import findings, repair
 from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
-from coopera.graphs.players.variables import as_tasks, known, motions_here, when
+from coopera.graphs.players.variables import as_tasks, known, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.recall import as_memory, recall_both
 
@@ -160,6 +160,7 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
         at=_at(state, ctx, "reflect_scene", _rounds(state)),
         variables={
             **when(state["clock"]),
+            **who(ctx),
             **things,
             "intention": state["intention"].text,
             "fixed": found.fixed,

@@ -112,10 +112,11 @@ def profile_type2(
 
 
 def scene_type1(
-    sense: CommonSense, _life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
+    sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> PickPlaceReflectionReply:
     """Answer human/reflect_scene_type1: do the objects exist, is the count right, are the findings obeyed?"""
-    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
+    activity = known(life).own(sense.recognise(variables["intention"]).activity)
+    count = int(variables["n_tasks"])
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
     items = _placements(variables["tasks"])
     for item in items:
@@ -140,10 +141,11 @@ def scene_type1(
 
 
 def scene_type2(
-    sense: CommonSense, _life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
+    sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> FreeMotionReflectionReply:
     """Answer human/reflect_scene_type2: do the targets exist, is the count right, are the findings obeyed?"""
-    activity, count = sense.recognise(variables["intention"]).activity, int(variables["n_tasks"])
+    activity = known(life).own(sense.recognise(variables["intention"]).activity)
+    count = int(variables["n_tasks"])
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
     for item in items:
         spot = _mend(sense, item, item.act.target, item.act.target_id, fixed)
