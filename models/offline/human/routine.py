@@ -124,7 +124,7 @@ class _Day:
         more = ORDER * (self._life.big_five.conscientiousness - 3.0)
         for index, activity in enumerate(self._household.activities):
             usual = activity.after.get(cause, 0.0)
-            if usual and self._allowed[index] and rng.random() < np.clip(usual + more, 0.0, 0.95):
+            if usual and self._fresh[index] and rng.random() < np.clip(usual + more, 0.0, 0.95):
                 return Choice(index, continues=False, why="chore")
         return None
 
