@@ -77,6 +77,12 @@ SAME: dict[str, tuple[str, ...]] = {
     "pet_play": ("animals",),
     "pet_care": ("animals",),
     "plants": ("houseplants",),
+    "sleep_in": (),
+    "sleep": ("go_to_bed",),
+    "work_out_of_home": (),
+    "school": (),
+    "errands": (),
+    "see_people": (),
 }
 """The robot's activities that are an activity of the person's, by the ids of the two shipped files."""
 

@@ -50,6 +50,7 @@ class OwnTime:
         self.household = household
         self._big_five, self._facts, self._rng, self._rhythm = big_five, facts, rng, rhythm
         self._own_hours = self._drawn_hours()
+        self._ever = self._hours_at_all()
         self._usual = self._usual_hours()
         self.schedule: Schedule | None = self._drawn_schedule()
         """The hours of work or lessons, for those who have such."""
@@ -96,9 +97,12 @@ class OwnTime:
     def _usual_hours(self) -> Floats:
         """Logits by day type, activity and hour; `NEVER` where the file, by the person's clock, has no weight."""
         usual = self._rhythm.hours_of(self.household) + (self._own_hours - self.household.log_hours)
+        return np.where(self._ever, usual, NEVER)
+
+    def _hours_at_all(self) -> NDArray[np.bool_]:
+        """Whether the file, by the person's clock, has any weight; shape (activities, 24)."""
         clock = np.clip(np.arange(24) - round(self._facts.hours_shift), FIRST, LAST) - FIRST
-        ever = np.array([activity.hours for activity in self.household.activities])[:, clock] > 0
-        return np.where(ever, usual, NEVER)
+        return np.array([activity.hours for activity in self.household.activities])[:, clock] > 0
 
     def _drawn_hours(self) -> Floats:
         """Common hours, moved to an earlier or later type, sharpened by orderliness, with a habitual hour each.
@@ -153,7 +157,7 @@ class OwnTime:
 
     def _due_by_hour(self, index: int) -> Floats:
         daily = max(self.household.activities[i].daily for i in self.serves(index))
-        return due_by_hour(np.exp(self._own_hours[index]) - 0.005, daily)
+        return due_by_hour(np.where(self._ever[index], np.exp(self._own_hours[index]) - 0.005, 0.0), daily)
 
     def _has_set_hours(self) -> NDArray[np.bool_]:
         own = [self.household.index[name] for name in _SET_HOURS if name in self.household.index]

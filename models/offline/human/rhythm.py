@@ -98,9 +98,10 @@ def shipped_rhythm() -> Rhythm:
 def due_by_hour(weights: Floats, daily: float) -> Floats:
     """Chance that something daily is done in an hour if it was not done before, by hour of day; shape (24,).
 
-    Followed hour by hour up to the last of the day, it is done on the share `daily` of days, at hours as `weights` say.
+    Followed hour by hour from `FIRST` to `LAST`, it is done on the share `daily` of days, at hours as `weights` say.
     """
-    wanted = np.where(np.arange(24) <= LAST, weights, 0.0)
+    hours = np.arange(24)
+    wanted = np.where((hours >= FIRST) & (hours <= LAST), np.maximum(weights, 0.0), 0.0)
     wanted = daily * wanted / max(float(wanted.sum()), 1e-12)
     left = 1.0 - np.concatenate([[0.0], np.cumsum(wanted)[:-1]])
     return np.asarray(np.clip(wanted / np.maximum(left, 1e-9), 0.0, 1.0), dtype=np.float64)

@@ -106,7 +106,7 @@ class _Day:
             return None
         due = {}
         for index in self._life.time.daily:
-            if self._fresh[index] and not self._served(index):
+            if self._fresh[index] and not self._served(index) and self._life.time.due(index, self._moment.hour):
                 missed = 1.0
                 for hour in (self._moment.hour, *self._taken_up()):
                     missed *= 1.0 - self._life.time.due(index, hour)
@@ -122,7 +122,7 @@ class _Day:
         cause = self._household.activities[last].id
         more = ORDER * (self._life.big_five.conscientiousness - 3.0)
         for index, usual in self._household.chores[cause].items():
-            if self._allowed[index] and rng.random() < min(max(usual + more, 0.0), 0.95):
+            if self._fresh[index] and rng.random() < min(max(usual + more, 0.0), 0.95):
                 return Choice(index, continues=False, why="chore")
         return None
 
@@ -160,7 +160,7 @@ class _Day:
             if activity.lasts > 1 and self._allowed[index] and index != self._life.time.occupation(absence=True):
                 chance = between * (1.0 - 1.0 / activity.lasts)
                 return Choice(index, continues=True, why="going on") if rng.random() < chance else None
-            if activity.whole:
+            if activity.whole or activity.closes:
                 return None
             between = RESUMED
         return None
@@ -169,8 +169,8 @@ class _Day:
         """Draw from what the person feels like; without anything new, from all that is possible."""
         open_to = self._fresh & ~self._life.time.set_hours
         if self._closed:
-            follows = self._household.follow_matrix[self._last_closing] > 0
-            open_to = self._allowed & follows if (self._allowed & follows).any() else self._allowed
+            follows = self._allowed & (self._household.follow_matrix[self._last_closing] > 0)
+            open_to = follows & self._fresh if (follows & self._fresh).any() else follows
         for mask in (open_to, self._fresh, self._allowed):
             if mask.any():
                 break

@@ -23,16 +23,12 @@ FUSSY = 0.05  # by how much people differ in it besides
 
 def feedback_intentions(sense: CommonSense, variables: Mapping[str, Any]) -> VerdictsReply:
     """Answer human/feedback_intentions: is the candidate my intention, in these words or others?"""
-    return VerdictsReply(
-        verdicts=[VerdictReply(yes=g.grade >= SERVES, reason=g.reason) for g in _guesses(sense, variables)]
-    )
+    return _as_verdicts(_guesses(sense, variables))
 
 
 def feedback_tasks(sense: CommonSense, variables: Mapping[str, Any]) -> VerdictsReply:
     """Answer human/feedback_tasks: would the candidate have helped with one of the remaining tasks?"""
-    return VerdictsReply(
-        verdicts=[VerdictReply(yes=g.grade >= SERVES, reason=g.reason) for g in _offers(sense, variables)]
-    )
+    return _as_verdicts(_offers(sense, variables))
 
 
 def grade_intentions(sense: CommonSense, variables: Mapping[str, Any]) -> GradesReply:

@@ -37,16 +37,16 @@ KINDS = (
 
 VERBS = """
 add admire advance alter arrange assemble attempt attend bake banish be begin bend binge breathe bring brood
-browse brush build burn call calm capture care catch challenge chase chat check cheer choose clean clear close
+browse brush build burn call calm capture care carry catch challenge chase chat check cheer choose clean clear close
 collect concentrate construct continue cook cram create crochet cross dance daydream deal decide decorate design
-dim display dive do doze draw dress drive eat end enjoy escape exercise experiment feed fiddle fight figure fill
-find finish fix float focus follow fool freshen gain get give go grab groom have heat hold host idle improve
-improvise jam keep knit laugh lean learn let lie lift linger listen look lose make master meet move muse nibble
+dim display dive do doze draw dress drift drive drop eat end enjoy escape exercise experiment fall feed fiddle fight figure fill
+find finish fix float focus follow fool freshen gain get give go grab groom have head heat hold host idle improve
+improvise jam join keep knit laugh lean learn let lie lift linger listen look lose make master meet move muse nibble
 nod note organise paint pamper pause pick plan play plunge polish post practise prepare preserve provide push
 put puzzle rack read rearrange receive recover reflect refuel rehearse relax remove repair rescue rest restore
-return review revise romp root round run satisfy savour see seek set settle sew show sing sit sketch sleep slow
+retire return review revise roll romp root round run satisfy savour see seek set settle sew show sing sit sketch sleep slow
 snack sneak snooze soak solve sort speak spend start stay still stitch stop stretch strum study take talk teach
-tend think throw tidy tinker train treat try turn unwind use wake warm wash watch welcome whip wind wipe work
+tend think throw tidy tinker train treat try turn unwind use visit wake walk warm wash watch welcome whip wind wipe work
 write
 """
 
@@ -66,8 +66,9 @@ def test_about_forty_activities_are_shipped_and_each_hour_offers_many() -> None:
 def test_an_activity_is_described_in_full(activity: Activity) -> None:
     assert 4 <= len(activity.wordings) <= 6
     assert re.match(r"I\b|Knitting", activity.statement)
-    assert 8 <= len(activity.things) <= 12
-    assert 7 <= len(activity.places) <= 10
+    if not activity.away:  # of an hour away there is nothing to see, and nothing is taken in hand or put anywhere
+        assert 8 <= len(activity.things) <= 12
+        assert 7 <= len(activity.places) <= 10
     assert len(set(activity.places)) == len(activity.places)
     assert set(activity.rooms) <= set(KINDS)
     assert activity.source
@@ -146,7 +147,7 @@ def test_motions_are_those_of_the_simulation_and_look_as_it_says() -> None:
 def test_activities_can_be_told_apart_by_more_than_one_thing() -> None:
     for one in ACTIVITIES:
         for other in ACTIVITIES:
-            if one.id < other.id:
+            if one.id < other.id and not (one.away or other.away):
                 assert len(set(one.things) & set(other.things)) <= len(one.things) // 2, (one.id, other.id)
 
 

@@ -125,15 +125,15 @@ def test_with_the_real_encoder_statements_of_a_pole_move_both_readings_towards_i
 def test_with_the_real_encoder_a_text_draws_to_what_it_speaks_of(
     real: CommonSense, profile: str, drawn_to: str, not_to: str
 ) -> None:
-    life = PrivateLife(real, "x", profile, BigFive())
+    life = PrivateLife(real, profile, BigFive())
     assert int(np.argmax(life.affinity)) == real.household.index[drawn_to]
     assert life.affinity[real.household.index[not_to]] < 0.5
     assert life.evidence(real.household.activities[real.household.index[drawn_to]]) is not None
 
 
 def test_with_the_real_encoder_an_aversion_draws_away(real: CommonSense) -> None:
-    plain_life = PrivateLife(real, "x", "I like tea.", BigFive())
-    averse = PrivateLife(real, "x", "I like tea. I hate reading books.", BigFive())
+    plain_life = PrivateLife(real, "I like tea.", BigFive())
+    averse = PrivateLife(real, "I like tea. I hate reading books.", BigFive())
     read = real.household.index["read"]
     assert averse.affinity[read] < plain_life.affinity[read]
 

@@ -18,6 +18,7 @@ from coopera.models.offline.household.reading import class_of
 from tests.models.offline.questions import FIXED, MOVABLE, as_tasks, ask, memory, person, when
 
 BAKE = "Make a homemade treat"
+KEEPER = person(profile="I love to bake. I am a neat person. I have a dog and a cat.")
 _NOTHING: dict[str, Any] = {"recalled_intentions": [], "recalled_tasks": []}
 
 
@@ -38,14 +39,14 @@ def _places(who: dict[str, Any], intention: str = BAKE, *, seed: int = 0, n: int
 @pytest.mark.parametrize("known", shipped().activities, ids=lambda a: a.id)
 def test_every_wording_of_every_activity_becomes_that_activitys_tasks(known: Activity) -> None:
     for seed, wording in enumerate([*known.canonical, f"Carry on: {known.canonical[0]}, full of energy"]):
-        moves = _moves(person(), wording, seed=seed)
+        moves = _moves(KEEPER, wording, seed=seed)
         assert [task.act.in_hand in known.things for task in moves] == [True] * 5
         assert len({task.act.in_hand for task in moves}) == 5
         assert {class_of(task.act.target) for task in moves} <= set(known.fixed)
         assert {task.act.motion for task in moves} <= set(known.all_motions)
         assert [t.act for t in moves if t.act.motion not in shipped().uses[t.act.in_hand]] == []
         assert [t.act for t in moves if not affordances().suits(t.act.motion, class_of(t.act.target))] == []
-        places = _places(person(), wording, seed=seed)
+        places = _places(KEEPER, wording, seed=seed)
         assert {(class_of(t.act.object), class_of(t.act.receptacle)) for t in places} <= set(known.places)
         assert len({task.act.describe() for task in places}) == 3
 
@@ -57,9 +58,17 @@ def test_tasks_come_in_the_order_in_which_things_come_into_play() -> None:
         assert turns == sorted(turns)
 
 
+def test_who_has_no_pet_takes_nothing_of_a_pets_in_hand() -> None:
+    play = _known("pet_play").canonical[0]
+    owns, lacks = ({t.act.in_hand for s in range(8) for t in _moves(who, play, seed=s)} for who in (KEEPER, person()))
+    assert {"leash", "feather wand", "dog treat"} & owns
+    assert not {"leash", "feather wand", "dog treat"} & lacks
+
+
 def test_a_person_keeps_to_favourites_and_another_has_others() -> None:
     def things(name: str) -> list[set[str]]:
-        return [{task.act.in_hand for task in _moves(person(name), seed=seed)} for seed in range(12)]
+        says = f"I am called {name}. I love to bake."
+        return [{task.act.in_hand for task in _moves(person(profile=says), seed=seed)} for seed in range(12)]
 
     lives = {name: things(name) for name in ("anna", "berta", "carla", "dora")}
     same = [len(a & b) / 5 for life in lives.values() for a in life for b in life if a is not b]
@@ -170,11 +179,12 @@ def test_the_robot_puts_things_where_it_remembers_them_put() -> None:
 
 def _reflect(prompt: str, tasks: Any, who: dict[str, Any] | None = None, **changed: Any) -> Any:
     extra: dict[str, Any] = {"movable": MOVABLE} if prompt.endswith("1") else {}
+    extra |= who or person()
     if "scene" in prompt:
         extra |= {"n_tasks": 3 if prompt.endswith("1") else 5, "findings": []}
         extra |= {"motions": []} if prompt.endswith("2") else {}
     else:
-        extra |= {**(who or person()), **_NOTHING}
+        extra |= _NOTHING
     given_ = {**when(0, 10), "intention": BAKE, "fixed": FIXED, **extra, **changed}
     return ask(prompt, **given_, tasks=tasks if isinstance(tasks[0], dict) else as_tasks(tasks))
 
