@@ -60,15 +60,20 @@ def open_changes(named: str, seed: int, activities: Collection[str] | None = Non
     """
     if named == NONE:
         return no_changes
-    if named == SEEDED:
+    if (path := changes_file(named)) is None:
         return lambda person, day: [*drawn(seed, person, day), *mood(seed, person, day)]
-    file = read_changes(Path(named).expanduser(), activities)
+    file = read_changes(path, activities)
 
     def changes(person: PersonId, day: int) -> Sequence[Change]:
         listed = [one for one in file.changes if one.person in (None, person) and one.strength(day) > 0]
         return [*listed, *(mood(seed, person, day) if file.moods else ())]
 
     return changes
+
+
+def changes_file(named: str) -> Path | None:
+    """The file that the setting `changes` names; None for `none` and `seeded`."""
+    return None if named in (NONE, SEEDED) else Path(named).expanduser()
 
 
 def read_changes(path: Path, activities: Collection[str] | None = None) -> _File:
