@@ -14,13 +14,12 @@ import yaml
 from coopera.config.at_most import at_most, smaller
 from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, reason, write_atomic
-from coopera.config.schema import Config, load_config
+from coopera.config.schema import AS_BEFORE, Config, load_config
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
-from coopera.models.settings import SHARED
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
 from coopera.studies.catalogues import load_catalogues, resolve
@@ -31,7 +30,7 @@ NOBODY = "none"
 """The method by which each life is lived first."""
 
 ROWS = "rows.json"
-_DECIDES = {"models", "household", "classifier", "prompts", "person_model"}
+_DECIDES = {"models", "household", "classifier", "prompts", "person_model", "intentions"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +105,9 @@ def claim_folder(bench: Benchmark) -> None:
         before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
         for key in ("run", "shared"):
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
-        before["shared"].setdefault("household", SHARED)  # of a grid from before there was a choice
+        before["shared"] = {**AS_BEFORE, **before["shared"]}
+        for one in (before, now):  # what `shared` says of these counts, however it was asked for
+            one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
         # methods, seeds and settings may be added to what was run
         fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:

@@ -46,6 +46,8 @@ def read_yaml(path: Path, what: str) -> dict[str, Any]:
         raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err
     except yaml.YAMLError as err:
         raise ConfigError(f"{path}: this is not valid YAML ({' '.join(str(err).split())}).") from err
+    except RecursionError:
+        raise ConfigError(f"{path}: this is nested too deeply for a {what}.") from None
     if data is None:
         return {}
     if not isinstance(data, dict):

@@ -360,6 +360,8 @@ class Config(Frozen):
 
 SETTINGS = declared(Config)
 """Every setting by name, such as `days` or `calls.timeout`."""
+AS_BEFORE = {"household": SHARED, "intentions": "hourly"}
+"""How runs were made before there was a choice, where that is not the default of today."""
 
 
 def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None) -> Config:
@@ -383,6 +385,6 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
 
 
 def _as_it_was_made(path: Path, data: dict[str, Any]) -> dict[str, Any]:
-    """Fill in what the configuration of an older run does not say: its robot read the person's household file."""
+    """Fill in what the configuration of an older run does not say, as that run was made."""
     of_a_run = path.name == "config.yaml" and (path.parent / "run.json").is_file()
-    return {"household": SHARED, **data} if of_a_run else data
+    return {**AS_BEFORE, **data} if of_a_run else data

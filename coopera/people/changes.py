@@ -23,6 +23,17 @@ MOODY = 0.35  # share of days with a mood of their own
 FIRST_DRIFT, LAST_DRIFT, DRIFT_TAKES = 10, 45, 30  # days
 FIRST_TURN, LAST_TURN = 15, 85  # days on which something changes at once
 
+_MOST = 4  # MiB of a file of changes
+_SAID = {
+    "missing": "this is missing",
+    "tuple_type": "must be a list",
+    "dict_type": "must be a mapping of fields to values",
+    "model_type": "must be a mapping of fields to values",
+    "too_long": "may have 10000 entries at most",
+    "string_too_short": "must be a text of 1 to 200 characters",
+    "string_too_long": "must be a text of 1 to 200 characters",
+}
+
 _Effects = dict[str, Logits]
 
 
@@ -60,9 +71,9 @@ def open_changes(named: str, seed: int, activities: Collection[str] | None = Non
     """
     if named == NONE:
         return no_changes
-    if named == SEEDED:
+    if (path := changes_file(named)) is None:
         return lambda person, day: [*drawn(seed, person, day), *mood(seed, person, day)]
-    file = read_changes(Path(named).expanduser(), activities)
+    file = read_changes(path, activities)
 
     def changes(person: PersonId, day: int) -> Sequence[Change]:
         listed = [one for one in file.changes if one.person in (None, person) and one.strength(day) > 0]
@@ -71,12 +82,19 @@ def open_changes(named: str, seed: int, activities: Collection[str] | None = Non
     return changes
 
 
+def changes_file(named: str) -> Path | None:
+    """The file that the setting `changes` names; None for `none` and `seeded`."""
+    return None if named in (NONE, SEEDED) else Path(named).expanduser()
+
+
 def read_changes(path: Path, activities: Collection[str] | None = None) -> _File:
     """Read a file of changes.
 
     Raises:
         ConfigError: If it cannot be read or is wrong.
     """
+    if path.is_file() and path.stat().st_size > _MOST * 2**20:
+        raise ConfigError(f"{path}: a file of changes has at most {_MOST} MiB, and this one has more.")
     data = read_yaml(path, "file of changes")
     try:
         file = _File.model_validate(data)
@@ -87,11 +105,11 @@ def read_changes(path: Path, activities: Collection[str] | None = None) -> _File
             raise ConfigError(
                 f"{path}: change {place}, field until: must come after day {change.day}, not on day {change.until}."
             )
-        for name in [*change.more, *change.never]:
-            if activities is not None and name not in activities:
-                near = get_close_matches(name, activities, 1)
+        for field, names in (("more", change.more), ("never", change.never)):
+            if activities is not None and (unknown := [name for name in names if name not in activities]):
+                near = get_close_matches(unknown[0], activities, 1)
                 meant = f"; did you mean {near[0]}?" if near else "."
-                raise ConfigError(f"{path}: change {place}: there is no activity {name!r}{meant}")
+                raise ConfigError(f"{path}: change {place}, field {field}: there is no activity {unknown[0]!r}{meant}")
     return file
 
 
@@ -144,11 +162,15 @@ def _catalogue() -> _Catalogue:
 
 def _complaint(err: ValidationError) -> str:
     first = err.errors(include_url=False)[0]
-    where = list(first["loc"])
-    said = first["msg"].removeprefix("Value error, ")
-    if where[:1] == ["changes"] and len(where) > 1:
-        place, field = int(where[1]) + 1, ".".join(map(str, where[2:])) or "all"
-        if field in ("day", "until") and first["type"] == "greater_than_equal":
-            return f"change {place}, field {field}: day {first['input']} is before the life, whose days count from 0."
-        return f"change {place}, field {field}: {said}."
-    return f"field {'.'.join(map(str, where)) or 'all'}: {said}."
+    place, *field = first["loc"][1:] if first["loc"][:1] == ("changes",) and len(first["loc"]) > 1 else (None,)
+    known = _File if place is None else Change
+    names = [str(part) for part in (first["loc"] if place is None else field)]
+    where = [f"change {int(place) + 1}"] if place is not None else []
+    where += [f"field {'.'.join(names)}"] if names else []
+    if names[-1:] in (["day"], ["until"]) and first["type"] == "greater_than_equal":
+        said = f"day {first['input']} is before the life, whose days count from 0"
+    elif first["type"] == "extra_forbidden":
+        said = f"there is no such field; known are {', '.join(known.model_fields)}"
+    else:
+        said = _SAID.get(first["type"]) or first["msg"].replace("Input should be", "must be")
+    return f"{', '.join(where)}: {said}."

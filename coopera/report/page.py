@@ -64,6 +64,11 @@ class HourView:
     views: dict[str, list[str]]
     f1: float | None
 
+    @property
+    def away(self) -> bool:
+        """Whether the person was away from home, so that there was nothing to help with."""
+        return self.record.human is not None and self.record.human.intention.away
+
 
 @dataclass(frozen=True, slots=True)
 class DayView:

@@ -16,7 +16,8 @@ from coopera.graphs.earlier_life import Shown
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
 
-_SAME = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed", "person_model", "base_url")
+_PLAN = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed")
+_LIVED = ("person_model", "intentions", "absence", "changes", "base_url")
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,4 +85,4 @@ def open_earlier_life(config: Config) -> LivedDays | None:
 def _days(config: Config) -> dict[str, Any]:
     """What decides a person's days."""
     data = config.model_dump(mode="json")
-    return {**{name: data[name] for name in _SAME}, "models.human": config.models.human}
+    return {**{name: data[name] for name in (*_PLAN, *_LIVED)}, "models.human": config.models.human}

@@ -35,9 +35,6 @@ from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
-from coopera.models.households import household_file
-from coopera.models.offline.household.knowledge import load as load_household
-from coopera.models.offline.household.knowledge import shipped
 from coopera.models.transport import wait
 from coopera.people.changes import open_changes
 from coopera.prompts import PromptLibrary
@@ -46,7 +43,7 @@ from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import Scene, World, load_scene
 from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
-from coopera.studies.catalogues import tuned_model
+from coopera.studies.catalogues import known_activities, tuned_model
 
 _GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
@@ -182,13 +179,10 @@ def open_living(config: Config) -> Living:
     Raises:
         ConfigError: If the file of changes is wrong.
     """
-    path = household_file(config.models.human)
-    household = load_household(path) if path else shipped()
-    known = household.index if config.models.human.startswith("offline") else None
     return Living(
         lasting=config.intentions == "lasting",
         absence=config.absence == "named",
-        changes=open_changes(config.changes, config.seed, known),
+        changes=open_changes(config.changes, config.seed, known_activities(config)),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,7 +16,9 @@ from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.households import chosen_household, household_file
 from coopera.models.offline.household.knowledge import load as load_household
+from coopera.models.offline.household.knowledge import shipped
 from coopera.people import shipped as humans
+from coopera.people.changes import open_changes
 from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
 from coopera.simulation.bodies.robot import load_robot
@@ -163,11 +165,20 @@ def _livable(persona: Persona, model: str) -> None:
 
 
 def _knowledge(config: Config) -> None:
-    """Refuse a household file of one's own that is wrong before anything is written."""
+    """Refuse a household file of one's own, or a file of changes, that is wrong before anything is written."""
     named = [household_file(spec) for spec in sorted(set(config.models.model_dump().values()))]
     for own in (chosen_household(config.household), *named):
         if own is not None and own.is_file():
             load_household(own)
+    open_changes(config.changes, config.seed, known_activities(config))
+
+
+def known_activities(config: Config) -> Collection[str] | None:
+    """Activities that a file of changes may name; None where the person's model is no offline model and reads words."""
+    if not config.models.human.startswith("offline"):
+        return None
+    path = household_file(config.models.human)
+    return (load_household(path) if path else shipped()).index
 
 
 def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:

@@ -31,6 +31,7 @@ from coopera.graphs.study import Waiting, waiting
 from coopera.models.households import household_file, household_of
 from coopera.models.settings import Budget
 from coopera.models.transport import NobodyThereError
+from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
@@ -46,6 +47,7 @@ Event = Mapping[str, Any]
 QUESTION = "question.json"
 """File of a run that waits for a person: the question (`coopera.core.interview.Question`)."""
 
+_CHANGES = "changes: "
 _THREAD: RunnableConfig = {"configurable": {"thread_id": "study"}}
 
 
@@ -104,15 +106,18 @@ def resume_study(
         budget: What the run may spend in all, if not what it was begun with.
 
     Raises:
-        RunError: If the run is finished or still being written, or its prompts or household file have changed since.
+        RunError: If the run is finished or still being written, or its prompts, its household file or its file of
+            changes have changed since.
     """
     with RunDir.resume(path, budget) as run:
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
         if changed:
             raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
-        if knowledge_of(run.info["models"], run.config.household) != run.info.get("knowledge", {}):
-            raise RunError(f"{path}: the household file has changed since this run began; restore it to go on.")
+        config, before = run.config, run.info.get("knowledge", {})
+        if other := knowledge_of(run.info["models"], config.household, config.changes).items() ^ before.items():
+            what = "file of changes" if any(by.startswith(_CHANGES) for by, _ in other) else "household file"
+            raise RunError(f"{path}: the {what} has changed since this run began; restore it to go on.")
         logs = open_logs(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, logs) as services:
             return _carry_on(run, services, on_event, ask_person)
@@ -138,7 +143,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
         people=people,
         prompts=prompts.hashes(),
         models={str(role): spec for role, spec in specs.items()},
-        knowledge=knowledge_of(specs, config.household),
+        knowledge=knowledge_of(specs, config.household, config.changes),
         stop=stop,
         resumable=resumable,
     )
@@ -153,12 +158,13 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
             raise
 
 
-def knowledge_of(specs: Mapping[Role, str], household: str) -> dict[str, str]:
-    """SHA-256 of each household file that is read besides the person's shipped one.
+def knowledge_of(specs: Mapping[Role, str], household: str, changes: str = NONE) -> dict[str, str]:
+    """SHA-256 of each household file that is read besides the person's shipped one, and of a file of changes.
 
     Args:
         specs: Model of each role.
         household: The setting: `own`, `shared` or a file.
+        changes: The setting: `none`, `seeded` or a file.
 
     Returns:
         By the model that names the file, such as "offline:FILE", or by the setting, such as "household: own".
@@ -171,11 +177,17 @@ def knowledge_of(specs: Mapping[Role, str], household: str) -> dict[str, str]:
         path = household_of(spec, role, household)
         if path is not None:
             by = spec if household_file(spec) else f"household: {household}"
-            try:
-                found[by] = hashlib.sha256(path.read_bytes()).hexdigest()
-            except OSError as err:
-                raise ConfigError(f"{path}: the household file cannot be read ({reason(err)}).") from err
+            found[by] = _sha256(path, "household file")
+    if (file := changes_file(changes)) is not None:
+        found[f"{_CHANGES}{changes}"] = _sha256(file, "file of changes")
     return found
+
+
+def _sha256(path: Path, what: str) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as err:
+        raise ConfigError(f"{path}: the {what} cannot be read ({reason(err)}).") from err
 
 
 def plan_days(config: Config) -> list[DayPlan]:

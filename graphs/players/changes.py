@@ -11,7 +11,7 @@ from coopera.core.hour import ChangeKind, Circumstance
 from coopera.core.people import Frozen, PersonId
 
 Logits = Annotated[float, Field(ge=-10, le=10)]
-DayNumber = Annotated[int, Field(ge=0, le=100_000)]
+DayNumber = Annotated[int, Field(strict=True, ge=0, le=100_000)]
 
 
 class Change(Frozen):
@@ -32,7 +32,7 @@ class Change(Frozen):
     text: Annotated[str, Field(min_length=1, max_length=200)]
     day: DayNumber
     until: DayNumber | None = None
-    ramp: Annotated[int, Field(ge=0, le=10_000)] = 0
+    ramp: Annotated[int, Field(strict=True, ge=0, le=10_000)] = 0
     more: dict[str, Logits] = {}
     never: tuple[str, ...] = ()
     person: PersonId | None = None

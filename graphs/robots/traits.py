@@ -27,11 +27,11 @@ class Past(NamedTuple):
 
 
 def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
-    """The hours of a day by the person's account; failed hours are left out."""
+    """The hours of a day by the person's account; those that failed or were spent away from home are left out."""
     return [
         Past(dawn + hour.hour, hour.human.intention.text, [task.act.describe() for task in hour.human.tasks])
         for hour in hours
-        if hour.human is not None
+        if hour.human is not None and not hour.human.intention.away
     ]
 
 
