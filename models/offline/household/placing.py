@@ -93,14 +93,17 @@ def makeshift_places(
 def fill_up(chosen: Sequence[Placement], spare: Sequence[Placement], count: int) -> list[Placement]:
     """Add spare placements up to a count: new things first, then new pairs; none that reads like another."""
     result = list(chosen)
+    texts = {place.act().describe() for place in result}
+    things = {place.thing.name for place in result}
     for fresh_thing in (True, False):
         for place in spare:
-            texts = {other.act().describe() for other in result}
-            things = {other.thing.name for other in result}
-            if len(result) < count and place.act().describe() not in texts:
-                if fresh_thing and place.thing.name in things:
-                    continue
+            if len(result) >= count:
+                return result
+            text = place.act().describe()
+            if text not in texts and not (fresh_thing and place.thing.name in things):
                 result.append(place)
+                texts.add(text)
+                things.add(place.thing.name)
     return result
 
 

@@ -13,7 +13,7 @@ from coopera.core.household import FreeMotion, PickPlace, plain
 from coopera.models.offline.household.knowledge import Activity
 from coopera.models.offline.household.offers import wants
 from coopera.models.offline.household.placing import Placement, feasible_places, fill_up, makeshift_places, placement
-from coopera.models.offline.household.reading import Memory, Piece, Surroundings, clip, weighted_order
+from coopera.models.offline.household.reading import Memory, Piece, Surroundings, class_of, clip, weighted_order
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human.person import PrivateLife
 
@@ -54,8 +54,15 @@ def person_placements(
     for index in (feasible[i] for i in order[:count]):
         chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], pick))
     if len(chosen) < count:
-        chosen = fill_up(chosen, makeshift_places(sense, activity, fixed, movable), count)
+        within_reach = touchable(person, variables["movable"])
+        chosen = fill_up(chosen, makeshift_places(sense, activity, fixed, within_reach), count)
     return sorted(chosen, key=lambda place: place.order)
+
+
+def touchable(person: PrivateLife, movable: Mapping[str, Sequence[Any]]) -> Surroundings:
+    """The home's objects without those that facts rule out, such as the wine; all, where it has no others."""
+    ruled_out = person.facts.never_things
+    return Surroundings({name: movable[name] for name in movable if plain(class_of(name)) not in ruled_out} or movable)
 
 
 def favourite_spot(

@@ -35,7 +35,7 @@ from coopera.models.offline.household.placing import (
 )
 from coopera.models.offline.household.reading import Memory, Piece, Surroundings, class_of, clip, memories
 from coopera.models.offline.household.sense import CommonSense
-from coopera.models.offline.human.choosing import Reasons, known, person_placements, reasons
+from coopera.models.offline.human.choosing import Reasons, known, person_placements, reasons, touchable
 from coopera.models.offline.human.person import PrivateLife
 
 KIN = 0.45  # cosine from which a thing that the household file does not name still fits an activity
@@ -115,7 +115,8 @@ def scene_type1(
     sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> PickPlaceReflectionReply:
     """Answer human/reflect_scene_type1: do the objects exist, is the count right, are the findings obeyed?"""
-    activity = known(life).own(sense.recognise(variables["intention"]).activity)
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     count = int(variables["n_tasks"])
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
     items = _placements(variables["tasks"])
@@ -130,7 +131,7 @@ def scene_type1(
     _heed(items, variables["findings"])
     mended = [item for item in items if item.problems and all(MENDED in said for said in item.problems)]
     wanting = len(mended) < sum(bool(item.problems) for item in items) or len(items) < count
-    spare = _usual_placements(sense, activity, fixed, movable) if wanting else []
+    spare = _usual_placements(sense, activity, fixed, touchable(person, variables["movable"])) if wanting else []
     _replace([item for item in items if item not in mended], spare, beside=items)
     verdicts = [_verdict(item) for item in items]
     del items[count:]

@@ -37,17 +37,17 @@ KINDS = (
 
 VERBS = """
 add admire advance alter arrange assemble attempt attend bake banish be begin bend binge breathe bring brood
-browse brush build burn call calm capture care carry catch challenge chase chat check cheer choose clean clear close
-collect concentrate construct continue cook cram create crochet cross dance daydream deal decide decorate design
-dim display dive do doze draw dress drift drive drop eat end enjoy escape exercise experiment fall feed fiddle fight figure fill
-find finish fix float focus follow fool freshen gain get give go grab groom have head heat hold host idle improve
-improvise jam join keep knit laugh lean learn let lie lift linger listen look lose make master meet move muse nibble
-nod note organise paint pamper pause pick plan play plunge polish post practise prepare preserve provide push
-put puzzle rack read rearrange receive recover reflect refuel rehearse relax remove repair rescue rest restore
-retire return review revise roll romp root round run satisfy savour see seek set settle sew show sing sit sketch sleep slow
-snack sneak snooze soak solve sort speak spend start stay still stitch stop stretch strum study take talk teach
-tend think throw tidy tinker train treat try turn unwind use visit wake walk warm wash watch welcome whip wind wipe work
-write
+browse brush build burn call calm capture care carry catch challenge chase chat check cheer choose clean clear
+close collect concentrate construct continue cook cram create crochet cross dance daydream deal decide decorate
+design dim display dive do doze draw dress drift drive drop eat end enjoy escape exercise experiment fall feed
+fiddle fight figure fill find finish fix float focus follow fool freshen gain get give go grab groom have head
+heat hold host idle improve improvise jam join keep knit laugh lean learn let lie lift linger listen look lose
+make master meet move muse nibble nod note organise paint pamper pause pick plan play plunge polish post
+practise prepare preserve provide push put puzzle rack read rearrange receive recover reflect refuel rehearse
+relax remove repair rescue rest restore retire return review revise roll romp root round run satisfy savour see
+seek set settle sew show sing sit sketch sleep slow snack sneak snooze soak solve sort speak spend start stay
+still stitch stop stretch strum study take talk teach tend think throw tidy tinker train treat try turn unwind
+use visit wake walk warm wash watch welcome whip wind wipe work write
 """
 
 

@@ -15,7 +15,7 @@ from coopera.models.offline.human.routine import Choice, Done, Moment, choose
 from tests.models.offline.lives import Hour, lived, of_hours, sense, share, somebody
 from tests.models.offline.questions import activity, intend, memory, person
 
-NAMES = "anna berta carla dora emil frida gus hans ida jon kim lea mia nora otto pia".split()
+NAMES = ("anna", "berta", "carla", "dora", "emil", "frida", "gus", "hans", "ida", "jon", "kim", "lea", "mia", "nora")
 WASHING = ("wash_up", "bath")
 WEEKDAYS, WEEKENDS = range(5), (5, 6)
 NURSE = "I work as a nurse at the hospital."
