@@ -99,6 +99,7 @@ def evening_tree(evening: Evening) -> Tree:
         said = "did" if item.accepted else "did not do"
         why = f" – {escape(item.reason)}" if item.reason else ""
         label = f"{hour_label(item.hour)}, {item.kind} [italic]{escape(item.text)}[/] (robot {said})"
+        why += " [yellow](a slip: they meant the opposite)[/]" if item.slip else ""
         branch.add(f"{_MARK[item.helpful]} {label}{why}")
     belief = tree.add("the robot's belief about the person")
     belief.add(escape(evening.belief.profile or "no profile yet"))

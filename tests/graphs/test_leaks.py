@@ -16,6 +16,7 @@ from coopera.checks.leaks import Hidden, HiddenLife, Reached, check_no_leak, rea
 from coopera.core.clock import Clock
 from coopera.core.errors import ConformanceError
 from coopera.core.hour import (
+    Circumstance,
     DayAccount,
     DayPlan,
     Example,
@@ -54,10 +55,13 @@ def baker(collab: Collab = 2) -> Hidden:
 def poet(collab: Collab = 2) -> Hidden:
     """Begins each hour as the baker does; on the first day it is the baker's life."""
     things = [("pen", "desk_1"), ("notebook", "stove_1"), ("lamp", "stove_1")]
-    return Hidden(NOOR, hours("Write a poem about the rain", things, collab))
+    low = Circumstance(kind="mood", text="I feel low today", strength=1.0)
+    return Hidden(NOOR, hours("Write a poem about the rain", things, collab, [low]))
 
 
-def hours(intention: str, things: Sequence[tuple[str, str]], collab: Collab) -> dict[tuple[int, int], HumanHour]:
+def hours(
+    intention: str, things: Sequence[tuple[str, str]], collab: Collab, felt: Sequence[Circumstance] = ()
+) -> dict[tuple[int, int], HumanHour]:
     """A first task that is the same in every life, then what only this one does."""
     places = {"desk_1": 1, "sofa_1": 2, "stove_1": 3}
     acts: list[PickPlace | FreeMotion]
@@ -69,7 +73,14 @@ def hours(intention: str, things: Sequence[tuple[str, str]], collab: Collab) -> 
         acts += [FreeMotion(target_id=places[p], target=p, in_hand=thing, motion="stand") for thing, p in things]
     tasks = [Task(id=f"9.{n}", thought=intention, act=act) for n, act in enumerate(acts, 1)]
     found = Found(fixed={}, movable={}, motions=[])
-    hour = HumanHour(recalled=[], intention=Intention(text=intention), found=found, tasks=tasks, reflections=[])
+    hour = HumanHour(
+        recalled=[],
+        intention=Intention(text=intention),
+        found=found,
+        tasks=tasks,
+        reflections=[],
+        circumstances=list(felt),
+    )
     return {(day, hour_of_day): hour for day in (0, 1) for hour_of_day in HOURS}
 
 

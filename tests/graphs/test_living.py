@@ -177,9 +177,7 @@ def test_a_robot_does_the_same_whatever_is_different_in_the_life_of_a_person_who
     make_services: MakeServices, tmp_path: Path
 ) -> None:
     well = live(make_services(ask=saying({}), folder=tmp_path / "well"))
-    ill = live(
-        make_services(ask=saying({}), folder=tmp_path / "ill", living=Living(changes=lambda person, day: [FLU]))
-    )
+    ill = live(make_services(ask=saying({}), folder=tmp_path / "ill", living=Living(changes=lambda person, day: [FLU])))
     assert [hour.robot for hour in well] == [hour.robot for hour in ill]
     assert all(hour.human and hour.human.circumstances for hour in ill)
 

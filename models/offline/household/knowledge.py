@@ -289,11 +289,14 @@ def load(path: Path = SHIPPED) -> Household:
     """
     try:
         data = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
-    if isinstance(data, dict) and "done_at" in data:
+    if not isinstance(data, dict):
+        found = "nothing" if data is None else f"a {type(data).__name__}"
+        raise ConfigError(f"{path}: a household file must be a mapping of fields to values, not {found}.")
+    if "done_at" in data:
         raise ConfigError(f"{path}: field 'done_at': {_MOVED}")
-    if isinstance(data, dict) and "extends" in data:
+    if "extends" in data:
         extension = _parsed(Extension, data, path)
         _refuse(_double_ids(extension.activities), path)
         household = extension.applied()

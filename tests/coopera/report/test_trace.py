@@ -7,7 +7,7 @@ import pytest
 from rich.console import Console
 
 from coopera.core.errors import ConfigError
-from coopera.report.tree import print_json, print_trees
+from coopera.report.tree import evening_tree, print_json, print_trees
 from coopera.rundir.directory import RunDir
 
 
@@ -71,3 +71,13 @@ def test_a_day_or_hour_that_is_not_there_is_refused(
 ) -> None:
     with pytest.raises(ConfigError, match=sentence):
         shown(small_run, day, hour)
+
+
+def test_an_evening_says_which_answers_were_slips(small_run: RunDir) -> None:
+    evening = small_run.evenings()[0]
+    first, *others = evening.feedback
+    slipped = evening.model_copy(update={"feedback": [first.model_copy(update={"slip": True}), *others]})
+    console = Console(width=4000, record=True, file=io.StringIO())
+    console.print(evening_tree(slipped))
+    assert console.export_text().count("(a slip: they meant the opposite)") == 1
+    assert "slip" not in shown(small_run, evening.day, None)

@@ -305,6 +305,16 @@ def test_two_activities_of_one_name_are_refused(tmp_path: Path) -> None:
         load(path)
 
 
+@pytest.mark.parametrize(("content", "found"), [("- a", "a list"), ("", "nothing"), ("tea", "a str")])
+def test_a_household_file_that_is_no_mapping_is_refused_in_one_sentence(
+    tmp_path: Path, content: str, found: str
+) -> None:
+    path = tmp_path / "home.yaml"
+    path.write_text(content)
+    with pytest.raises(ConfigError, match=rf"home\.yaml: a household file must be a mapping .*, not {found}\.$"):
+        load(path)
+
+
 @pytest.mark.parametrize("content", [b"activities: [", b"\xff\xfe", b"[]", b"activities: 3\nlooks_like: {a: b}\n"])
 def test_what_is_no_household_file_is_refused(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "home.yaml"
