@@ -53,10 +53,10 @@ def read_lives(paths: Sequence[Path]) -> FoundLives:
         raise ConfigError("RUN: name at least one run directory.")
     variants: dict[str, Lives] = {}
     sources: list[Source] = []
-    kinds: dict[Path, tuple[str, int]] = {}
+    kinds: dict[Path, _Kind] = {}
     for path in dict.fromkeys(paths):
         run = RunDir.open(path)
-        kinds[path] = (str(run.info.get("models", {}).get("human", run.config.models.human)), run.config.collab)
+        kinds[path] = _Kind.of(run)
         _same_kind(kinds, path)
         variant = run.config.person_model
         lives = variants.setdefault(variant, Lives([], {}, []))
@@ -157,13 +157,29 @@ def read_answers(path: Path) -> Any:
         raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
 
 
-def _same_kind(kinds: Mapping[Path, tuple[str, int]], path: Path) -> None:
+class _Kind(NamedTuple):
+    """What runs must have in common to be analysed together, by the names that people know."""
+
+    human_model: str
+    collab: int
+    intentions: str
+    absence: str
+    changes: str
+
+    @classmethod
+    def of(cls, run: RunDir) -> _Kind:
+        """Of a run."""
+        config = run.config
+        model = str(run.info.get("models", {}).get("human", config.models.human))
+        return cls(model, config.collab, config.intentions, config.absence, config.changes)
+
+
+def _same_kind(kinds: Mapping[Path, _Kind], path: Path) -> None:
     first = next(iter(kinds))
-    (model, collab), (other, type_) = kinds[first], kinds[path]
-    if other != model:
-        raise ConfigError(f"{path}: here the person is {other}, but {model} in {first}; analyse them apart.")
-    if type_ != collab:
-        raise ConfigError(f"{path}: collaboration type {type_}, but {first} has type {collab}; analyse them apart.")
+    for name, here, there in zip(_Kind._fields, kinds[path], kinds[first], strict=True):
+        if here != there:
+            what = name.replace("_", " ")
+            raise ConfigError(f"{path}: {what} is {here} here, but {there} in {first}; analyse them apart.")
 
 
 def _days(run: RunDir, hours: Sequence[HourRecord]) -> list[LivedDay]:

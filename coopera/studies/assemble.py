@@ -166,7 +166,7 @@ def open_services(
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person_model],
             living=open_living(config),
-            answering=Answering(rate=config.feedback_rate, noise=config.feedback_noise),
+            answering=_answering(config),
             sizes=config.search,
             player=_player(config, logs),
             life=EarlierLife(days) if (days := open_earlier_life(config)) else LivedNow(),
@@ -184,6 +184,13 @@ def open_living(config: Config) -> Living:
         absence=config.absence == "named",
         changes=open_changes(config.changes, config.seed, known_activities(config)),
     )
+
+
+def _answering(config: Config) -> Answering:
+    """How simulated people answer; what a real person says is taken as it is."""
+    if config.played_by == "me":
+        return Answering()
+    return Answering(rate=config.feedback_rate, noise=config.feedback_noise)
 
 
 def _player(config: Config, logs: Logs | None) -> Player:

@@ -30,7 +30,7 @@ OCCUPATIONS: Mapping[tuple[str, str, bool], str] = {
 }
 """What the hours of work are for, by employment, workplace and whether people may be away; else they are free."""
 AGREES: Mapping[str, Callable[[Schedule], bool]] = {
-    "mornings": lambda one: one.end <= 16,
+    "mornings": lambda one: one.start <= 9 and one.end <= 16,
     "evenings": lambda one: one.end >= 20,
     "nights": lambda one: one.end >= 22,
     "weekdays": lambda one: max(one.days) < 5,
