@@ -70,14 +70,17 @@ def read_lives(paths: Sequence[Path]) -> FoundLives:
         lives.beliefs.extend(_beliefs(run))
         failed = sum(record.human is None for record in hours)
         sources.append(Source(str(path), variant, run.config.seed, run.config.method, len(days), failed))
-    model, collab = kinds[next(iter(kinds))]
+    kind = kinds[next(iter(kinds))]
     for lives in variants.values():
         if len(lives.people) < 2:
             raise ConfigError(
                 f"RUN: these runs hold one person only ({lives.people[0]}); the checks compare at least two people."
             )
     return FoundLives(
-        dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))), sources, model, collab
+        dict(sorted(variants.items(), key=lambda item: (item[0] != FULL, item[0]))),
+        sources,
+        kind.human_model,
+        kind.collaboration_type,
     )
 
 
@@ -161,7 +164,7 @@ class _Kind(NamedTuple):
     """What runs must have in common to be analysed together, by the names that people know."""
 
     human_model: str
-    collab: int
+    collaboration_type: int
     intentions: str
     absence: str
     changes: str

@@ -9,10 +9,13 @@ from coopera.core.people import PersonId
 from coopera.evaluation.people.divergence import Named
 from coopera.evaluation.people.figures import Figure, over_people, unmeasured
 from coopera.evaluation.people.lives import LivedDay, Lives
+from coopera.models.offline.household.knowledge import shipped
 
 CHECK = "days with"
 AFTER_DINNER = 2
 """Hours after dinner within which the dishes count as done after it."""
+AT_HOME = 3
+"""Hours away up to which a day is one at home; who is out at work has their meals there."""
 ENOUGH = 3
 """People for an interval that resamples them."""
 
@@ -33,16 +36,18 @@ class Share(NamedTuple):
 
 
 def rhythm(lives: Lives, named: Named, *, seed: int = 0) -> list[Figure]:
-    """Shares of days with each meal, all three, washing, and of the dinners after which the dishes were done.
+    """Shares of days at home with each meal, all three, washing, and of the dinners after which the dishes were done.
 
     A dinner in a day's last lived hour has no hour after it and is left out.
 
     Args:
-        lives: The days.
+        lives: The days; those with more than `AT_HOME` hours away do not count.
         named: An intention's text -> the id of its activity in the household file.
         seed: Of the resampling of people.
     """
-    days = [(day, [named(text) for text in day.intentions]) for day in lives.days]
+    away = {activity.id for activity in shipped().activities if activity.away}
+    every = [(day, [named(text) for text in day.intentions]) for day in lives.days]
+    days = [(day, names) for day, names in every if sum(name in away for name in names) <= AT_HOME]
     found = {
         measure: _by_person([(day, has(set(names))) for day, names in days if names]) for measure, has in _DAY.items()
     }
@@ -79,6 +84,6 @@ def _figures(measure: str, units: dict[PersonId, Share], seed: int) -> list[Figu
         return unmeasured(CHECK, measure, why="no day had a dinner with an hour after it")
     days = sum(unit.days for unit in units.values())
     few = len(units) < ENOUGH
-    note = f"of {days} days" + (f"; an interval takes {ENOUGH} people" if few else "")
+    note = f"of {days} days at home" + (f"; an interval takes {ENOUGH} people" if few else "")
     figure = over_people(CHECK, measure, units, _share, chance={}, seed=seed, n=len(units), unit="people", note=note)
     return [figure.model_copy(update={"low": None, "high": None}) if few else figure]

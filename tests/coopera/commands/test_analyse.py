@@ -100,12 +100,17 @@ def test_runs_that_do_not_go_together_are_refused(coopera: Coopera, runs: list[P
     fake_run(tmp_path / "type1", people=("amara", "bruno"), days=1, hours=2, collab=1, frames=1)
     said = coopera("analyse", "humans", runs[0], "type1")
     assert said.code == 2
-    assert "collaboration type 1, but" in said.err
+    assert "type1: collaboration type is 1 here, but 2 in" in said.err
     other = shutil.copytree(runs[0], tmp_path / "other")
     change(other / "run.json", '"human": "offline routine model"', '"human": "llama"')
     said = coopera("analyse", "humans", runs[0], "other")
     assert said.code == 2
-    assert "other: here the person is llama, but offline routine model in" in said.err
+    assert "other: human model is llama here, but offline routine model in" in said.err
+    away = shutil.copytree(runs[0], tmp_path / "away")
+    change(away / "config.yaml", "absence: none", "absence: named")
+    said = coopera("analyse", "humans", runs[0], "away")
+    assert said.code == 2
+    assert "away: absence is named here, but none in" in said.err
     twin = shutil.copytree(runs[0], tmp_path / "twin")
     change(twin / "people" / "amara.yaml", "I am a 34-year-old", "I am a 43-year-old")
     said = coopera("analyse", "humans", runs[0], "twin")

@@ -29,7 +29,7 @@ def test_days_with_a_meal_are_counted_and_all_three_take_all_three() -> None:
     assert values["dinner"] == 0.25
     assert values["all three meals"] == 0.25
     assert values["washing oneself"] == 0.5
-    assert (found["lunch"].n, found["lunch"].unit, found["lunch"].note) == (4, "people", "of 4 days")
+    assert (found["lunch"].n, found["lunch"].unit, found["lunch"].note) == (4, "people", "of 4 days at home")
     assert found["lunch"].low is not None
 
 
