@@ -70,7 +70,7 @@ def main() -> None:
         courses = _changes(people, lives, given.long)
     if given.out:
         given.out.mkdir(parents=True, exist_ok=True)
-        _draw(courses, given.out / "changes.png")
+        _draw(courses, given.out / "life-changes.png")
 
 
 def _who(people: Sequence[Persona], lives: dict[PersonId, PrivateLife], days: int) -> None:
