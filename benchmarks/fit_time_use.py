@@ -125,6 +125,7 @@ def a_day(
             absence=absence,
             possible=can_do,
             extra=np.zeros(count) if today is None else today.pull,
+            job=None if today is None else today.job,
         )
         choice = choose(life, free, rng_at(0, "lived", who, day, hour), USUAL_TEMPERATURE)
         done.append(Done(choice.activity, hour))

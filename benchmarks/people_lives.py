@@ -21,7 +21,7 @@ from coopera.config.schema import default_data_dir
 from coopera.core.people import Persona, PersonId
 from coopera.core.randomness import rng_at
 from coopera.evaluation.people.divergence import jensen_shannon
-from coopera.graphs.players.changes import Change, as_variables
+from coopera.graphs.players.changes import Change, Work, as_variables
 from coopera.memory import bundled
 from coopera.models.offline.household.knowledge import Floats, shipped
 from coopera.models.offline.household.sense import CommonSense
@@ -41,6 +41,12 @@ CHANGES: dict[str, Change] = {
         more={"cardio": 3.5, "yoga": 3.5, "nap": -2, "watch_series": -2},
     ),
     "new hobby": Change(kind="hobby", text="I have taken up painting", day=40, more={"paint": 4.0}),
+    "new job": Change(
+        kind="job",
+        text="I have started a new job and work from home",
+        day=40,
+        work=Work(at="home", days=(0, 2, 4), start=12, end=18),
+    ),
     "illness": Change(
         kind="illness",
         text="I have broken a leg",
@@ -124,7 +130,7 @@ def _draw(courses: dict[str, list[float]], path: Path) -> None:
     picture = Figure(figsize=(8.0, 4.0), layout="constrained")
     FigureCanvasAgg(picture)
     axes = picture.subplots()
-    for (name, course), style in zip(courses.items(), ("--", "-", "-", "-"), strict=True):
+    for (name, course), style in zip(courses.items(), ("--", "-", "-", "-", "-"), strict=True):
         axes.plot(
             range(WINDOW, WINDOW + len(course)), course, style, label=name, color="#777777" if style == "--" else None
         )
@@ -142,7 +148,7 @@ def _shares(life: PrivateLife, who: str, days: range) -> Floats:
 def _counts(life: PrivateLife, who: str, day: int, change: Change | None = None) -> Floats:
     """How often each activity is done on a day."""
     active = [change] if change and change.strength(day) > 0 else []
-    today = circumstances(life.household, as_variables(active, day))
+    today = circumstances(life.household, as_variables(active, day), absence=False)
     done = [one.activity for one in a_day(life, who, day, absence=False, today=today)]
     return np.bincount(done, minlength=len(life.household.activities)).astype(np.float64)
 

@@ -8,8 +8,8 @@ A prompt file may use any subset of the variables listed here, and no other. Val
 - `can` is `{furniture: [captions of motions that can be done there]}`; what can be done anywhere is named at none;
 - `states` is `{object: its states in words}`, such as "open" or "dirty", of all that is not as at first: for the person
   in their whole home, for the robot where it is and in what it saw;
-- `changes` are what is different in the person's life these days, `{"kind", "text", "strength", "more", "never"}`, the
-  last three as `coopera.graphs.players.changes` has them;
+- `changes` are what is different in the person's life these days, `{"kind", "text", "strength", "more", "never",
+  "work"}`, the last four as `coopera.graphs.players.changes` has them;
 - `may_go_on` and `may_leave` say whether an intention may go on for hours, and whether the person may leave the home;
 - `so_far` are the tasks, in words, of the hour that the intention goes on from; empty for a new one;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;

@@ -118,7 +118,14 @@ _FULL: dict[str, Any] = {
     "states": {"coffee_table_1": "dirty", "mug_1": "dirty, with tea in it"},
     "so_far": ["take the novel from the shelf at the bookshelf with the book in hand"],
     "changes": [
-        {"kind": "illness", "text": "I have a bad cold", "strength": 1.0, "more": {"nap": 2.0}, "never": ["cardio"]}
+        {
+            "kind": "illness",
+            "text": "I have a bad cold",
+            "strength": 1.0,
+            "more": {"nap": 2.0},
+            "never": ["cardio"],
+            "work": None,
+        }
     ],
     "may_go_on": True,
     "may_leave": True,

@@ -15,7 +15,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import Frozen, PersonId
 from coopera.core.randomness import rng_at
-from coopera.graphs.players.changes import Change, Changes, Logits, no_changes
+from coopera.graphs.players.changes import Change, Changes, Logits, Work, no_changes
 
 NONE, SEEDED = "none", "seeded"
 SEASON = 91  # days
@@ -41,6 +41,7 @@ class _Event(Frozen):
     text: Annotated[str, Field(min_length=1, max_length=200)]
     more: _Effects = {}
     never: tuple[str, ...] = ()
+    work: Work | None = None
     days: Annotated[int, Field(ge=1)] | None = None
 
 
@@ -144,7 +145,9 @@ def drawn(seed: int, person: PersonId, day: int) -> list[Change]:
 
 
 def _change(kind: Any, event: _Event, day: int, *, until: int | None = None, ramp: int = 0) -> Change:
-    return Change(kind=kind, text=event.text, day=day, until=until, ramp=ramp, more=event.more, never=event.never)
+    return Change(
+        kind=kind, text=event.text, day=day, until=until, ramp=ramp, more=event.more, never=event.never, work=event.work
+    )
 
 
 def _pick(events: Sequence[_Event], rng: np.random.Generator) -> _Event:

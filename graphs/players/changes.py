@@ -3,15 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from coopera.core.hour import ChangeKind, Circumstance
 from coopera.core.people import Frozen, PersonId
 
 Logits = Annotated[float, Field(ge=-10, le=10)]
 DayNumber = Annotated[int, Field(strict=True, ge=0, le=100_000)]
+
+
+class Work(Frozen):
+    """Hours of work from a change on: where, on which days (Monday is 0), from `start` until before `end`."""
+
+    at: Literal["home", "outside", "nowhere"]
+    days: tuple[Annotated[int, Field(ge=0, le=6)], ...] = (0, 1, 2, 3, 4)
+    start: Annotated[int, Field(ge=0, le=24)] = 9
+    end: Annotated[int, Field(ge=0, le=24)] = 17
+
+    @model_validator(mode="after")
+    def _some_hours(self) -> Self:
+        if self.end <= self.start:
+            raise ValueError(f"the end, {self.end}, must come after the start, {self.start}")
+        return self
 
 
 class Change(Frozen):
@@ -25,6 +40,7 @@ class Change(Frozen):
         ramp: Days until it is at full strength; 0 is at once.
         more: Logits that activities gain at full strength, by the household's id; below 0 they lose.
         never: Activities that are not done from the first day on.
+        work: What becomes of the hours of work; None leaves them as they are.
         person: Whom it befalls; None is everybody.
     """
 
@@ -35,6 +51,7 @@ class Change(Frozen):
     ramp: Annotated[int, Field(strict=True, ge=0, le=10_000)] = 0
     more: dict[str, Logits] = {}
     never: tuple[str, ...] = ()
+    work: Work | None = None
     person: PersonId | None = None
 
     def strength(self, day: int) -> float:
@@ -67,6 +84,7 @@ def as_variables(changes: Sequence[Change], day: int) -> list[dict[str, Any]]:
             "strength": round(one.strength(day), 4),
             "more": dict(one.more),
             "never": list(one.never),
+            "work": one.work.model_dump(mode="json") if one.work else None,
         }
         for one in changes
     ]

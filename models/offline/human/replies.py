@@ -93,7 +93,7 @@ class Human:
     def _moment(self, variables: Mapping[str, Any], hour: int, today: Sequence[Memory], *, lasting: bool) -> Moment:
         activities = self._sense.household.activities
         kinds = {room_kind(room) for room in variables["rooms"]}
-        changed = circumstances(self._sense.household, variables["changes"])
+        changed = circumstances(self._sense.household, variables["changes"], absence=bool(variables["may_leave"]))
         return Moment(
             hour=hour,
             weekday=WEEKDAYS.index(str(variables["weekday"])),
@@ -102,6 +102,7 @@ class Human:
             absence=bool(variables["may_leave"]),
             possible=np.array([bool(kinds.intersection(activity.rooms)) for activity in activities]) & changed.can_do,
             extra=changed.pull + self._called_for(variables["states"]),
+            job=changed.job,
         )
 
     def _called_for(self, states: Mapping[str, str]) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.models.offline.household.knowledge import Floats, Household
+from coopera.models.offline.human.circumstances import Job
 from coopera.models.offline.human.person import PrivateLife
 
 USUAL_TEMPERATURE = 0.7  # PAPER App. A: proposing at 0.7; the logits are meant for it
@@ -45,6 +46,7 @@ class Moment(NamedTuple):
         absence: Whether the person may be away from home.
         possible: What the home and the circumstances allow; shape (activities,).
         extra: Logits of today: moods, changes, dirty dishes; shape (activities,).
+        job: A job that came with a change, in place of what the person has.
     """
 
     hour: int
@@ -54,6 +56,7 @@ class Moment(NamedTuple):
     absence: bool
     possible: NDArray[np.bool_]
     extra: Floats
+    job: Job | None = None
 
 
 class Choice(NamedTuple):
@@ -87,6 +90,9 @@ class _Day:
         self._done = {one.activity for one in moment.today}
         allowed = np.where(self._household.away, moment.absence, moment.possible) & life.can_do
         self._allowed = allowed if allowed.any() else np.ones_like(allowed)
+        if moment.job and moment.job.occupation is not None:
+            self._allowed[moment.job.occupation] = True  # whatever the profile says of work: that was before
+        self._job = moment.job or Job(life.time.occupation(absence=moment.absence), life.time.schedule)
         self._fresh = self._allowed & self._not_done_lately()
 
     def still_asleep(self, rng: np.random.Generator) -> Choice | None:
@@ -128,13 +134,12 @@ class _Day:
 
     def work_away(self, rng: np.random.Generator) -> Choice | None:
         """Work where nothing of home is done in between, not even a meal."""
-        index = self._life.time.occupation(absence=self._moment.absence)
+        index = self._job.occupation
         return self.work(rng) if index is not None and self._household.activities[index].away else None
 
     def work(self, rng: np.random.Generator) -> Choice | None:
         """Work in the hours of work; a day that did not begin with it is a day off."""
-        index = self._life.time.occupation(absence=self._moment.absence)
-        schedule = self._life.time.schedule
+        index, schedule = self._job
         if index is None or schedule is None or not self._allowed[index]:
             return None
         if not schedule.covers(self._moment.weekday, self._moment.hour):
@@ -157,7 +162,7 @@ class _Day:
         between = 1.0
         for index in recent:
             activity = self._household.activities[index]
-            if activity.lasts > 1 and self._allowed[index] and index != self._life.time.occupation(absence=True):
+            if activity.lasts > 1 and self._allowed[index] and not self._life.time.set_hours[index]:
                 chance = between * (1.0 - 1.0 / activity.lasts)
                 return Choice(index, continues=True, why="going on") if rng.random() < chance else None
             if activity.whole or activity.closes:

@@ -53,7 +53,7 @@ def lived(
 ) -> list[list[Hour]]:
     """Days of a life in a home with every room; day 0 is a Monday."""
     household = life.household
-    changed = circumstances(household, changes)
+    changed = circumstances(household, changes, absence=absence)
     lives: list[list[Hour]] = []
     for day in range(days) if isinstance(days, int) else days:
         today: list[Done] = []
@@ -67,6 +67,7 @@ def lived(
                 absence=absence,
                 possible=changed.can_do,
                 extra=changed.pull,
+                job=changed.job,
             )
             choice = choose(life, moment, rng_at(seed, "a life", float(life.liking[0]), day, hour), 0.7)
             today.append(Done(choice.activity, hour))

@@ -24,7 +24,7 @@ ALLERGIC = "I am allergic to eggs and peanuts. I love to bake."
 TEETOTAL = "I do not drink alcohol. I love to have guests and to relax in the evening."
 DAIRY = {"milk carton", "cheese", "butter", "egg", "yogurt cup", "ice cream tub", "tuna can"}
 PETS = {"leash", "dog treat", "feather wand", "litter scoop", "litter bag", "pet brush", "clicker"}
-HOBBY = {"text": "I have taken up painting", "more": {"paint": 4.0}, "never": [], "strength": 1.0}
+HOBBY = {"text": "I have taken up painting", "more": {"paint": 4.0}, "never": [], "work": None, "strength": 1.0}
 
 
 def _hours(who: dict[str, Any], days: int = 8) -> list[tuple[str, list[Any]]]:
@@ -173,13 +173,15 @@ def test_a_new_hobby_is_taken_up_and_one_that_has_not_begun_is_not() -> None:
 
 def test_what_stops_is_done_no_longer_while_all_else_goes_on() -> None:
     assert share(_with(), "watch_series") > 0
-    over = _with({"text": "The television is broken", "more": {}, "never": ["watch_series"], "strength": 1.0})
+    over = _with(
+        {"text": "The television is broken", "more": {}, "never": ["watch_series"], "work": None, "strength": 1.0}
+    )
     assert share(over, "watch_series") == 0
     assert share(over, "lunch") > 0.9
 
 
 def test_what_a_household_does_not_have_changes_nothing() -> None:
-    assert _with({"text": "x", "more": {"fly": 9.0}, "never": ["fly"], "strength": 1.0}) == _with()
+    assert _with({"text": "x", "more": {"fly": 9.0}, "never": ["fly"], "work": None, "strength": 1.0}) == _with()
 
 
 def test_what_is_different_is_given_as_the_reason_for_what_it_speaks_for_and_for_nothing_else() -> None:
