@@ -108,7 +108,10 @@ def claim_folder(bench: Benchmark) -> None:
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
         before["shared"].setdefault("household", SHARED)  # of a grid from before there was a choice
         # methods, seeds and settings may be added to what was run
-        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+        # the endpoint is stated before the first run, and stays
+        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "late_days", "early_days")
+        for name in ("late_days", "early_days"):
+            before.setdefault(name, Grid.model_fields[name].default)
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
             raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     elif bench.root.is_dir() and any(bench.root.iterdir()):
