@@ -1,0 +1,1 @@
+"""Where a robot's help is lost, from the trace of its run."""
