@@ -29,16 +29,18 @@ class Endpoint:
     Attributes:
         late: How many of the last days; None is the last third, rounded up.
         early: First and last of the early days, from 1; late days are never early.
+        stated: Whether the grid stated it; one that was run before there was an endpoint did not.
     """
 
     late: int | None = None
     early: tuple[int, int] = (2, 5)
+    stated: bool = True
 
     @classmethod
     def of(cls, grid: Mapping[str, Any]) -> Endpoint:
-        """As a card's grid says; grids of before there was an endpoint have the default."""
+        """As a card's grid says; grids of before there was an endpoint have the default, and that is said."""
         first, last = grid.get("early_days") or cls().early
-        return cls(grid.get("late_days"), (first, last))
+        return cls(grid.get("late_days"), (first, last), "late_days" in grid)
 
     def late_days(self, days: int) -> range:
         """The late days of a person who lived so many."""
@@ -51,7 +53,8 @@ class Endpoint:
     def __str__(self) -> str:
         """In words."""
         last = {None: "last third of the days", 1: "last day"}.get(self.late, f"last {self.late} days")
-        return f"late days: each person's {last} of an episode; early days: {self.early[0]} to {self.early[1]}"
+        days = f"late days: each person's {last} of an episode; early days: {self.early[0]} to {self.early[1]}"
+        return f"{'Stated beforehand' if self.stated else 'Not stated by this grid, which is older'}; {days}"
 
 
 STATED = Endpoint()

@@ -111,7 +111,7 @@ def late_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint =
         "Primary endpoint: need F1, mean of the late days",
         ["method", *map(_place, places)],
         _lines(methods, [found[place] for place in places]),
-        f"Stated beforehand; {endpoint}. {_MEANS}",
+        f"{endpoint}. {_MEANS}",
     )
 
 
@@ -125,7 +125,7 @@ def growth_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint
         "Growth of need F1 from the early to the late days",
         ["method", *map(_place, places)],
         _lines([method for method in methods if any(method in cells for cells in every)], every),
-        f"Stated beforehand; {endpoint}. {_MEANS}",
+        f"{endpoint}. {_MEANS}",
     )
 
 
@@ -189,7 +189,7 @@ def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint
     ]
     what = "need F1, mean of the late days" if late else "predicate F1 on the same last days"
     notes = [
-        f"Stated beforehand; {late}." if late else "The paper's endpoint.",
+        f"{late}." if late else "The paper's endpoint.",
         "Mean over people with a 95 % t interval; sign-flip permutation test over people, two-sided.",
         f"Its p stays below {ALPHA} after Holm's correction of {len(found)} comparisons from "
         f"{people_needed(max(len(found), 1))} people on.",

@@ -159,7 +159,9 @@ def test_tables_name_the_endpoint_that_the_grid_states() -> None:
     ]
     assert table.rows == [["ours", "0.750 [0.750, 0.750] (3)"]]
     assert "Stated beforehand; late days: each person's last day of an episode; early days: 2 to 5." in table.note
-    assert Endpoint.of({}) == STATED, "grids of before there was an endpoint have the default"
+    old = Endpoint.of({})
+    assert (old.late, old.early, old.stated) == (STATED.late, STATED.early, False)
+    assert str(old).startswith("Not stated by this grid, which is older; late days: each person's last third")
 
 
 def test_two_people_get_no_interval_and_no_detectable_difference() -> None:
