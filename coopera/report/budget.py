@@ -17,9 +17,9 @@ from coopera.core.household import SceneId
 from coopera.evaluation.methods import find_method
 from coopera.evaluation.predicate import Predicate
 from coopera.evaluation.robot.error_budget import FALSE, LOST, Budget, DayBudget, Helps, budgets, by_day, pool
+from coopera.memory.embeddings import bundled
 from coopera.rundir.directory import RunDir
-from coopera.simulation.homes.scene import Scene
-from coopera.studies.assemble import open_embeddings, open_layout
+from coopera.simulation.homes.scene import Scene, load_scene
 
 SHORT = {
     "not_imagined": "not imagined",
@@ -76,8 +76,9 @@ def budget_of(run: RunDir, hours: Sequence[HourRecord], evenings: Iterable[Eveni
     Raises:
         ConfigError: If one of its homes cannot be found any more.
     """
-    layout = functools.cache(lambda scene: open_layout(run.config, SceneId(scene), run.root))
-    with open_embeddings(run.config) as embeddings:
+    folders = [run.config.data_dir / "scenes", run.root / "scenes"]
+    layout = functools.cache(lambda scene: load_scene(SceneId(scene), folders))
+    with bundled(run.config.data_dir.resolve() / "embeddings.sqlite") as embeddings:
         predicate = Predicate(embeddings)
 
         def helps(hour: HourRecord) -> Helps:

@@ -1,1 +1,1 @@
-"""Where a robot's help is lost, from the trace of its run."""
+"""What is asked of a robot over a whole run. The error budget says where its help was lost, from the trace alone."""

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour, Success
+from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour
 from coopera.core.household import HandOver, Outcome, SceneId
 from coopera.core.people import PersonId
 from coopera.evaluation.agreement import by_person, l1
@@ -62,16 +62,6 @@ def test_hours_are_pooled_before_the_rate_is_taken() -> None:
     assert need(pool_help(hours)) == pytest.approx((1 / 3, 1 / 4, 2 / 7))
     assert false_help(pool_help(hours), len(hours)) == 1
     assert pool_help(hours).metres == 1.5
-
-
-def test_what_a_trace_of_before_lacks_is_computed_from_its_candidates() -> None:
-    """Two of its five candidates were accepted (tp and fp), so two acts were."""
-    before = {"remaining": 4, "helped": 1, "done": 2, "useless": 1, "metres": 1, "saved_metres": 1}
-    hour = Success.model_validate({"predicate": {"tp": 1, "fp": 1, "fn": 1, "tn": 2}, "judge": {}, "help": before})
-    assert hour.help is not None
-    assert hour.help.accepted == 2
-    assert need(hour.help) == pytest.approx((1 / 2, 1 / 4, 1 / 3))
-    assert Success.model_validate(hour.model_dump()) == hour
 
 
 @given(st.lists(st.tuples(st.booleans(), st.lists(st.booleans(), min_size=3, max_size=3)), max_size=6))
