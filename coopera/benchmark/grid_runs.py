@@ -110,8 +110,7 @@ def claim_folder(bench: Benchmark) -> None:
         # methods, seeds and settings may be added to what was run
         # the endpoint is stated before the first run, and stays
         fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "late_days", "early_days")
-        for name in ("late_days", "early_days"):
-            before.setdefault(name, Grid.model_fields[name].default)
+        before = Grid().model_dump(mode="json", include={"late_days", "early_days"}) | before
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
             raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     elif bench.root.is_dir() and any(bench.root.iterdir()):
