@@ -6,8 +6,9 @@
 Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home,
 without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
 Finished runs are read, stopped runs go on, so another --household needs another --out. Prints a Markdown table: the
-mean predicate and judge F1 of each day over person-episodes, and last day minus first day, each with a 95 % bootstrap
-interval.
+mean need F1, predicate F1 and judge F1 of each day, the mean of the late days (the last third), and growth from the
+early days (2 to 5, those that are not late) to the late ones, each with a 95 % t interval over people; a person who
+lives under several seeds is averaged first.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
@@ -24,6 +25,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from statistics import fmean
 from typing import Any, NamedTuple
 
 from coopera import Config, resume_study, run_study
@@ -33,7 +35,8 @@ from coopera.core.household import Collab
 from coopera.core.protocols import Classifier
 from coopera.core.randomness import rng_at
 from coopera.evaluation import METHODS, register
-from coopera.evaluation.statistics import bootstrap_mean
+from coopera.evaluation.analysis import STATED
+from coopera.evaluation.statistics import mean_over_people
 from coopera.memory.embeddings import bundled
 from coopera.models.classifiers import make_classifier
 from coopera.people.shipped import shipped_ids
@@ -106,8 +109,10 @@ def main() -> None:
         summaries = list(each(_summary, [(args, job) for job in jobs]))
     for collab in types:
         print(f"\nCollaboration type {collab}\n")
-        print("| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | last - first |")
-        print("|---|---|" + "---|" * (args.days + 1))
+        print(
+            "| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | late days | growth |"
+        )
+        print("|---|---|" + "---|" * (args.days + 2))
         for method in methods:
             mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
             _print_rows(" ".join(method), args.days, mine)
@@ -146,21 +151,28 @@ def _folder(out: Path, job: Job) -> Path:
 
 
 def _print_rows(method: str, days: int, summaries: list[dict[str, Any]]) -> None:
-    for measure in ("predicate", "judge"):
+    for measure, name in (("help", "need"), ("predicate", "predicate"), ("judge", "judge")):
         curves = _curves(summaries, measure)
-        columns = [bootstrap_mean([curve[day] for curve in curves]) for day in range(days)]
-        gain = bootstrap_mean([curve[-1] - curve[0] for curve in curves])
-        cells = [f"{c.mean:.3f} [{c.low:.3f}, {c.high:.3f}]" for c in (*columns, gain)]
-        print(f"| {method} (n={len(curves)}) | {measure} | " + " | ".join(cells) + " |")
+        late, early = STATED.late_days(days), STATED.early_days(days)
+        columns = [mean_over_people([curve[day] for curve in curves]) for day in range(days)]
+        columns.append(mean_over_people([_mean(curve, late) for curve in curves]))
+        grown = [_mean(curve, late) - _mean(curve, early) for curve in curves] if len(early) else []
+        cells = [*map(str, columns), str(mean_over_people(grown)) if grown else "–"]
+        print(f"| {method} (n={len(curves)}) | {name} | " + " | ".join(cells) + " |")
+
+
+def _mean(curve: Sequence[float], days: range) -> float:
+    return fmean(curve[day] for day in days)
 
 
 def _curves(summaries: list[dict[str, Any]], measure: str) -> list[list[float]]:
-    """F1 by day of each person-episode; a day without any F1 counts as 0."""
-    curves: dict[tuple[int, int], list[float]] = {}
+    """F1 by day of each person, the mean of their episodes; a day without any F1 counts as 0."""
+    curves: dict[str, dict[tuple[int, int], list[float]]] = {}
     for summary in summaries:
         for day in summary["days"]:
-            curves.setdefault((summary["seed"], day["episode"]), []).append(day[measure]["f1"] or 0.0)
-    return list(curves.values())
+            episode = curves.setdefault(day["person"], {}).setdefault((summary["seed"], day["episode"]), [])
+            episode.append(day[measure]["f1"] or 0.0)
+    return [list(map(fmean, zip(*curves[person].values(), strict=True))) for person in sorted(curves)]
 
 
 if __name__ == "__main__":

@@ -42,16 +42,14 @@ class Intention(Frozen):
     Attributes:
         text: In words.
         reasons: Why, where a model has said so.
-        continues: Whether it goes on from the hour before.
+        continues: Whether it goes on with what was begun in an earlier hour of the day.
         away: Whether the person is outside the home: no tasks, and the robot has nothing to see.
     """
 
     text: str
     reasons: Reasons = Reasons()
     continues: bool = False
-    """Whether it goes on with what was begun in an earlier hour of the day."""
     away: bool = False
-    """Whether it is done outside the home: there are no tasks then, and the robot has nothing to see."""
 
 
 class Task(Frozen):
@@ -228,6 +226,7 @@ class Help(Frozen):
     Attributes:
         remaining: Number of the person's tasks after the first.
         helped: Number of these tasks with help by an act of the robot.
+        accepted: Number of the acts that the robot accepted, failed ones included.
         done: Number of the robot's successful acts.
         useless: Number of successful acts without help for any task.
         metres: The robot's way, failed acts included.
@@ -236,6 +235,7 @@ class Help(Frozen):
 
     remaining: int = Field(0, ge=0)
     helped: int = Field(0, ge=0)
+    accepted: int = Field(0, ge=0)
     done: int = Field(0, ge=0)
     useless: int = Field(0, ge=0)
     metres: float = Field(0.0, ge=0)

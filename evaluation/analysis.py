@@ -3,60 +3,141 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from coopera.evaluation.agreement import l1
 from coopera.evaluation.comparing import Comparison, Unit, clustered_mean, compare
 from coopera.evaluation.counts import pool
 from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.results import Row
-from coopera.evaluation.statistics import Interval
+from coopera.evaluation.statistics import Mean
 
 PEOPLE = "people"
 """The measure that is no measure of an hour, but what the person said of it."""
 
 
-class Cell(NamedTuple):
-    """A figure with its interval and of how many people's days it is."""
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """Which of a person's days of an episode count, as the grid states it before the first run.
 
-    interval: Interval
+    A person's days are counted from 0 here (`Row.round`), and from 1 in the grid and in words.
+
+    Attributes:
+        late: How many of the last days; None is the last third, rounded up.
+        early: First and last of the early days, from 1; late days are never early.
+        stated: Whether the grid stated it; one that was run before there was an endpoint did not.
+    """
+
+    late: int | None = None
+    early: tuple[int, int] = (2, 5)
+    stated: bool = True
+
+    @classmethod
+    def of(cls, grid: Mapping[str, Any]) -> Endpoint:
+        """As a card's grid says; grids of before there was an endpoint have the default, and that is said."""
+        first, last = grid.get("early_days") or cls().early
+        return cls(grid.get("late_days"), (first, last), "late_days" in grid)
+
+    def late_days(self, days: int) -> range:
+        """The late days of a person who lived so many."""
+        return range(max(0, days - (self.late or -(-days // 3))), days)
+
+    def early_days(self, days: int) -> range:
+        """The early days; none where all but the first are late."""
+        return range(min(self.early[0] - 1, days), min(self.early[1], self.late_days(days).start))
+
+    def __str__(self) -> str:
+        """In words."""
+        last = {None: "last third of the days", 1: "last day"}.get(self.late, f"last {self.late} days")
+        days = f"late days: each person's {last} of an episode; early days: {self.early[0]} to {self.early[1]}"
+        return f"{'Stated beforehand' if self.stated else 'Not stated by this grid, which is older'}; {days}"
+
+
+STATED = Endpoint()
+
+
+class Cell(NamedTuple):
+    """A figure with its interval and of how many episodes' people it is."""
+
+    interval: Mean
     n: int
 
 
-def score(rows: Iterable[Row], measure: str) -> float | None:
-    """The one figure of some hours by a measure; by "people", the F1 of what the person said in the evening."""
+def score(rows: Iterable[Row], measure: str, figure: str | None = None) -> float | None:
+    """A figure of some hours by a measure, by default its headline; by "people", the F1 of what the person said."""
     hours = [row for row in rows if row.status == "ok"]
     if measure == PEOPLE:
         return pool(counts for row in hours if (counts := row.counts(measure))).f1
     spec = find_measure(measure)
-    return spec.pool([figures for row in hours if (figures := row.of(spec)) is not None])[spec.headline]
+    return spec.pool([figures for row in hours if (figures := row.of(spec)) is not None])[figure or spec.headline]
 
 
-def units(rows: Iterable[Row], measure: str) -> dict[str, dict[tuple[Hashable, ...], Unit]]:
+Of = tuple[Hashable, ...]
+"""What a unit is of: setting, type, seed, episode and person."""
+
+
+def units(rows: Iterable[Row], measure: str) -> dict[str, dict[Of, Unit]]:
     """The last day of each person in each episode as a unit, by method; days without a figure are left out."""
-    days: dict[tuple[str, tuple[Hashable, ...]], list[Row]] = defaultdict(list)
+    return _units(rows, measure, lambda days: range(days - 1, days))
+
+
+def late_units(rows: Iterable[Row], measure: str, endpoint: Endpoint = STATED) -> dict[str, dict[Of, Unit]]:
+    """The mean of each person's late days in each episode as a unit, by method: the primary endpoint."""
+    return _units(rows, measure, endpoint.late_days)
+
+
+def growth(rows: Sequence[Row], measure: str, endpoint: Endpoint = STATED) -> dict[str, Cell]:
+    """Each method's growth from the early to the late days, over the people who have both."""
+    early, late = _units(rows, measure, endpoint.early_days), late_units(rows, measure, endpoint)
+    found = {}
+    for method, after in late.items():
+        before = early.get(method, {})
+        grown = [one._replace(value=one.value - before[key].value) for key, one in after.items() if key in before]
+        if grown:
+            found[method] = Cell(clustered_mean(grown), len(grown))
+    return found
+
+
+def _units(rows: Iterable[Row], measure: str, chosen: Callable[[int], range]) -> dict[str, dict[Of, Unit]]:
+    """The mean over some of each person's days, a day pooling its hours; `chosen` has them from how many there were."""
+    key: Of
+    lives: dict[tuple[str, Of], dict[int, list[Row]]] = defaultdict(lambda: defaultdict(list))
     for row in rows:
-        if row.last:
-            days[row.method, (row.setting, row.collab, row.seed, row.episode, row.person)].append(row)
-    found: dict[str, dict[tuple[Hashable, ...], Unit]] = defaultdict(dict)
-    for (method, key), hours in sorted(days.items(), key=lambda item: str(item[0])):
-        value = score(hours, measure)
-        if value is not None:
-            found[method][key] = Unit(hours[0].person, hours[0].scene, hours[0].seed, value)
+        key = (row.setting, row.collab, row.seed, row.episode, row.person)
+        lives[row.method, key][row.round].append(row)
+    found: dict[str, dict[Of, Unit]] = defaultdict(dict)
+    for (method, key), days in sorted(lives.items(), key=lambda item: str(item[0])):
+        values = [score(days[day], measure) for day in chosen(max(days) + 1) if day in days]
+        given = [value for value in values if value is not None]
+        if given:
+            one = next(iter(days.values()))[0]
+            found[method][key] = Unit(one.person, one.scene, one.seed, float(np.mean(given)))
     return dict(found)
 
 
 def last_day(rows: Sequence[Row], measure: str = "predicate") -> dict[str, Cell]:
-    """Each method's mean over people's last days."""
-    return {
-        method: Cell(clustered_mean(list(found.values())), len(found)) for method, found in units(rows, measure).items()
-    }
+    """Each method's mean over people's last days, the paper's endpoint."""
+    return _cells(units(rows, measure))
 
 
-def comparisons(rows: Sequence[Row], reference: str, measure: str = "predicate") -> list[Comparison]:
-    """Each method against the reference on the same last days."""
-    found = units(rows, measure)
+def late_days(rows: Sequence[Row], measure: str = "help", endpoint: Endpoint = STATED) -> dict[str, Cell]:
+    """Each method's mean over people's late days, the primary endpoint."""
+    return _cells(late_units(rows, measure, endpoint))
+
+
+def _cells(found: dict[str, dict[Of, Unit]]) -> dict[str, Cell]:
+    return {method: Cell(clustered_mean(list(every.values())), len(every)) for method, every in found.items()}
+
+
+def comparisons(
+    rows: Sequence[Row], reference: str, measure: str = "predicate", late: Endpoint | None = None
+) -> list[Comparison]:
+    """Each method against the reference on the same days: the last ones, or the late ones of an endpoint."""
+    found = units(rows, measure) if late is None else late_units(rows, measure, late)
     return compare(found.pop(reference, {}), found)
 
 

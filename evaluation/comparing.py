@@ -1,6 +1,7 @@
-"""Comparing methods honestly: intervals clustered by person and home, paired permutation tests, Holm, and power.
+"""Comparing methods honestly: intervals over people, paired permutation tests, Holm, and power.
 
-Hours of one person are alike, and so are those in one home; the units of inference are people, homes and seeds.
+Hours of one person are alike, so the unit of inference is the person: what a person has in several homes, episodes and
+seeds is averaged first. So the figures speak of other people in these homes, and not of other homes.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from coopera.evaluation.statistics import Interval
+from coopera.evaluation.statistics import FEWEST, Mean, mean_over_people
 
 ALPHA = 0.05
 POWER = 0.8
@@ -32,44 +33,36 @@ class Comparison(NamedTuple):
     """A method against the reference, on the same days.
 
     Attributes:
-        difference: Mean of the paired differences, with its clustered interval.
+        difference: Mean over people of the paired differences, with its t interval.
         p: Of a sign-flip permutation test over people, two-sided; 1 where there is nothing to test.
         p_holm: After Holm's correction among the methods compared.
         people: How many people the test flips; the smallest p it can give is 2 / 2^people.
-        detectable: The difference that would be found with 80 % power at this scatter; None for fewer than 3 people.
+        detectable: The difference that a t test of so many people at this scatter finds with 80 % power; None where
+            the permutation test can give no p below 0.05.
     """
 
     method: str
-    difference: Interval
+    difference: Mean
     p: float
     p_holm: float
     people: int
     detectable: float | None
 
 
-def clustered_mean(units: Sequence[Unit], *, level: float = 0.95, draws: int = 4000, seed: int = 0) -> Interval:
-    """The mean of units with a bootstrap interval that resamples people and homes (a pigeonhole bootstrap).
+def person_means(units: Sequence[Unit]) -> list[float]:
+    """Each person's mean over their homes, episodes and seeds, by name."""
+    people = sorted({unit.person for unit in units})
+    return [float(np.mean([unit.value for unit in units if unit.person == person])) for person in people]
 
-    People and homes are drawn with replacement, each by itself, and a unit weighs by the product of how often its
-    person and its home were drawn; a draw that meets no unit is left out. With one person and one home the interval is
-    the mean alone, which says that nothing is known of its spread.
+
+def clustered_mean(units: Sequence[Unit], *, level: float = 0.95) -> Mean:
+    """The mean over people with its t interval; a person weighs the same however often they were met.
 
     Args:
         units: At least one.
         level: Coverage in (0, 1).
-        draws: Resamples.
-        seed: Of the resampling.
     """
-    rng = np.random.default_rng(seed)
-    values = np.array([unit.value for unit in units])
-    weights = np.ones((draws, len(units)))
-    for names in ([unit.person for unit in units], [unit.scene for unit in units]):
-        groups, member = np.unique(names, return_inverse=True)
-        weights *= rng.multinomial(len(groups), np.full(len(groups), 1 / len(groups)), size=draws)[:, member]
-    weights = weights[weights.sum(axis=1) > 0]
-    means = weights @ values / weights.sum(axis=1)
-    low, high = np.quantile(means, [(1 - level) / 2, (1 + level) / 2])
-    return Interval(float(values.mean()), float(low), float(high))
+    return mean_over_people(person_means(units), level=level)
 
 
 def sign_flip(differences: Sequence[float], *, seed: int = 0) -> float:
@@ -102,12 +95,26 @@ def holm(p_values: Sequence[float]) -> list[float]:
     return adjusted
 
 
+def smallest_p(people: int) -> float:
+    """The smallest p that the sign-flip test can give: only + + + … and - - - … are as extreme."""
+    return 2.0 ** (1 - people) if people > 1 else 1.0
+
+
+def people_needed(comparisons: int) -> int:
+    """How many people it takes for the smallest p of so many comparisons to stay below 0.05 after Holm's correction."""
+    return next(people for people in range(2, 100) if comparisons * smallest_p(people) < ALPHA)
+
+
 def detectable(differences: Sequence[float]) -> float | None:
-    """The true difference that a two-sided test at 5 % would find with 80 % power, by the normal approximation."""
-    if len(differences) < 3:
+    """The true difference that a two-sided test at 5 % would find with 80 % power, by the t approximation.
+
+    None where a test of so many people cannot give p < 0.05 at all.
+    """
+    count = len(differences)
+    if count < FEWEST or smallest_p(count) >= ALPHA:
         return None
     spread = float(np.std(differences, ddof=1))
-    return float((stats.norm.ppf(1 - ALPHA / 2) + stats.norm.ppf(POWER)) * spread / math.sqrt(len(differences)))
+    return float((stats.t.ppf(1 - ALPHA / 2, count - 1) + stats.t.ppf(POWER, count - 1)) * spread / math.sqrt(count))
 
 
 def compare(
@@ -122,18 +129,16 @@ def compare(
     Returns:
         One comparison per method that shares a unit with the reference.
     """
-    found: list[tuple[str, Interval, list[float]]] = []
+    found: list[tuple[str, list[float]]] = []
     for method, units in others.items():
         shared = [
             unit._replace(value=unit.value - reference[key].value) for key, unit in units.items() if key in reference
         ]
         if not shared:
             continue
-        people = sorted({unit.person for unit in shared})
-        means = [float(np.mean([unit.value for unit in shared if unit.person == person])) for person in people]
-        found.append((method, clustered_mean(shared), means))
-    p_values = [sign_flip(means) for *_, means in found]
+        found.append((method, person_means(shared)))
+    p_values = [sign_flip(means) for _, means in found]
     return [
-        Comparison(method, interval, p, p_holm, len(means), detectable(means))
-        for (method, interval, means), p, p_holm in zip(found, p_values, holm(p_values), strict=True)
+        Comparison(method, mean_over_people(means), p, p_holm, len(means), detectable(means))
+        for (method, means), p, p_holm in zip(found, p_values, holm(p_values), strict=True)
     ]

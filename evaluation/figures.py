@@ -8,6 +8,7 @@ from typing import Any
 
 from coopera.core.clock import hour_label
 from coopera.evaluation.analysis import curve
+from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.results import Row
 
 COLOURS = ("#c1121f", "#1d70b8", "#222222", "#7a7a7a", "#2a9d8f", "#e9a23b", "#8338ec", "#6a994e", "#bc6c25", "#a2d2ff")
@@ -25,21 +26,23 @@ _STYLE: Any = {
 def all_figures(rows: Sequence[Row], methods: Sequence[str]) -> dict[str, str]:
     """Every figure by name, as SVG text; the same rows give the same bytes."""
     return {
+        "need_within_and_across_days": within_and_across(rows, methods, "help"),
+        "breakdown_need": breakdown(rows, methods, "help"),
         "within_and_across_days": within_and_across(rows, methods),
         "breakdown_predicate": breakdown(rows, methods, "predicate"),
         "breakdown_judge": breakdown(rows, methods, "judge"),
     }
 
 
-def within_and_across(rows: Sequence[Row], methods: Sequence[str]) -> str:
+def within_and_across(rows: Sequence[Row], methods: Sequence[str], measure: str = "predicate") -> str:
     """The paper's figure of change: (a) within a day, by hour; (b) across days; all settings and types together."""
     figure, (left, right) = _axes(1, 2, (9.2, 3.4))
-    _lines(left, rows, methods, lambda row: row.hour, "predicate")
-    _lines(right, rows, methods, lambda row: row.round, "predicate")
+    _lines(left, rows, methods, lambda row: row.hour, measure)
+    _lines(right, rows, methods, lambda row: row.round, measure)
     hours = sorted({row.hour for row in rows})
     left.set_xticks(hours[::3], [hour_label(hour) for hour in hours[::3]])
     left.set_title("(a) within a day, all days", loc="left")
-    left.set_ylabel("predicate F1")
+    left.set_ylabel(find_measure(measure).title)
     right.set_title("(b) across days with the same person", loc="left")
     right.set_xlabel("day with this person")
     right.set_xticks(sorted({row.round for row in rows}))
@@ -61,7 +64,7 @@ def breakdown(rows: Sequence[Row], methods: Sequence[str], measure: str) -> str:
             if down == len(types) - 1:
                 axes.set_xlabel("day")
             if across == 0:
-                axes.set_ylabel(f"{measure} F1")
+                axes.set_ylabel(find_measure(measure).title)
     grid[len(settings) - 1].legend(loc="upper left", bbox_to_anchor=(1.01, 1.05), frameon=False)
     return _svg(figure)
 

@@ -63,6 +63,9 @@ class Grid(Frozen):
         days: At most so many days of each episode.
         hours: Hours of each day.
         schedules: Orders of days of one's own, by name.
+        late_days: The primary endpoint is the mean of so many of each person's last days of an episode; by default of
+            the last third of them, rounded up (of 15 days the last 5).
+        early_days: First and last of the days, counted from 1, that growth is measured from; late days are none.
         run: Anything else that `coopera run` takes, such as `models` or `classifier`.
     """
 
@@ -76,6 +79,8 @@ class Grid(Frozen):
     days: Count | None = None
     hours: Annotated[int, Field(strict=True, ge=1, le=15)] = HOURS_PER_DAY
     schedules: dict[Name, Schedule] = {}
+    late_days: Count | None = None
+    early_days: tuple[Count, Count] = (2, 5)
     run: dict[str, Any] = {}
 
 

@@ -27,7 +27,7 @@ Pooled: TypeAlias = Mapping[str, float | int | None]
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _HOUR = {"day", "episode", "episode_day", "hour", "person", "scene", "measure", "status"}
-_TAKEN = _HOUR | {"hours", "failed_hours", "people"}
+_TAKEN = _HOUR | {"hours", "failed_hours", "people", "need"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +68,7 @@ class MeasureSpec(Generic[F]):
         pool: Adds up hours for summary.json. There may be none: all of a day's may have failed.
         headline: Which of the pooled figures is the one that tables show.
         beside: Other pooled figures that the table at a run's end has room for.
+        short: The heading in that table, where `title` is long.
         row: The measure in whose rows of metrics.csv the figures stand; None gives them rows of their own.
         order: Lower ones stand first; equal ones by name.
     """
@@ -80,6 +81,7 @@ class MeasureSpec(Generic[F]):
     pool: Callable[[Sequence[F]], Pooled]
     headline: str
     beside: tuple[str, ...] = ()
+    short: str = ""
     row: str | None = None
     order: int = 100
 
@@ -118,6 +120,7 @@ def by_counts(
     truth: Callable[[MeasuredHour], Sequence[bool | None]],
     *,
     beside: tuple[str, ...] = (),
+    short: str = "",
     order: int = 100,
 ) -> MeasureSpec[Counts]:
     """Return a measure of F1 over the superset: what was accepted is the prediction, and `truth` says what was right.
@@ -126,7 +129,8 @@ def by_counts(
         name: The measure's name.
         about: What it says, in a line.
         truth: Whether each candidate was right; None leaves it unscored.
-        beside: As in `MeasureSpec`, as is `order`.
+        beside: As in `MeasureSpec`, as are `short` and `order`.
+        short: Its heading where there is little room.
         order: Its place.
     """
     return MeasureSpec(
@@ -138,6 +142,7 @@ def by_counts(
         pool=lambda hours: pool(hours).model_dump(),
         headline="f1",
         beside=beside,
+        short=short,
         order=order,
     )
 

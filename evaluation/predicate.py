@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from coopera.core.hour import Task, TaskCandidate
 from coopera.core.household import Act, FreeMotion, HandOver, PickPlace, plain
-from coopera.core.protocols import Home
 from coopera.simulation.goals.achieved import goal_of
 
 if TYPE_CHECKING:
@@ -22,6 +21,14 @@ Floats = NDArray[np.float64]
 SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
 
 
+class Classes(Protocol):
+    """What the rule needs to know of a home."""
+
+    def class_of(self, name: str) -> str:
+        """The object's class, such as "mug" for "mug_2"; a name not in the home is its own class."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class Predicate:
     """The rule."""
@@ -29,11 +36,11 @@ class Predicate:
     embeddings: Embeddings
     _vectors: dict[str, Floats] = field(init=False, default_factory=dict, repr=False, compare=False)
 
-    def matches(self, home: Home, candidate: TaskCandidate, remaining: Sequence[Task]) -> bool:
+    def matches(self, home: Classes, candidate: TaskCandidate, remaining: Sequence[Task]) -> bool:
         """Whether this candidate helps with one of the remaining tasks."""
         return any(self.helps(home, candidate.act, task.act) for task in remaining)
 
-    def helps(self, home: Home, act: Act, wanted: Act) -> bool:
+    def helps(self, home: Classes, act: Act, wanted: Act) -> bool:
         """Whether an act of the robot helps with an act that the person has before them.
 
         PAPER App. C.3: in type 1 the classes of object and receptacle are the same, whichever instances; in type 2

@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
 from coopera.core.hour import Counts, Evening, HourRecord
@@ -75,6 +75,17 @@ class Row(Frozen):
     useless: int | None = Share
     metres: float | None = Share
     saved_metres: float | None = Share
+    accepted: int | None = Share
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_before(cls, data: Any) -> Any:
+        """Complete tables of before `accepted`: each accepted candidate is a tp or an fp of the predicate."""
+        if not isinstance(data, dict) or data.get("accepted") is not None or data.get("remaining") is None:
+            return data
+        counts = [data.get(f"predicate_{name}") for name in ("tp", "fp")]
+        given = [int(value) for value in counts if value is not None and str(value).isdigit()]
+        return {**data, "accepted": sum(given)} if len(given) == len(counts) else data
 
     @property
     def key(self) -> tuple[Any, ...]:
@@ -101,7 +112,7 @@ class Row(Frozen):
 
 _COUNTS = ("tp", "fp", "fn", "tn", "unscored")
 COLUMNS = tuple(Row.model_fields)
-"""The columns that every table has."""
+"""The columns that every table has; one of before `accepted` lacks that."""
 _BARE = "help"  # in format 1 the columns of this measure do not bear its name
 _FURTHER = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)+")
 
@@ -193,8 +204,9 @@ def from_csv(text: str, source: str) -> list[Row]:
     """
     reader = csv.DictReader(io.StringIO(text))
     names = tuple(reader.fieldnames or ())
-    further = names[len(COLUMNS) :]
-    if names[: len(COLUMNS)] != COLUMNS or len(set(names)) < len(names) or not all(map(_FURTHER.fullmatch, further)):
+    fixed = COLUMNS if "accepted" in names else COLUMNS[: COLUMNS.index("accepted")]
+    further = names[len(fixed) :]
+    if names[: len(fixed)] != fixed or len(set(names)) < len(names) or not all(map(_FURTHER.fullmatch, further)):
         odd = sorted(set(names) ^ set(COLUMNS))
         raise ConfigError(
             f"{source}: the columns must be those of format {FORMAT}; check {', '.join(odd) or 'their order'}."

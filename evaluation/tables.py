@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from coopera.core.hour import Counts
 from coopera.evaluation import paper
-from coopera.evaluation.analysis import PEOPLE, Cell, agreement, comparisons, curve, effort, generalisation, last_day
+from coopera.evaluation.analysis import (
+    PEOPLE,
+    STATED,
+    Cell,
+    Endpoint,
+    agreement,
+    comparisons,
+    curve,
+    effort,
+    generalisation,
+    growth,
+    last_day,
+    late_days,
+    score,
+)
+from coopera.evaluation.comparing import ALPHA, Comparison, people_needed
 from coopera.evaluation.measuring import all_measures, find_measure
 from coopera.evaluation.results import Row
+from coopera.evaluation.statistics import FEWEST, Mean
 
 REFERENCE = "ours"
+PRIMARY = "help"
+"""The measure of the primary endpoint: its headline is need F1."""
 FRESH = "untrained"
 NONE = "–"
 _TYPES = {1: "type 1", 2: "type 2"}
@@ -43,9 +61,13 @@ class Table(NamedTuple):
         )
 
 
-def all_tables(rows: Sequence[Row], methods: Sequence[str]) -> list[Table]:
-    """Every table that the rows allow, methods in the given order."""
+def all_tables(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> list[Table]:
+    """Every table that the rows allow, methods in the given order and the primary endpoint first."""
     tables = [
+        late_table(rows, methods, endpoint),
+        growth_table(rows, methods, endpoint),
+        comparison_table(rows, methods, endpoint),
+        need_table(rows, methods),
         *[last_day_table(rows, methods, measure) for measure in _measures(rows)],
         paper_table(rows, methods),
         comparison_table(rows, methods),
@@ -67,18 +89,61 @@ def _measures(rows: Sequence[Row]) -> list[str]:
 
 def last_day_table(rows: Sequence[Row], methods: Sequence[str], measure: str) -> Table:
     """A measure on each person's last day, by setting and type."""
-    places = sorted({(row.setting, row.collab) for row in rows})
-    found = {place: last_day([row for row in rows if (row.setting, row.collab) == place], measure) for place in places}
-    lines = [[method, *(_cell(found[place].get(method)) for place in places)] for method in methods]
+    places = _places(rows)
+    lines = _lines(methods, [last_day(_of(rows, place), measure) for place in places])
     spec = None if measure == PEOPLE else find_measure(measure)
-    what = f"F1 by {measure}" if spec is None or issubclass(spec.figures, Counts) else spec.title.capitalize()
+    what = f"F1 by {measure}" if spec is None or issubclass(spec.figures, Counts) else _upper(spec.title)
     return Table(
         f"last_day_{measure}",
         f"{what} on each person's last day",
-        ["method", *(f"S{setting} {_TYPES[collab]}" for setting, collab in places)],
+        ["method", *map(_place, places)],
         lines,
-        "Mean over people's last days with a 95 % bootstrap interval clustered by person and home; n in parentheses. "
-        "Where all are of one person there is no interval.",
+        _MEANS,
+    )
+
+
+def late_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
+    """The primary endpoint: need F1 as the mean of each person's late days, by setting and type."""
+    places = _places(rows)
+    found = {place: late_days(_of(rows, place), PRIMARY, endpoint) for place in places}
+    return Table(
+        "late_days",
+        "Primary endpoint: need F1, mean of the late days",
+        ["method", *map(_place, places)],
+        _lines(methods, [found[place] for place in places]),
+        f"{endpoint}. {_MEANS}",
+    )
+
+
+def growth_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
+    """How much better the late days are than the early ones."""
+    places = _places(rows)
+    found = {place: growth(_of(rows, place), PRIMARY, endpoint) for place in places}
+    every = [found[place] for place in places]
+    return Table(
+        "growth",
+        "Growth of need F1 from the early to the late days",
+        ["method", *map(_place, places)],
+        _lines([method for method in methods if any(method in cells for cells in every)], every),
+        f"{endpoint}. {_MEANS}",
+    )
+
+
+def need_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
+    """Need precision, recall and F1 of all hours together."""
+    lines = []
+    for method in methods:
+        hours = [row for row in rows if row.method == method]
+        found = [score(hours, PRIMARY, name) for name in ("precision", "recall", "f1")]
+        if any(value is not None for value in found):
+            lines.append([method, *(NONE if value is None else f"{value:.3f}" for value in found)])
+    return Table(
+        "need",
+        "Need precision, recall and F1, all days",
+        ["method", "need precision", "need recall", "need F1"],
+        lines,
+        "Precision: share of the accepted acts that helped with a remaining task. Recall: share of the person's "
+        "remaining tasks that were helped. Hours pooled; no intervals.",
     )
 
 
@@ -105,27 +170,43 @@ def paper_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
     )
 
 
-def comparison_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
-    """Each method against ours on the same days, all settings and types together."""
+def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint | None = None) -> Table:
+    """Each method against ours on the same days, all settings and types together.
+
+    With an endpoint need F1 on its late days, without one the paper's: predicate F1 on last days.
+    """
+    found = comparisons(rows, REFERENCE, PRIMARY if late else "predicate", late)
     lines = [
         [
-            found.method,
-            f"{found.difference.mean:+.3f} [{found.difference.low:+.3f}, {found.difference.high:+.3f}]",
-            f"{found.p:.4f}",
-            f"{found.p_holm:.4f}",
-            str(found.people),
-            f"{found.detectable:.3f}" if found.detectable is not None else NONE,
+            one.method,
+            f"{one.difference.mean:+.3f} {_signed(one.difference)}",
+            f"{one.p:.4f}",
+            f"{one.p_holm:.4f}",
+            str(one.people),
+            *([NONE if one.detectable is None else f"{one.detectable:.3f}"] if _testable(found) else []),
         ]
-        for found in sorted(comparisons(rows, REFERENCE), key=lambda one: list(methods).index(one.method))
+        for one in sorted(found, key=lambda one: list(methods).index(one.method))
+    ]
+    what = "need F1, mean of the late days" if late else "predicate F1 on the same last days"
+    notes = [
+        f"{late}." if late else "The paper's endpoint.",
+        "Mean over people with a 95 % t interval; sign-flip permutation test over people, two-sided.",
+        f"Its p stays below {ALPHA} after Holm's correction of {len(found)} comparisons from "
+        f"{people_needed(max(len(found), 1))} people on.",
+        *(["Detectable: the true difference found with 80 % power at this scatter."] if _testable(found) else []),
     ]
     return Table(
-        "comparisons",
-        f"Difference to {REFERENCE} in predicate F1 on the same last days",
-        ["method", "difference", "p", "p (Holm)", "people", "detectable"],
+        "comparisons_late" if late else "comparisons",
+        f"Difference to {REFERENCE} in {what}",
+        ["method", "difference", "p", "p (Holm)", "people", *(["detectable"] if _testable(found) else [])],
         lines,
-        "Sign-flip permutation test over people, two-sided; the smallest p that it can give is 2 / 2^people. "
-        "Detectable: the true difference found with 80 % power at this scatter.",
+        " ".join(notes),
     )
+
+
+def _testable(found: Sequence[Comparison]) -> bool:
+    """Whether any of the tests can find something."""
+    return any(one.detectable is not None for one in found)
 
 
 def order_table(rows: Sequence[Row]) -> Table:
@@ -136,7 +217,7 @@ def order_table(rows: Sequence[Row]) -> Table:
         for found in comparisons(pair, worse):
             agrees = "yes" if found.difference.mean > 0 else "no"
             sure = "" if found.p < 0.05 else " (not significant)"
-            gap = f"{found.difference.mean:+.3f} [{found.difference.low:+.3f}, {found.difference.high:+.3f}]"
+            gap = f"{found.difference.mean:+.3f} {_signed(found.difference)}"
             lines.append([f"{better} > {worse}", where, gap, f"{found.p:.4f}", agrees + sure])
     return Table(
         "order",
@@ -205,11 +286,46 @@ def activity_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
     return Table("activities", "Predicate F1 by activity, all days", columns, lines, "Hours pooled; no intervals.")
 
 
+_MEANS = (
+    "Mean over people with a 95 % t interval; several homes, episodes and seeds of a person are averaged first. In "
+    f"parentheses how many episodes of a person these are; fewer than {FEWEST} people have no interval."
+)
+
+
+def _places(rows: Sequence[Row]) -> list[tuple[str, int]]:
+    return sorted({(row.setting, row.collab) for row in rows})
+
+
+def _of(rows: Sequence[Row], place: tuple[str, int]) -> list[Row]:
+    return [row for row in rows if (row.setting, row.collab) == place]
+
+
+def _place(place: tuple[str, int]) -> str:
+    return f"S{place[0]} {_TYPES[place[1]]}"
+
+
+def _lines(methods: Sequence[str], found: Sequence[Mapping[str, Cell]]) -> list[list[str]]:
+    """A row per method, a cell per place; none where no place has any method."""
+    lines = [[method, *(_cell(cells.get(method)) for cells in found)] for method in methods]
+    return lines if any(found) else []
+
+
+def _upper(title: str) -> str:
+    return title[:1].upper() + title[1:]
+
+
 def _cell(cell: Cell | None) -> str:
     if cell is None:
         return NONE
-    mean, low, high = cell.interval
-    return f"{mean:.3f} [{low:.3f}, {high:.3f}] ({cell.n})" if low < high else f"{mean:.3f} ({cell.n})"
+    found = cell.interval
+    return f"{found.mean:.3f} ({cell.n})" if found.low is None else f"{found} ({cell.n})"
+
+
+def _signed(found: Mean) -> str:
+    """An interval of a difference."""
+    if found.low is None or found.high is None:
+        return found.interval
+    return f"[{found.low:+.3f}, {found.high:+.3f}]"
 
 
 def _line(cells: Sequence[str]) -> str:

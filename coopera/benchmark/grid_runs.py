@@ -109,7 +109,9 @@ def claim_folder(bench: Benchmark) -> None:
         for one in (before, now):  # what `shared` says of these counts, however it was asked for
             one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
         # methods, seeds and settings may be added to what was run
-        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+        # the endpoint is stated before the first run, and stays
+        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "late_days", "early_days")
+        before = Grid().model_dump(mode="json", include={"late_days", "early_days"}) | before
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
             raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     elif bench.root.is_dir() and any(bench.root.iterdir()):

@@ -7,21 +7,26 @@ from typing import NamedTuple
 
 from coopera.benchmark.results_files import CARD, read_results
 from coopera.core.errors import ConfigError
-from coopera.evaluation.analysis import last_day
+from coopera.evaluation.analysis import Endpoint, last_day, late_days
 
 
 class Entry(NamedTuple):
-    """One method of one results folder on one setting and type."""
+    """One method of one results folder on one setting and type; an interval of too few people has no ends.
+
+    `need` is the primary endpoint: need F1, mean of the late days. `success` is the paper's: predicate F1 on last days.
+    """
 
     results: str
     method: str
     setting: str
     collab: int
     offline: bool
+    need: float | None
+    need_low: float | None
+    need_high: float | None
     success: float
-    low: float
-    high: float
-    help: float | None
+    low: float | None
+    high: float | None
     people: int
     n: int
 
@@ -41,11 +46,28 @@ def entries(folder: Path) -> list[Entry]:
         name = card.name if path.parent == folder else path.parent.relative_to(folder).as_posix()
         for setting, collab in sorted({(row.setting, row.collab) for row in rows}):
             chosen = [row for row in rows if (row.setting, row.collab) == (setting, collab)]
-            helps, people = last_day(chosen, "help"), len({row.person for row in chosen})
+            late, people = late_days(chosen, endpoint=Endpoint.of(card.grid)), len({row.person for row in chosen})
             for method, cell in last_day(chosen).items():
-                given = helps.get(method)
+                need = late[method].interval if method in late else None
                 found.append(
-                    Entry(name, method, setting, collab, card.offline, *cell.interval,
-                          given.interval.mean if given else None, people, cell.n)
-                )  # fmt: skip
-    return sorted(found, key=lambda one: (one.setting, one.collab, -one.success, one.results, one.method))
+                    Entry(
+                        results=name,
+                        method=method,
+                        setting=setting,
+                        collab=collab,
+                        offline=card.offline,
+                        need=need.mean if need else None,
+                        need_low=need.low if need else None,
+                        need_high=need.high if need else None,
+                        success=cell.interval.mean,
+                        low=cell.interval.low,
+                        high=cell.interval.high,
+                        people=people,
+                        n=cell.n,
+                    )
+                )
+    return sorted(found, key=_rank)
+
+
+def _rank(one: Entry) -> tuple[object, ...]:
+    return one.setting, one.collab, -(one.need or 0.0), -one.success, one.results, one.method

@@ -11,6 +11,7 @@ from markupsafe import Markup
 from coopera.benchmark.grid_runs import Benchmark, gather
 from coopera.config.files import canonical_json, read_text, reason, write_atomic
 from coopera.core.errors import ConfigError, RunError
+from coopera.evaluation.analysis import Endpoint
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.results import Card, Row, check_card, from_csv, to_csv, unpaired
 from coopera.evaluation.tables import Table, all_tables
@@ -47,7 +48,7 @@ def write_views(folder: Path, card: Card, rows: list[Row], *, left: int = 0, tot
     Raises:
         OSError: If the folder cannot be written.
     """
-    tables, figures = all_tables(rows, card.methods), all_figures(rows, card.methods)
+    tables, figures = all_tables(rows, card.methods, Endpoint.of(card.grid)), all_figures(rows, card.methods)
     head = f"# Results of {card.name}\n\n{_coverage(card, rows, left, total)}\n\n"
     drawn = "".join(f"![{name}](figures/{name}.svg)\n\n" for name in figures)
     write_atomic(folder / "tables.md", head + drawn + "\n".join(table.markdown() for table in tables))

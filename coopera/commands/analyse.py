@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from coopera.commands.error_budget import analyse_robot
 from coopera.commands.options import AsJson, RunPath
 
 if TYPE_CHECKING:
@@ -21,7 +22,11 @@ if TYPE_CHECKING:
     from coopera.evaluation.people.learners import Learner
     from coopera.studies.goals import After, JudgedDay
 
-app = typer.Typer(help="Checks on the simulated people, as in the paper, and goals for days.", no_args_is_help=True)
+app = typer.Typer(
+    help="Checks on the simulated people, as in the paper, goals for days, and where a robot's help is lost.",
+    no_args_is_help=True,
+)
+app.command("robot")(analyse_robot)
 
 
 @app.command("humans")

@@ -15,7 +15,7 @@ def leaderboard(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder with results folders, at any depth.")],
     as_json: AsJson = False,
 ) -> None:
-    """Check all results below a folder and rank their methods by predicate F1 on people's last days."""
+    """Check all results below a folder and rank their methods by need F1, mean of the late days."""
     from coopera.benchmark.leaderboard import entries
     from coopera.report.progress import figure
     from coopera.report.tables import print_table
@@ -24,7 +24,8 @@ def leaderboard(
     if as_json:
         typer.echo(json.dumps([one._asdict() for one in found], sort_keys=True))
         return
-    columns = ["setting", "type", "method", "results", "models", "success", "95 % interval", "help", "people", "n"]
+    columns = ["setting", "type", "method", "results", "models", "need F1", "95 % interval"]
+    columns += ["F1, last day", "95 % interval", "people", "n"]
     print_table(
         columns,
         [
@@ -34,15 +35,22 @@ def leaderboard(
                 one.method,
                 one.results,
                 "offline" if one.offline else "language models",
+                figure(one.need),
+                _interval(one.need_low, one.need_high),
                 figure(one.success),
-                f"[{one.low:.3f}, {one.high:.3f}]",
-                figure(one.help),
+                _interval(one.low, one.high),
                 str(one.people),
                 str(one.n),
             ]
             for one in found
         ],
     )
+
+
+def _interval(low: float | None, high: float | None) -> str:
+    from coopera.evaluation.statistics import TOO_SMALL
+
+    return TOO_SMALL if low is None or high is None else f"[{low:.3f}, {high:.3f}]"
 
 
 def export(

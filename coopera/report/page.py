@@ -13,17 +13,18 @@ from markupsafe import Markup
 
 from coopera.config.files import write_atomic
 from coopera.core.clock import hour_label
-from coopera.core.errors import RunError
+from coopera.core.errors import CooperaError, RunError
 from coopera.core.hour import Evening, FeedbackItem, HourRecord, IntentionCandidate, RobotHour, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.people import BigFive, Persona
 from coopera.evaluation.measuring import all_measures
 from coopera.report import charts, learned
+from coopera.report.budget import budget_of, day_rows, in_words
 from coopera.report.pictures import Album, embed
 from coopera.report.progress import figure
 from coopera.report.tree import reasons
 from coopera.rundir.directory import RunDir
-from coopera.rundir.summary import day_entry, headline, pooled
+from coopera.rundir.summary import day_entry, headline, needed, pooled
 from coopera.rundir.trace_files import intention_verdicts
 
 MAX_BYTES = 24_000_000
@@ -140,6 +141,8 @@ def render(run: RunDir, album: Album) -> str:
             measures=all_measures(),
             curve=_curve(days),
             ends=_ends(records),
+            need=needed(records),
+            budget=_budget(run, records, list(evenings.values())),
             by_hour=_by_hour(records, run.config.day_hours),
             calibration=_calibration(records, evenings),
             mixed_up={
@@ -230,11 +233,10 @@ def _kind(task: TaskCandidate) -> str:
 
 
 def _ends(records: Sequence[HourRecord]) -> tuple[float | None, float | None]:
-    """Predicate F1 on the first and on the last day, each pooled over the episodes."""
+    """Need F1 on the first and on the last day, each pooled over the episodes."""
     ages = [record.episode_day for record in records] or [0]
     first, last = (
-        headline((record for record in records if record.episode_day == age), "predicate")
-        for age in (min(ages), max(ages))
+        headline((record for record in records if record.episode_day == age), "help") for age in (min(ages), max(ages))
     )
     return first, last
 
@@ -248,21 +250,33 @@ def _curve(days: Sequence[DayView]) -> Markup:
         for episode in episodes:
             found = {day.entry["episode_day"]: day for day in days if day.entry["episode"] == episode}
             names = ", ".join(dict.fromkeys(day.name for day in found.values()))
-            values = [found[age].entry["predicate"]["f1"] if age in found else None for age in ages]
+            values = [found[age].entry["need"]["f1"] if age in found else None for age in ages]
             series.append(charts.Series(f"{names} (episode {episode})", "episode", values))
-    for measure in ("judge", "predicate"):
+    for measure, name in (("judge", "judge"), ("predicate", "predicate"), ("help", "need")):
         values = [
             headline((hour.record for day in days if day.entry["episode_day"] == age for hour in day.hours), measure)
             for age in ages
         ]
-        series.append(charts.Series(f"{measure} F1", measure, values, labelled=measure == "predicate"))
+        series.append(charts.Series(f"{name} F1", name, values, labelled=name == "need"))
     return charts.lines(series, [f"day {age}" for age in ages])
 
 
 def _by_hour(records: Sequence[HourRecord], hours: Sequence[int]) -> Markup:
-    """Success by hour of day, pooled over all days."""
-    values = [headline((record for record in records if record.hour == hour), "predicate") for hour in hours]
+    """Need F1 by hour of day, pooled over all days."""
+    values = [headline((record for record in records if record.hour == hour), "help") for hour in hours]
     return charts.bars(values, [hour_label(hour).replace(" ", "") for hour in hours])
+
+
+def _budget(run: RunDir, records: Sequence[HourRecord], evenings: Sequence[Evening]) -> dict[str, Any] | None:
+    """Where help was lost, as tables; None without a robot, or where a home of the run is gone."""
+    try:
+        found = budget_of(run, records, evenings)
+    except CooperaError:
+        return None
+    total = found.total
+    if not total.hours:
+        return None
+    return {"all": in_words(total), "days": day_rows(found.days), "missed": total.missed}
 
 
 def _calibration(records: Sequence[HourRecord], evenings: Mapping[int, Evening]) -> Markup | None:

@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from rich import progress as bars
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
@@ -84,18 +85,22 @@ class Progress:
 def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None = None) -> None:
     """Print the days of a run with their success, and where its report is."""
     console = console or Console(highlight=False)
-    table = Table(title=f"{summary['method']}, setting {summary['setting']}", title_justify="left")
+    title = f"{summary['method']}, setting {summary['setting']}"
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     for name in ("day", "person", "home"):
         table.add_column(name)
     shown: list[tuple[str, str, str]] = []
     for spec in all_measures():
-        shown += [(spec.title, spec.name, spec.headline), *((name, spec.name, name) for name in spec.beside)]
+        shown += [(spec.short or spec.title, spec.name, spec.headline)]
+        shown += [(name, spec.name, name) for name in spec.beside]
     for title, _, _ in shown:
         table.add_column(title, justify="right", overflow="fold")
     for day in summary["days"]:
-        figures = (figure(day[measure][name]) for _, measure, name in shown)
+        figures = (figure(day.get(measure, {}).get(name)) for _, measure, name in shown)
         table.add_row(str(day["day"]), day["person"], day["scene"], *figures)
     console.print(table)
+    console.print("need F1, precision, recall: what it did against what the person still had to do;", soft_wrap=True)
+    console.print("F1 (by the predicate) and judge: over the robot's own candidates, as in the paper.", soft_wrap=True)
     if summary.get("failed_hours"):
         console.print(f"{summary['failed_hours']} of {summary['hours']} hours failed and are not in these figures.")
     if summary.get("unscored"):

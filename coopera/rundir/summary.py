@@ -11,22 +11,25 @@ from typing import Any
 from coopera.config.schema import Config
 from coopera.core.hour import Counts, Evening, HourRecord
 from coopera.evaluation.agreement import by_person, l1
+from coopera.evaluation.measures.help import need, pool_help
 from coopera.evaluation.measuring import Pooled, all_measures, find_measure
 
 _HOUR = ("day", "episode", "episode_day", "hour", "person", "scene")
+_NEED = ("need_precision", "need_recall", "need_f1")
 _COUNTS = ("f1", "precision", "recall", "tp", "fp", "fn", "tn", "unscored")
 
 
 def columns() -> list[str]:
     """The columns of metrics.csv: which hour, by which measure, and the figures of every measure."""
     figures = [name for spec in all_measures() for name in spec.figures.model_fields if name not in _COUNTS]
-    return [*_HOUR, "measure", *_COUNTS, "status", *dict.fromkeys(figures)]
+    return [*_HOUR, "measure", *_COUNTS, "status", *dict.fromkeys(figures), *_NEED]
 
 
 def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
     """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures.
 
-    What the help was worth (`coopera.core.hour.Help`) stands in the row of the predicate, which it is measured by.
+    What the help was worth (`coopera.core.hour.Help`, and the hour's need precision, recall and F1) stands in the row
+    of the predicate, which it is measured by.
     """
     blank: dict[str, Any] = dict.fromkeys(columns())
     blank |= {name: getattr(record, name) for name in (*_HOUR, "status")}
@@ -35,6 +38,8 @@ def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
         row = rows.setdefault(spec.row or spec.name, {**blank, "measure": spec.row or spec.name})
         found = spec.read(record.success) if record.success else None
         row |= found.model_dump() if found else {}
+    if record.success and record.success.help:
+        rows["predicate"] |= dict(zip(_NEED, need(record.success.help), strict=True))
     return list(rows.values())
 
 
@@ -65,6 +70,7 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
         "people": config.humans or [],
         "scenes": config.scenes or [],
         "models": config.models.model_dump(),
+        "need": needed(hours),
         "days": entries,
         "calls": len(calls),
         "calls_cached": sum(call.cached for call in calls),
@@ -87,6 +93,11 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
         "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
         "agreement": _agreement(hours, told),
     }
+
+
+def needed(hours: Iterable[HourRecord]) -> dict[str, float | None]:
+    """Need precision, recall and F1 of some hours, their counts pooled: the headline (`docs/measures.md`)."""
+    return need(pool_help([hour.success.help for hour in hours if hour.success and hour.success.help]))._asdict()
 
 
 def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
@@ -129,6 +140,7 @@ def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> di
         "scene": first.scene,
         "hours": len(hours),
         "failed_hours": sum(record.status == "failed" for record in hours),
+        "need": needed(hours),
         **{spec.name: dict(pooled(hours, spec.name)) for spec in all_measures()},
         "people": by_person(evening.feedback if evening else []).model_dump(),
     }

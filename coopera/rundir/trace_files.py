@@ -58,6 +58,7 @@ def _read_record(path: Path, kind: type[Record], state: tuple[int, int, int]) ->
     if isinstance(data, dict):
         _underive(data)
         _rename(data)
+        _complete(data)
     try:
         return kind.model_validate(data)
     except ValidationError as err:
@@ -100,6 +101,14 @@ def _rename(data: dict[str, Any]) -> None:
     for part in (data, data.get("robot")):
         if isinstance(part, dict) and "picture" in part:
             part["belief"] = part.pop("picture")
+
+
+def _complete(data: dict[str, Any]) -> None:
+    """Count the accepted acts where a trace of before did not: each is a tp or an fp of the predicate."""
+    success = data.get("success")
+    given, counts = (success.get("help"), success.get("predicate")) if isinstance(success, dict) else (None, None)
+    if isinstance(given, dict) and isinstance(counts, dict) and "accepted" not in given:
+        given["accepted"] = counts.get("tp", 0) + counts.get("fp", 0)
 
 
 def _derive(data: dict[str, Any], record: HourRecord) -> None:

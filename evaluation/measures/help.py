@@ -1,16 +1,31 @@
-"""What the robot's help was worth: coverage of the person's tasks, effort saved, false help.
+"""What the robot's help was worth: need precision, recall and F1, effort saved, false help.
 
-F1 asks how well the robot judged *what it proposed*; a robot that proposes nothing useful can score well on it. This
-asks about the person's tasks instead. `docs/measures.md` defines all figures with worked examples.
+The paper's F1 asks how well the robot judged *what it proposed*; a robot that proposes little scores well on it. This
+asks about what the person still had to do instead. `docs/measures.md` defines all figures with worked examples.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from coopera.core.hour import Help
 from coopera.core.household import Outcome
 from coopera.evaluation.measuring import MeasuredHour, MeasureSpec, Pooled, sums
+
+
+class Need(NamedTuple):
+    """The headline of some hours, each in [0, 1] or None where it has no meaning.
+
+    Attributes:
+        precision: Share of the accepted acts that helped with a remaining task; None where none was accepted.
+        recall: Share of the remaining tasks that were helped; None where none remained.
+        f1: Their harmonic mean; 0 where one of them is 0, None where no task remained.
+    """
+
+    precision: float | None
+    recall: float | None
+    f1: float | None
 
 
 def help_given(outcomes: Sequence[Outcome], useful: Sequence[Sequence[bool]], *, remaining: int) -> Help:
@@ -34,6 +49,7 @@ def help_given(outcomes: Sequence[Outcome], useful: Sequence[Sequence[bool]], *,
     return Help(
         remaining=remaining,
         helped=len(helped),
+        accepted=len(outcomes),
         done=sum(outcome.ok for outcome in outcomes),
         useless=useless,
         metres=round(sum(outcome.metres for outcome in outcomes), 6),
@@ -46,9 +62,14 @@ def pool_help(hours: Sequence[Help]) -> Help:
     return Help.model_validate(sums(Help)(hours))
 
 
-def help_score(given: Help) -> float | None:
-    """Share of the person's remaining tasks that were really helped, in [0, 1]; None where no task remained."""
-    return given.helped / given.remaining if given.remaining else None
+def need(given: Help) -> Need:
+    """Need precision, recall and F1 of pooled figures. A failed act was accepted and helped with nothing."""
+    precision = (given.done - given.useless) / given.accepted if given.accepted else None
+    recall = given.helped / given.remaining if given.remaining else None
+    if recall is None:
+        return Need(precision, None, None)
+    both = (precision or 0.0) + recall
+    return Need(precision, recall, 2 * (precision or 0.0) * recall / both if both else 0.0)
 
 
 def false_help(given: Help, hours: int) -> float | None:
@@ -63,17 +84,20 @@ def _measure(hour: MeasuredHour) -> Help:
 
 def _pool(hours: Sequence[Help]) -> Pooled:
     given = pool_help(hours)
-    return {**given.model_dump(), "score": help_score(given), "false_per_hour": false_help(given, len(hours))}
+    found = need(given)
+    rates = {**found._asdict(), "score": found.recall, "false_per_hour": false_help(given, len(hours))}
+    return {**given.model_dump(), **rates}  # `score` is what recall was called before
 
 
 MEASURE = MeasureSpec(
     name="help",
-    about="share of the person's remaining tasks that the robot's acts really helped with, by the predicate",
-    title="help score",
+    about="need F1: of the accepted acts, against what the person still had to do, by the predicate",
+    title="need F1",
     figures=Help,
     measure=_measure,
     pool=_pool,
-    headline="score",
+    headline="f1",
+    beside=("precision", "recall"),
     row="predicate",  # by which it is measured
-    order=2,
+    order=0,
 )

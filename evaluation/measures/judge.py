@@ -34,5 +34,6 @@ MEASURE = by_counts(
     "judge",
     "F1 over the robot's candidates; a language model that knows the truth says which of them help",
     _verdicts,
-    order=1,
+    short="judge",
+    order=2,
 )

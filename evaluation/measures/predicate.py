@@ -8,6 +8,6 @@ MEASURE = by_counts(
     "predicate",
     "F1 over the robot's candidates; a rule says which of them help with a remaining task",
     lambda hour: [candidate.correct for candidate in hour.candidates],
-    beside=("precision", "recall"),
-    order=0,
+    short="F1",
+    order=1,
 )

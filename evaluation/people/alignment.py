@@ -12,7 +12,7 @@ from coopera.core.people import PersonId
 from coopera.evaluation.people.figures import Figure, unmeasured
 from coopera.evaluation.people.learners import Floats
 from coopera.evaluation.people.lives import Lives
-from coopera.evaluation.statistics import bootstrap
+from coopera.evaluation.statistics import mean_over_people
 from coopera.memory.embeddings import as_array
 
 _MEASURES = ("aligned", "generic", "mismatched")
@@ -56,15 +56,14 @@ def alignment(
         if not cosines:
             figures += unmeasured("like people", name, why=why[name])
             continue
-        interval = bootstrap(cosines, lambda some: float(np.mean(some)), seed=seed)
-        low, high = (interval.low, interval.high) if len(cosines) > 1 else (None, None)
+        mean = mean_over_people(cosines)
         figures.append(
             Figure(
                 check="like people",
                 measure=name,
-                value=interval.mean,
-                low=low,
-                high=high,
+                value=mean.mean,
+                low=mean.low,
+                high=mean.high,
                 n=len(cosines),
                 unit="recorded people",
             )

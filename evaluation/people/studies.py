@@ -18,7 +18,7 @@ from coopera.core.people import TRAITS, Frozen, Persona
 from coopera.core.randomness import rng_at
 from coopera.evaluation.people.figures import FULL, PAPER, Figure
 from coopera.evaluation.people.lives import LivedDay, Lives
-from coopera.evaluation.statistics import bootstrap
+from coopera.evaluation.statistics import mean_over_people
 
 OPTIONS = 3  # PAPER §4.2: one correct, two distractors
 PEOPLE = 10  # PAPER §4.2
@@ -158,9 +158,8 @@ def score_answers(key: Key, answers: Sequence[Answers], *, seed: int = 0) -> lis
             note=f"chance {chance:.3f}" if shares else "nobody has answered",
         )
         if shares:
-            interval = bootstrap(shares, lambda some: float(np.mean(some)), seed=seed)
-            ends = {"low": interval.low, "high": interval.high} if len(shares) > 1 else {}
-            figure = figure.model_copy(update={"value": interval.mean, **ends})
+            found = mean_over_people(shares)
+            figure = figure.model_copy(update={"value": found.mean, "low": found.low, "high": found.high})
         figures.append(figure)
     return figures
 

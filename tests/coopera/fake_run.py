@@ -28,10 +28,11 @@ from coopera.core.hour import (
     TaskCandidate,
     TaskVerdict,
 )
-from coopera.core.household import FreeMotion, HandOver, Outcome, Percept, PickPlace
+from coopera.core.household import Act, FreeMotion, HandOver, Outcome, Percept, PickPlace
 from coopera.core.people import TRAITS, Belief, BigFive, Persona
 from coopera.core.randomness import rng_at
 from coopera.evaluation.counts import count
+from coopera.evaluation.measures.help import help_given
 from coopera.people.shipped import find
 from coopera.rundir.directory import RunDir
 
@@ -177,11 +178,19 @@ def _robot(
     )
     accepted, correct = [bool(t.accepted) for t in tasks], [t.correct for t in tasks]
     judged = [None if c is None else bool(c) ^ bool(rng.random() < 0.1) for c in correct]
-    success = Success(predicate=count(accepted, correct), judge=count(accepted, judged))
+    useful = [[_helps(one.act, task.act) for task in human.tasks[1:]] for one in outcomes]
+    given = help_given(outcomes, useful, remaining=len(human.tasks) - 1)
+    success = Success(predicate=count(accepted, correct), judge=count(accepted, judged), help=given)
     fallbacks = [] if tasks else ["no intention accepted"]
     return RobotHour(
         observation=observation, recalled=[], intentions=intentions, tasks=tasks, outcomes=outcomes, fallbacks=fallbacks
     ), success
+
+
+def _helps(act: Act, wanted: Act) -> bool:
+    if isinstance(act, HandOver) and isinstance(wanted, FreeMotion):
+        return act.object == wanted.in_hand
+    return act.describe() == wanted.describe()
 
 
 def _frames(run: RunDir, day: int, hour: int, room: str, config: Config) -> list[str]:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from coopera.evaluation.comparing import Unit, clustered_mean, compare, detectable, holm, sign_flip
+from coopera.evaluation.comparing import Unit, clustered_mean, compare, detectable, holm, people_needed, sign_flip
 
 
 def unit(person: str, value: float, scene: str = "maple", seed: int = 0) -> Unit:
@@ -31,15 +31,18 @@ def test_holm_multiplies_the_smallest_most_and_never_reorders() -> None:
     assert holm([]) == []
 
 
-def test_one_person_in_one_home_has_no_spread() -> None:
-    assert clustered_mean([unit("amara", 0.4), unit("amara", 0.6)]) == pytest.approx((0.5, 0.5, 0.5))
+def test_one_person_in_one_home_has_no_interval() -> None:
+    assert clustered_mean([unit("amara", 0.4), unit("amara", 0.6)]) == (pytest.approx(0.5), None, None, 1)
 
 
-def test_days_of_one_person_do_not_narrow_the_interval() -> None:
+def test_days_homes_and_seeds_of_one_person_do_not_narrow_the_interval() -> None:
     few = [unit("amara", 0.2), unit("bruno", 0.8), unit("chen", 0.5)]
-    many = [one for one in few for _ in range(50)]
-    narrow, wide = clustered_mean(many), clustered_mean(few)
-    assert narrow.high - narrow.low == pytest.approx(wide.high - wide.low, abs=0.02)
+    many = [one._replace(scene=home, seed=seed) for one in few for home in ("maple", "oak") for seed in range(25)]
+    assert clustered_mean(many) == pytest.approx(clustered_mean(few))
+
+
+def test_a_person_weighs_the_same_however_often_they_were_met() -> None:
+    assert clustered_mean([unit("amara", 0.2), *[unit("bruno", 0.8, seed=n) for n in range(9)]]).mean == 0.5
 
 
 def test_methods_are_compared_on_the_days_that_both_lived() -> None:
@@ -52,7 +55,17 @@ def test_methods_are_compared_on_the_days_that_both_lived() -> None:
     assert compare(ours, {"stranger": {("z",): unit("zoe", 1.0)}}) == []
 
 
-def test_the_detectable_difference_is_that_of_the_normal_approximation() -> None:
-    """(1.9600 + 0.8416) x SD 0.1 / sqrt 4 = 0.1401; of two people nothing is said."""
-    assert detectable([0.0, 0.2, 0.0, 0.2]) == pytest.approx(2.80159 * 0.11547 / 2, abs=1e-4)
-    assert detectable([0.1, 0.2]) is None
+def test_the_detectable_difference_is_that_of_a_t_test() -> None:
+    """(2.5706 + 0.9195) x SD 0.10954 / sqrt 6 = 0.1561."""
+    assert detectable([0.0, 0.2] * 3) == pytest.approx(0.1561, abs=1e-4)
+
+
+@pytest.mark.parametrize("people", [0, 1, 2, 3, 5])
+def test_nothing_is_said_to_be_detectable_where_no_test_can_find_it(people: int) -> None:
+    """Five people: 2 / 2^5 = 0.0625 is the smallest p there is."""
+    assert detectable([0.1, 0.2, 0.3, 0.4, 0.5][:people]) is None
+
+
+def test_holm_asks_for_more_people_the_more_is_compared() -> None:
+    """One comparison: 2 / 2^6 < 0.05. Twelve: 12 x 2 / 2^9 = 0.047."""
+    assert (people_needed(1), people_needed(12)) == (6, 9)

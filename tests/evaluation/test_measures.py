@@ -9,7 +9,7 @@ from coopera.core.household import HandOver, Outcome, SceneId
 from coopera.core.people import PersonId
 from coopera.evaluation.agreement import by_person, l1
 from coopera.evaluation.latency import robot_seconds
-from coopera.evaluation.measures.help import false_help, help_given, help_score, pool_help
+from coopera.evaluation.measures.help import Need, false_help, help_given, need, pool_help
 
 
 def done(metres: float = 2.0, *, ok: bool = True) -> Outcome:
@@ -19,12 +19,13 @@ def done(metres: float = 2.0, *, ok: bool = True) -> Outcome:
 def test_help_is_counted_as_by_hand() -> None:
     """Four tasks remain. Act 1 (3 m) helps tasks 1 and 2; act 2 (5 m) helps nothing; act 3 (2 m) fails.
 
-    helped 2 of 4, so the score is 0.5; done 2, useless 1; driven 10 m, of which 3 m saved the person something.
+    One of three accepted acts helped: precision 1/3. Two of four tasks were helped: recall 1/2. F1 = 2/6 / (5/6) = 0.4.
+    Two were done, one of them useless; driven 10 m, of which 3 m saved the person something.
     """
     rows = [[True, True, False, False], [False] * 4, [False, False, True, False]]
     given = help_given([done(3), done(5), done(2, ok=False)], rows, remaining=4)
-    assert given == Help(remaining=4, helped=2, done=2, useless=1, metres=10, saved_metres=3)
-    assert help_score(given) == 0.5
+    assert given == Help(remaining=4, helped=2, accepted=3, done=2, useless=1, metres=10, saved_metres=3)
+    assert need(given) == pytest.approx((1 / 3, 1 / 2, 0.4))
     assert false_help(given, hours=1) == 1
 
 
@@ -33,25 +34,32 @@ def test_a_second_act_for_the_same_task_saves_nothing_and_is_not_false() -> None
     assert (given.helped, given.useless, given.saved_metres) == (1, 0, 3)
 
 
-def test_a_robot_that_proposed_nothing_scores_zero_where_f1_has_no_meaning() -> None:
-    assert help_score(help_given([], [], remaining=4)) == 0
+def test_a_robot_that_proposed_nothing_has_need_f1_zero_where_the_papers_f1_has_no_meaning() -> None:
+    assert need(help_given([], [], remaining=4)) == Need(None, 0, 0)
+    assert need(help_given([done()], [[False] * 4], remaining=4)) == Need(0, 0, 0)
 
 
 def test_where_no_task_remained_there_is_no_score() -> None:
     given = help_given([done()], [[]], remaining=0)
-    assert help_score(given) is None
+    assert need(given) == Need(0, None, None)
     assert given.useless == 1
 
 
 def test_without_a_scored_hour_there_is_no_rate_of_false_help() -> None:
     assert false_help(pool_help([]), hours=0) is None
-    assert help_score(pool_help([])) is None
+    assert need(pool_help([])) == Need(None, None, None)
 
 
 def test_hours_are_pooled_before_the_rate_is_taken() -> None:
-    """1 of 1 and 0 of 3 tasks helped: 1 / 4, not the mean of 1 and 0. Two useless acts in two hours: 1 per hour."""
-    hours = [Help(remaining=1, helped=1, done=1), Help(remaining=3, done=2, useless=2, metres=1.5)]
-    assert help_score(pool_help(hours)) == 0.25
+    """1 of 1 and 0 of 3 tasks helped: 1 / 4, not the mean of 1 and 0; 1 of 3 accepted acts helped; F1 = 2/12 / (7/12).
+
+    Two useless acts in two hours: 1 per hour.
+    """
+    hours = [
+        Help(remaining=1, helped=1, accepted=1, done=1),
+        Help(remaining=3, accepted=2, done=2, useless=2, metres=1.5),
+    ]
+    assert need(pool_help(hours)) == pytest.approx((1 / 3, 1 / 4, 2 / 7))
     assert false_help(pool_help(hours), len(hours)) == 1
     assert pool_help(hours).metres == 1.5
 
@@ -62,6 +70,7 @@ def test_help_never_counts_a_task_or_an_act_twice(acts: list[tuple[bool, list[bo
     assert given.helped <= 3
     assert given.useless <= given.done <= len(acts)
     assert given.saved_metres <= given.metres
+    assert all(0 <= value <= 1 for value in need(given) if value is not None)
     assert (given.helped == 0) == (given.saved_metres == 0)
 
 

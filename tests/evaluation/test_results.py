@@ -8,7 +8,19 @@ import pytest
 from coopera.core.errors import ConfigError
 from coopera.core.people import Frozen
 from coopera.evaluation import measuring
-from coopera.evaluation.analysis import agreement, comparisons, curve, effort, generalisation, last_day, score
+from coopera.evaluation.analysis import (
+    STATED,
+    Endpoint,
+    agreement,
+    comparisons,
+    curve,
+    effort,
+    generalisation,
+    growth,
+    last_day,
+    late_days,
+    score,
+)
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.measuring import MeasureSpec, sums
 from coopera.evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
@@ -19,7 +31,7 @@ def row(method: str = "ours", person: str = "amara", day: int = 0, hour: int = 9
     counts = {
         f"{m}_{c}": n for m in ("predicate", "judge", "people") for c, n in zip(COUNTS, (1, 1, 0, 2, 0), strict=True)
     }
-    given = {"remaining": 4, "helped": 1, "done": 2, "useless": 1, "metres": 5.0, "saved_metres": 2.5}
+    given = {"remaining": 4, "helped": 1, "done": 2, "useless": 1, "metres": 5.0, "saved_metres": 2.5, "accepted": 2}
     data: dict[str, Any] = {
         **{"method": method, "setting": "1", "collab": 2, "seed": 0, "episode": 0, "day": day, "round": day},
         **{"last": day == 1, "hour": hour, "person": person, "scene": "maple", "status": "ok", "activity": "rest"},
@@ -36,7 +48,7 @@ COUNTS = ("tp", "fp", "fn", "tn", "unscored")
 def failed(**over: Any) -> Row:
     nothing = {name: None for name in Row.model_fields if name.startswith(("predicate", "judge", "people"))}
     return row(status="failed", **nothing, remaining=None, helped=None, done=None, useless=None, metres=None,
-               saved_metres=None, **over)  # fmt: skip
+               saved_metres=None, accepted=None, **over)  # fmt: skip
 
 
 def card(rows: list[Row], **over: Any) -> dict[str, Any]:
@@ -92,10 +104,11 @@ def test_methods_that_met_different_days_are_found() -> None:
 
 
 def test_scores_pool_hours_and_leave_failed_ones_out() -> None:
-    """tp 1 fp 1 twice: 4 / (4 + 2); helped 2 of 8."""
+    """tp 1 fp 1 twice: 4 / (4 + 2); helped 2 of 8, by 2 of 4 accepted acts: F1 = 1/4 / (3/4)."""
     rows = [row(hour=9), row(hour=10), failed(hour=11)]
     assert score(rows, "predicate") == pytest.approx(2 / 3)
-    assert score(rows, "help") == 0.25
+    assert score(rows, "help") == pytest.approx(1 / 3)
+    assert score(rows, "help", "recall") == 0.25
     assert score([failed()], "predicate") is None
     assert score([failed()], "help") is None
 
@@ -111,6 +124,60 @@ def test_methods_are_compared_with_the_reference_on_the_same_days() -> None:
     [found] = comparisons(rows, "ours")
     assert (found.method, found.people) == ("random", 1)
     assert found.difference.mean == pytest.approx(2 / 5 - 2 / 3)
+
+
+def life(method: str, person: str, *helped: int) -> list[Row]:
+    """A day of one hour for each: of four tasks so many were helped, by as many of four accepted acts (need F1 / 4)."""
+    days = enumerate(helped)
+    return [row(method, person, day=d, helped=n, done=4, useless=4 - n, accepted=4) for d, n in days]
+
+
+def test_the_primary_endpoint_is_the_mean_of_the_late_days() -> None:
+    """Of five days the last third, rounded up, is two: (3/4 + 4/4) / 2. Days 2 and 3 of the five are the early ones."""
+    rows = [*life("ours", "amara", 0, 1, 2, 3, 4), *life("random", "amara", 0, 1, 1, 1, 1)]
+    assert late_days(rows)["ours"].interval.mean == pytest.approx(0.875)
+    assert growth(rows, "help")["ours"].interval.mean == pytest.approx(0.875 - 0.375)
+    [found] = comparisons(rows, "ours", "help", STATED)
+    assert found.difference.mean == pytest.approx(0.25 - 0.875)
+
+
+def test_of_fifteen_days_the_late_ones_are_11_to_15_and_the_early_ones_2_to_5() -> None:
+    assert (STATED.late_days(15), STATED.early_days(15)) == (range(10, 15), range(1, 5))
+    assert Endpoint(late=2).late_days(15) == range(13, 15)
+
+
+def test_whoever_has_no_early_days_has_no_growth() -> None:
+    rows = [*life("ours", "amara", 1, 2), *life("ours", "bruno", 0, 1, 2)]
+    assert growth(rows, "help")["ours"].n == 1
+    assert growth(life("ours", "amara", 1), "help") == {}
+
+
+def test_tables_name_the_endpoint_that_the_grid_states() -> None:
+    rows = [one for person in ("amara", "bruno", "chen") for one in life("ours", person, 0, 1, 2, 3)]
+    [table] = [
+        table for table in all_tables(rows, ["ours"], Endpoint.of({"late_days": 1})) if table.name == "late_days"
+    ]
+    assert table.rows == [["ours", "0.750 [0.750, 0.750] (3)"]]
+    assert "Stated beforehand; late days: each person's last day of an episode; early days: 2 to 5." in table.note
+    old = Endpoint.of({})
+    assert (old.late, old.early, old.stated) == (STATED.late, STATED.early, False)
+    assert str(old).startswith("Not stated by this grid, which is older; late days: each person's last third")
+
+
+def test_two_people_get_no_interval_and_no_detectable_difference() -> None:
+    rows = [one for who in ("amara", "bruno") for m in ("ours", "random") for one in life(m, who, 0, 1, 2)]
+    tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
+    assert tables["late_days"].rows[0] == ["ours", "0.500 (2)"]
+    assert "detectable" not in tables["comparisons_late"].columns
+    assert tables["comparisons_late"].rows == [["random", "+0.000 (n too small)", "1.0000", "1.0000", "2"]]
+
+
+def test_a_table_of_before_the_accepted_acts_were_counted_is_read_and_they_are_computed() -> None:
+    """tp 1 and fp 1: two were accepted."""
+    lines = [line.rsplit(",", 1)[0] for line in to_csv([row(), failed(hour=10)]).splitlines()]
+    first, second = from_csv("\n".join(lines), "hours.csv")
+    assert first == row()
+    assert second.accepted is None
 
 
 def test_generalisation_takes_the_last_day_of_the_episode_alone() -> None:
@@ -158,13 +225,15 @@ def test_a_further_measure_has_columns_and_a_table_of_its_own(monkeypatch: pytes
     rows = [row(hour=9, walked_steps=4, walked_metres=1.5), row(hour=10, walked_steps=2, walked_metres=2.0)]
     rows.append(failed(hour=11))
     text = to_csv(rows)
-    assert text.splitlines()[0].endswith(",saved_metres,walked_steps,walked_metres")
+    assert text.splitlines()[0].endswith(",saved_metres,accepted,walked_steps,walked_metres")
     assert from_csv(text, "hours.csv") == rows
     assert score(rows, "walked") == 3.5
     titles = [table.title for table in all_tables([row(day=1, walked_steps=1, walked_metres=0.5)], ["ours"])]
-    assert titles[:5] == [
+    heads = ["Primary endpoint: need F1, mean of the late days", "Need precision, recall and F1, all days"]
+    assert titles[:7] == [
+        *heads,
         *(f"F1 by {name} on each person's last day" for name in ("predicate", "judge", "people")),
-        "Help score on each person's last day",
+        "Need F1 on each person's last day",
         "Metres walked on each person's last day",
     ]
     with pytest.raises(ConfigError, match="walked_steps: this column is missing"):
@@ -173,4 +242,4 @@ def test_a_further_measure_has_columns_and_a_table_of_its_own(monkeypatch: pytes
 
 def test_a_column_that_is_no_measures_is_refused() -> None:
     with pytest.raises(ConfigError, match="the columns must be those of format 1; check Note"):
-        from_csv(to_csv([row()]).replace("saved_metres", "saved_metres,Note", 1), "hours.csv")
+        from_csv(to_csv([row()]).replace("accepted", "accepted,Note", 1), "hours.csv")

@@ -1,21 +1,66 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from statistics import fmean
 
-from coopera.evaluation.statistics import bootstrap, bootstrap_mean
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from coopera.evaluation.statistics import bootstrap, mean_over_people
+
+Floats = NDArray[np.float64]
 
 
-def test_the_interval_holds_the_mean_and_is_the_same_each_time() -> None:
-    values = [0.1, 0.4, 0.2, 0.5, 0.3]
-    interval = bootstrap_mean(values)
-    assert interval == bootstrap_mean(values)
-    assert interval.low < interval.mean < interval.high
-    assert abs(interval.mean - 0.3) < 1e-12
+def test_the_interval_of_a_mean_is_students() -> None:
+    """Mean 0.3, SD 0.1581, five people: 0.3 +- 2.7764 x 0.1581 / sqrt 5 = 0.3 +- 0.1963."""
+    found = mean_over_people([0.1, 0.4, 0.2, 0.5, 0.3])
+    assert found == (pytest.approx(0.3), pytest.approx(0.1037, abs=1e-4), pytest.approx(0.4963, abs=1e-4), 5)
+    assert str(found) == "0.300 [0.104, 0.496]"
 
 
 def test_equal_values_have_an_interval_of_no_width() -> None:
-    assert bootstrap_mean([0.25] * 4) == (0.25, 0.25, 0.25)
+    assert mean_over_people([0.25] * 4) == (0.25, 0.25, 0.25, 4)
+
+
+@pytest.mark.parametrize("values", [[0.4], [0.4, 0.6]])
+def test_one_or_two_people_have_no_interval_and_that_is_said(values: list[float]) -> None:
+    found = mean_over_people(values)
+    assert (found.low, found.high, found.people) == (None, None, len(values))
+    assert found.interval == "(n too small)"
+
+
+def realistic(rng: np.random.Generator, lives: int, people: int) -> Floats:
+    """People differ by SD 0.021 and days by 0.076, as measured, each in [0, 1]; a person's mean of five days."""
+    return over_days(rng, rng.normal(0.31, 0.021, (lives, people)))
+
+
+def skewed(rng: np.random.Generator, lives: int, people: int) -> Floats:
+    """Most people get little and some much (an exponential tail above 0.15)."""
+    return over_days(rng, 0.15 + rng.exponential(0.04, (lives, people)))
+
+
+def near_zero(rng: np.random.Generator, lives: int, people: int) -> Floats:
+    """So little help that the bound of 0 cuts off a third of all days."""
+    return over_days(rng, rng.normal(0.04, 0.021, (lives, people)))
+
+
+def over_days(rng: np.random.Generator, people: Floats) -> Floats:
+    means = np.clip(people, 0, 1)[..., None]
+    return np.clip(rng.normal(means, 0.076, (*people.shape, 5)), 0, 1).mean(axis=-1)
+
+
+@pytest.mark.parametrize("people", [6, 12, 20])
+@pytest.mark.parametrize("population", [realistic, skewed, near_zero])
+def test_an_interval_that_says_95_percent_covers_at_least_93(
+    population: Callable[[np.random.Generator, int, int], Floats], people: int
+) -> None:
+    """4,000 samples of so many people each; the truth is the mean of half a million others."""
+    truth = float(population(np.random.default_rng(1), 1, 500_000).mean())
+    found = [mean_over_people(sample) for sample in population(np.random.default_rng(0), 4000, people).tolist()]
+    covered = fmean(one.low is not None and one.high is not None and one.low <= truth <= one.high for one in found)
+    assert 0.93 <= covered <= 0.97
 
 
 def test_any_statistic_is_resampled_by_units_and_not_by_what_is_in_them() -> None:

@@ -100,7 +100,7 @@ def test_what_was_done_is_measured_against_the_persons_tasks_and_not_against_the
     outcome = Outcome(agent="robot", act=brought.act, ok=True, metres=4)
     _, success = measure(FakeHome(), AT, Intention(text="Read"), tasks, [brought], [outcome])
     assert success.predicate.f1 == 1
-    assert success.help == Help(remaining=2, helped=1, done=1, metres=4, saved_metres=4)
+    assert success.help == Help(remaining=2, helped=1, accepted=1, done=1, metres=4, saved_metres=4)
 
 
 def place(thing: str, receptacle: str, relation: Relation = "on") -> PickPlace:

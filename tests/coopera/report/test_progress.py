@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 
 from rich.console import Console
 
-from coopera.report.progress import Progress
+from coopera.report.progress import Progress, days_table
+from coopera.rundir.directory import RunDir
 
 
 def lines(events: list[tuple[int, int | None, str, float | None]], *, terminal: bool = False) -> str:
@@ -40,6 +42,22 @@ def test_a_terminal_gets_day_hour_node_and_running_success() -> None:
     text = lines(EVENTS[:5], terminal=True)
     assert "day 0 · 10 am · record · F1 so far 0.400" in text
     assert "2/4" in text
+
+
+def test_the_days_of_a_run_fit_80_columns_with_need_f1_first(small_run: RunDir) -> None:
+    console = Console(record=True, width=80, file=io.StringIO())
+    summary = small_run.summary()
+    for day in summary["days"]:
+        day["person"] = "spc-valid-0001"
+    days_table(summary, Path("here"), console)
+    text = console.export_text()
+    [heads] = [line for line in text.splitlines() if "person" in line and "home" in line]
+    assert heads.split() == ["day", "person", "home", "need", "F1", "precision", "recall", "F1", "judge"]
+    for day in summary["days"]:
+        assert day["need"].keys() == {"precision", "recall", "f1"}
+        [line] = [line for line in text.splitlines() if line.split()[:2] == [str(day["day"]), "spc-valid-0001"]]
+        shown = [day["need"]["f1"], day["need"]["precision"], day["need"]["recall"], day["predicate"]["f1"]]
+        assert line.split()[3:7] == ["–" if value is None else f"{value:.3f}" for value in shown]
 
 
 def test_a_resumed_run_counts_the_hours_that_were_lived_before() -> None:

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from coopera.evaluation.robot.error_budget import LOST, by_day
 from coopera.report import charts
+from coopera.report.budget import read_budget
 from coopera.report.page import gather_pictures, hour_view, render, write_report
 from coopera.report.pictures import embed, thin
 from coopera.rundir.directory import RunDir
@@ -88,7 +90,23 @@ def test_every_hour_shows_candidates_scores_verdicts_and_what_was_right(page: Pa
 def test_the_curve_and_the_map_carry_their_figures(page: Page, small_run: RunDir) -> None:
     for day in small_run.summary()["days"]:
         assert f"{day['predicate']['f1']:.3f}" in page.text
+        assert f"{day['need']['f1']:.3f}" in page.text
     assert "svg" in page.tags
+
+
+def test_need_f1_is_the_headline_with_its_precision_and_recall(page: Page, small_run: RunDir) -> None:
+    need = small_run.summary()["need"]
+    said = f"need F1, all days{need['f1']:.3f}precision {need['precision']:.3f} · recall {need['recall']:.3f}"
+    assert said.replace(" ", "") in "".join(page.text.split())
+
+
+def test_the_page_says_where_help_was_lost_over_all_days_and_by_day(page: Page, small_run: RunDir) -> None:
+    found, text = read_budget(small_run), "".join(page.text.split())
+    for name, words in LOST.items():
+        count = found.total.lost[name]
+        assert f"{words}{count}{100 * count / found.total.missed:.1f}%".replace(" ", "") in text
+    for day, budget in by_day(found.days).items():
+        assert f"{day}{budget.missed}{100 * budget.lost['not_imagined'] / budget.missed:.1f}" in text
 
 
 def test_the_page_says_plainly_that_no_language_model_was_used(page: Page) -> None:

@@ -20,6 +20,7 @@ from coopera.people.shipped import find
 from coopera.rundir.directory import RunDir
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import summarise
+from coopera.rundir.trace_files import read_record
 from coopera.studies.study import resume_study
 from tests.coopera.fake_run import fake_run
 
@@ -343,3 +344,22 @@ def test_a_number_that_is_not_finite_never_reaches_the_trace(run: RunDir) -> Non
     with pytest.raises(RunError, match="cannot be written as JSON"):
         run.write_hour(record)
     assert run.read_day(0) == []
+
+
+def test_runs_of_before_the_accepted_acts_were_counted_have_need_figures_all_the_same(tmp_path: Path) -> None:
+    """Each accepted candidate was an act; those whose verdict is unscored are in no count, so there are none here."""
+    run = fake_run(tmp_path / "run", days=2, hours=2, frames=1)
+    hours = [hour for hour in run.hours() if hour.robot and hour.success and not hour.success.predicate.unscored]
+    assert hours
+    for hour in hours:
+        path = run.root / f"trace/day-{hour.day:02d}/hour-{hour.hour:02d}.json"
+        data = json.loads(path.read_text())
+        del data["success"]["help"]["accepted"]
+        path.write_text(json.dumps(data))
+        again = read_record(path, HourRecord)
+        assert again.success == hour.success
+        assert again.success is not None
+        assert again.success.help is not None
+        assert hour.robot is not None
+        assert again.success.help.accepted == len(hour.robot.outcomes)
+    assert RunDir.open(run.root).summary()["need"] == run.summary()["need"]

@@ -28,11 +28,14 @@ def test_a_week_is_the_mean_of_its_days() -> None:
     assert float(both @ one) == pytest.approx(0.5**0.5, abs=0.01)
 
 
-def test_several_recorded_people_have_an_interval() -> None:
-    logs = {ANN: [LoggedHour(day=0, hour=9, intention="aaa")], BOB: [LoggedHour(day=1, hour=9, intention="zaz")]}
+def test_three_recorded_people_have_an_interval_and_two_have_none() -> None:
+    said = {ANN: "aaa", BOB: "zaz", NOBODY: "mam"}
+    logs = {who: [LoggedHour(day=0, hour=9, intention=text)] for who, text in said.items()}
     figure = alignment(PEOPLE, logs, LETTERS)[0]
-    assert figure.n == 2
+    assert figure.n == 3
     assert figure.low is not None
+    two = alignment(PEOPLE, {who: logs[who] for who in (ANN, BOB)}, LETTERS)[0]
+    assert (two.n, two.low) == (2, None)
 
 
 def test_what_was_not_given_is_unmeasured_with_the_reason() -> None:

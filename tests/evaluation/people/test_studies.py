@@ -55,9 +55,18 @@ def test_scores_are_means_over_participants_of_what_they_answered() -> None:
     p = Answers(study="s", participant="p", answers={"C1": "A", "C2": "A", "M1": "A", "M2": "C", "M3": "B"})
     q = Answers(study="s", participant="q", answers={"C2": "B", "C1": ""})
     choice, match = score_answers(KEY, [p, q])
-    assert (choice.value, choice.n, choice.low, choice.high) == (0.75, 2, 0.5, 1)
+    assert (choice.value, choice.n, choice.low) == (0.75, 2, None)
     assert (match.value, match.n, match.low) == (pytest.approx(1 / 3), 1, None)
     assert (choice.paper, match.paper) == (0.764, 0.712)
+
+
+def test_three_participants_have_an_interval_by_t() -> None:
+    """0.5, 1 and 1 right: mean 0.8333, SD 0.2887; 4.3027 x 0.2887 / sqrt 3 = 0.7171."""
+    given = [{"C1": "A", "C2": "A"}, {"C1": "A", "C2": "B"}, {"C2": "B"}]
+    answers = [Answers(study="s", participant=str(n), answers=one) for n, one in enumerate(given)]
+    choice, _ = score_answers(KEY, answers)
+    ends = (0.8333 - 0.7171, 0.8333 + 0.7171)
+    assert (choice.low, choice.high) == (pytest.approx(ends[0], abs=1e-3), pytest.approx(ends[1], abs=1e-3))
 
 
 def test_nobodys_answers_score_nothing() -> None:
