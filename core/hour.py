@@ -8,7 +8,7 @@ from pydantic import ConfigDict, Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
-from coopera.core.people import Belief, BigFive, Frozen, PersonId
+from coopera.core.people import Belief, BigFive, Frozen, PersonId, is_empty, is_none
 from coopera.core.setting import Setting
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
@@ -72,6 +72,8 @@ class Recalled(Frozen):
     relevance: float
     recency: float
     score: float
+    source: Literal["told", "guessed"] | None = Field(None, exclude_if=is_none)
+    """For a robot's memory: whether the person told it, or the robot guessed it today; None where that is not kept."""
 
 
 class Found(Frozen):
@@ -161,17 +163,23 @@ class IntentionCandidate(Frozen):
 
     text: str
     reasons: Reasons = Reasons()
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
+    """What speaks for it before any verdict; see `Example.evidence`."""
     probability: float | None = None
     accepted: bool | None = None
 
 
 class TaskCandidate(Frozen):
-    """A task the robot imagines for one of its intentions (by text). `correct`: predicate success."""
+    """A task the robot imagines for one of its intentions (by text). `correct`: predicate success.
+
+    `evidence` as in `IntentionCandidate`.
+    """
 
     intention: str
     thought: str
     reasons: Reasons = Reasons()
     act: Act
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
     probability: float | None = None
     accepted: bool | None = None
     correct: bool | None = None
@@ -395,5 +403,12 @@ class Example(Frozen):
     """Place of the intention (for a task: of its intention) among the robot's candidates, 0 being the first.
 
     None where the robot did not imagine it, or where its order is not to be known.
+    """
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
+    """What was counted and estimated before any verdict: `prior` is the robot's own probability, in (0, 1).
+
+    The others are smoothed shares of the hours that the person told of: `told` among those of like intentions, `sight`
+    among those that looked like this one, `hour` among those at this hour of day; and `support`, the logarithm of 1 +
+    how many hours `told` rests on. Empty where nothing was counted (`coopera.graphs.robots.evidence`).
     """
     label: bool | None = None

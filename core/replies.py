@@ -106,6 +106,8 @@ class ImaginedIntention(Frozen):
     reason_intentions: Reason = ""
     reason_tasks: Reason = ""
     reason_vision: Reason = ""
+    probability: Annotated[float, Field(ge=0, le=1)] | None = None
+    """How likely it is; may be left out."""
 
 
 class IntentionsReply(Frozen):

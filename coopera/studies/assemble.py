@@ -158,6 +158,7 @@ def open_services(
                 run,
                 config.seed,
                 config.learning,
+                dict(zip(KINDS, method.replay, strict=True)),
             ),
             identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",

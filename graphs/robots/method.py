@@ -1,10 +1,12 @@
-"""A method is data: what the robot does and sees, declared as differences from ours."""
+"""A method is data: what the robot does and sees. The defaults are the paper's; `evaluation.METHODS` lists them all."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
+
+from coopera.graphs.robots.rehearsal import REHEARSED
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,7 +31,17 @@ class Method:
             directly for the observation, without an intention.
         n_intentions: How many intention candidates are imagined; by default the paper's number.
         verdicts: "classifiers" keeps what the trained classifiers find likely; "accept" keeps everything, "reject"
-            nothing.
+            nothing, "first" the first intention with all of its tasks.
+        remembers: How the robot's memory fades: by the "hours", as the paper's does; or by "days", with most of it told
+            and a sense for the time of day and the kind of day (`graphs.robots.recall`).
+        told: Whether the told hours of like intentions, with their tasks, go to the prompts, and decide how many tasks
+            are imagined.
+        skips_held: Whether what the person holds or has just done is never offered.
+        evidence: Whether classifiers see the proposer's probabilities and the counts of what was told, and whether the
+            robot goes by these until its first evening (the best guess and its tasks). Otherwise it then accepts all.
+        accepts: "half": what is more probable than not, as the paper does; "need": what is worth it for the F1 over the
+            person's needs (`graphs.robots.verdicts`).
+        replay: How many earlier examples of intentions and of tasks an evening goes over again.
         learns: Whether the evening trains the classifiers, or one's own robot.
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
         other_backbone: Whether the robot's language model is the run's `backbone` instead of its own.
@@ -47,7 +59,13 @@ class Method:
     time_only: bool = False
     intentions: Literal["inferred", "given", "skipped"] = "inferred"
     n_intentions: int | None = None
-    verdicts: Literal["classifiers", "accept", "reject"] = "classifiers"
+    verdicts: Literal["classifiers", "accept", "reject", "first"] = "classifiers"
+    remembers: Literal["hours", "days"] = "hours"
+    told: bool = False
+    skips_held: bool = False
+    evidence: bool = False
+    accepts: Literal["half", "need"] = "half"
+    replay: tuple[int, int] = (REHEARSED, REHEARSED)
     learns: bool = True
     other_backbone: bool = False
     robot: bool = True
@@ -65,4 +83,6 @@ class Numbers:
     DIRECT_TASKS = 8  # ours: where no intention is inferred, as many tasks as one reply may hold
     RECALL_INTENTIONS = 3  # PAPER §4.1
     RECALL_TASKS = 5  # PAPER §4.1
+    MOST_TASKS = {1: 5, 2: 8}  # ours: where much was told; as many as one reply may hold in type 2
+    TOLD_HOURS = {"intention": 10, "task": 6}  # ours: how many told hours a prompt gives
     SCENE_ROUNDS = 3  # ours: second reflections at most, while code still finds something wrong

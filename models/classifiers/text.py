@@ -47,6 +47,8 @@ class Inputs:
             hidden |= {"person": _NOBODY, "profile": "", "big_five": None}
         if not self.context:
             hidden |= {"intentions": [], "tasks": []}
+        if not (self.context and self.rank):
+            hidden |= {"evidence": {}}
         if not self.time:
             hidden |= {"hour": _NO_HOUR}
         if not self.rank:
