@@ -2,8 +2,8 @@
 
 A prompt file may use any subset of the variables listed here, and no other. Values are plain JSON data:
 
-- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "...", "guessed": False}`, best first; `guessed` is
-  what a robot thought today and nobody has confirmed;
+- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first; a robot's recalled ones also have
+  `guessed`, whether it only thought so today and nobody has confirmed it;
 - `told` are hours of earlier days that the person told a robot of, `{"when", "hours_ago", "intention", "tasks",
   "weight"}`, the most telling first: for intentions those that looked like this hour, for tasks those of like
   intentions. `weight` from 0 to 1 is how much an hour counts. It is empty where a method does without;

@@ -208,7 +208,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         variables={
             **when(clock),
             **_belief(ctx),
-            **as_variables(state["recalled"], clock),
+            **as_variables(state["recalled"], clock, marked=True),
             "told": as_told(most_telling(ctx.method, state["told"]), clock),
             "rooms": view.home.rooms,
             "percept": percept,
@@ -292,7 +292,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
             variables={
                 **when(view.clock),
                 **_belief(ctx),
-                **as_variables(state["recalled"], view.clock),
+                **as_variables(state["recalled"], view.clock, marked=True),
                 **extra,
                 "told": as_told(like_hours(ctx.method, state["told"], weights), view.clock, without=in_hand),
                 "intention": intention.text,

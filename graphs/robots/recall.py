@@ -90,23 +90,31 @@ def _from(memory: Recalled, source: Literal["told", "guessed"]) -> Recalled:
     return memory.model_copy(update={"source": source})
 
 
-def as_variables(recalled: Iterable[Recalled], now: Clock) -> dict[str, list[dict[str, Any]]]:
-    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`."""
+def as_variables(recalled: Iterable[Recalled], now: Clock, *, marked: bool = False) -> dict[str, list[dict[str, Any]]]:
+    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`.
+
+    Args:
+        recalled: Best first.
+        now: The hour of the recall.
+        marked: Whether each says if it is a guess that nobody has confirmed: a robot's do.
+    """
     memories = list(recalled)
+
+    def mark(memory: Recalled) -> dict[str, bool]:
+        return {"guessed": memory.source == "guessed"} if marked else {}
+
     return {
-        f"recalled_{kind}s": [
-            as_memory(m.text, m.hour, now, guessed=m.source == "guessed") for m in memories if m.kind == kind
-        ]
+        f"recalled_{kind}s": [as_memory(m.text, m.hour, now) | mark(m) for m in memories if m.kind == kind]
         for kind in ("intention", "task")
     }
 
 
-def as_memory(text: str, hour: int, now: Clock, *, guessed: bool = False) -> dict[str, Any]:
-    """One memory as prompts read it; `hour` is a global hour index, `guessed` marks what nobody has confirmed."""
+def as_memory(text: str, hour: int, now: Clock) -> dict[str, Any]:
+    """One memory as prompts read it; `hour` is a global hour index."""
     day, hour_of_day = divmod(hour, 24)
     label = hour_label(hour_of_day)
     when = label if day == now.day else f"day {day + 1}, {label}"
-    return {"when": when, "hours_ago": now.now - hour, "text": text, "guessed": guessed}
+    return {"when": when, "hours_ago": now.now - hour, "text": text}
 
 
 def _top(
