@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from coopera.core.registry import Registry
+from coopera.evaluation.controls.ceiling import CEILING
 from coopera.evaluation.controls.habit import HABIT
 from coopera.evaluation.baselines import Finetuned, Habit
 from coopera.evaluation.finetuned import FinetunedModel
@@ -48,6 +49,7 @@ METHODS: dict[str, Method] = {
         # references that the paper lacks
         replace(OURS, name="first_guess", verdicts="first", learns=False),  # the first guess and its tasks, always
         HABIT,
+        CEILING,
         Method(name="frequency_prior", traits=False, own=Habit),
         replace(PAPER, name="always_no", traits=False, verdicts="reject", learns=False),
         # ours on its very first day, every day: the baseline of generalisation

@@ -29,7 +29,9 @@ def _of_method(method: Any) -> str:
     if method is None:
         return "of another package"
     if method is OURS:
-        return "the paper's method"
+        return "the best that we have"
+    if method.knows is not None:
+        return "a ceiling: it knows the true person"
     if method.own is not None:
         own = getattr(method.own, "__doc__", None) or type(method.own).__doc__ or ""
         return f"another robot: {_first_sentence(own)}"

@@ -36,6 +36,7 @@ from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
 from coopera.models.households import household_file
+from coopera.models.offline.household.knowledge import Household
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.transport import wait
@@ -162,7 +163,7 @@ def open_services(
             ),
             identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",
-            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
+            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method, people, embeddings)) else None,
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
@@ -183,14 +184,18 @@ def open_living(config: Config) -> Living:
     Raises:
         ConfigError: If the file of changes is wrong.
     """
-    path = household_file(config.models.human)
-    household = load_household(path) if path else shipped()
-    known = household.index if config.models.human.startswith("offline") else None
+    known = persons_household(config).index if config.models.human.startswith("offline") else None
     return Living(
         lasting=config.intentions == "lasting",
         absence=config.absence == "named",
         changes=open_changes(config.changes, config.seed, known),
     )
+
+
+def persons_household(config: Config) -> Household:
+    """The household file that people live by whom the offline model plays."""
+    path = household_file(config.models.human)
+    return load_household(path) if path else shipped()
 
 
 def _player(config: Config, logs: Logs | None) -> Player:
@@ -201,8 +206,14 @@ def _player(config: Config, logs: Logs | None) -> Player:
     return Interviewed(graded) if config.played_by == "me" else Simulated(graded)
 
 
-def _own_robot(config: Config, method: Method) -> MakeRobot | None:
+def _own_robot(
+    config: Config, method: Method, people: Mapping[str, Persona], embeddings: Embeddings
+) -> MakeRobot | None:
     """What takes the place of our graph, if anything does."""
+    if method.knows:
+        model, known = PERSON_MODELS[config.person_model], {one.id: one for one in people.values()}
+        texts = {name: model.profile(one) for name, one in known.items()}
+        return partial(method.knows, texts, known, persons_household(config), embeddings)
     if method.tunes and (model := tuned_model(config)):
         return partial(method.tunes, model, config.classifier_config)
     return method.own

@@ -68,6 +68,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     _check("method", "method", [config.method], known.methods)
     _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
     load_robot(config.robot)
+    _refuse_unknowable(config)
     _refuse_online(config)
     _check("humans", "person", config.humans or [], [*known.people, *config.files.humans])
     _check("scenes", "home", config.scenes or [], [*known.scenes, *config.files.scenes])
@@ -121,6 +122,19 @@ def _refuse_online(config: Config) -> None:
         raise ConfigError(
             f"method: {config.method} finetunes the robot's model in this process, which can be offline or "
             f"huggingface:REPO-OR-FOLDER, and the robot model here is {config.models.robot}."
+        )
+
+
+def _refuse_unknowable(config: Config) -> None:
+    """Refuse a ceiling where nobody knows the person's true parameters."""
+    from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    if not find_method(config.method).knows:
+        return
+    if not config.models.human.startswith("offline") or config.played_by != "simulated":
+        who = config.models.human if config.played_by == "simulated" else f"played by {config.played_by}"
+        raise ConfigError(
+            f"method: {config.method} knows the true person, whom only the offline model has; the person here is {who}."
         )
 
 

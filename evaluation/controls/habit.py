@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from coopera.core.affordances import affordances
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
-from coopera.core.household import Act, HandOver, PickPlace, Use, plain
+from coopera.evaluation.controls.acts import help_with
 from coopera.graphs.robots.method import Method
 from coopera.graphs.robots.robot_view import RobotView
 from coopera.graphs.robots.told import held, same, shares, told_hours
@@ -37,8 +36,8 @@ class Habits:
         chances = {use: round(one * certain, 6) for use, one in used.items()}
         tasks: dict[str, TaskCandidate] = {}
         for use, chance in sorted(chances.items(), key=lambda pair: (-pair[1], str(pair[0]))):
-            act = _act(view, use)
-            if act and not view.home.misfit(act) and chance > WORTH / 3:
+            act = help_with(view, use)
+            if act and chance > WORTH / 3:
                 task = TaskCandidate(intention=best.intention, thought="as before", act=act)
                 done = {"probability": chance, "accepted": chance >= WORTH}
                 tasks.setdefault(act.describe(), task.model_copy(update=done))
@@ -48,23 +47,6 @@ class Habits:
     def learn(self, account: DayAccount, *, seed: int) -> dict[str, Any]:
         """Learn nothing else: what is told stands in the history."""
         return {"hours": len(account.hours)}
-
-
-def _act(view: RobotView, use: Use) -> Act | None:
-    """The help for a use: bring the thing or, in type 1, put one of its kind where it was put."""
-    if view.collab != 1:
-        return HandOver(object=use.thing)
-    things = [name for name in view.home.movable if plain(name) == use.thing]
-    spots = [name for name in view.home.fixed if plain(name) == use.place]
-    if not things or not spots:
-        return None
-    return PickPlace(
-        object_id=view.home.movable[things[0]][0],
-        object=things[0],
-        receptacle_id=view.home.fixed[spots[0]][0],
-        receptacle=spots[0],
-        relation=affordances().relation(view.home.class_of(things[0]), view.home.class_of(spots[0])),
-    )
 
 
 HABIT = Method(name="habit", traits=False, own=Habits)

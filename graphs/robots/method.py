@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from coopera.core.hour import CandidateKind
     from coopera.core.protocols import Classifier
-    from coopera.graphs.robots.own_robot import MakeRobot, Robot
+    from coopera.graphs.robots.own_robot import KnowPeople, MakeRobot, Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,8 @@ class Method:
         robot: Whether there is a robot at all; without one a person's life is simulated alone.
         own: The class of a robot of one's own, which takes the place of our graph (`graphs.robots.own_robot`).
             Of the other fields it meets `traits` (whether the evening infers a belief about the person) and `learns`.
+        knows: Makes the robot in place of `own` from the true people, by the text and the traits that they live by, and
+            by their household file: a ceiling. Refused where the person is not simulated by the offline model.
         tunes: Makes the robot in place of `own` if the robot's model is one of Hugging Face. This robot finetunes the
             model of that name by a recipe (None: the shipped one). Models elsewhere are refused.
     """
@@ -71,7 +73,13 @@ class Method:
     robot: bool = True
     judge: Callable[[CandidateKind], Classifier] | None = None
     own: MakeRobot | None = None
+    knows: KnowPeople | None = None
     tunes: Callable[[str, Path | None], Robot] | None = None
+
+    @property
+    def told_the_truth(self) -> bool:
+        """Whether it is declared to be given what a robot cannot know, so that no audit can hold it to that."""
+        return self.intentions == "given" or self.knows is not None
 
 
 class Numbers:

@@ -81,7 +81,7 @@ def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bo
     x = np.column_stack([np.ones(len(labels)), (features - mean) / spread])
     newest = max(e.day for e in examples)
     counts = FADING ** np.array([newest - e.day for e in examples], np.float64)
-    hold = np.diag([0.5, *[HOLD] * (x.shape[1] - 1)])
+    hold = np.diag([HOLD / 2, *[HOLD] * (x.shape[1] - 1)])
     weights = np.zeros(x.shape[1])
     for _ in range(_STEPS):
         chance = _sigmoid(offset + x @ weights)

@@ -40,7 +40,7 @@ from tests.fakes import MARA, LetterEmbeddings, ScriptedAsk, TableClassifier, pl
 from tests.graphs.conftest import MakeServices
 
 HOURS = (9, 10)
-HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "given"]
+HIDING = [name for name, method in METHODS.items() if method.robot and not method.told_the_truth]
 NOOR = MARA.model_copy(
     update={"name": "Noor", "profile": "I write poems.", "notes": "", "big_five": BigFive(openness=1.5)}
 )
