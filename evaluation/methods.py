@@ -49,6 +49,7 @@ METHODS: dict[str, Method] = {
         # references that the paper lacks
         replace(OURS, name="first_guess", verdicts="first", learns=False),  # the first guess and its tasks, always
         HABIT,
+        replace(OURS, name="swapped", swapped=True),  # told of another person in the evening
         CEILING,
         Method(name="frequency_prior", traits=False, own=Habit),
         replace(PAPER, name="always_no", traits=False, verdicts="reject", learns=False),

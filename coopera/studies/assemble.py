@@ -147,6 +147,7 @@ def open_services(
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
         ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
+        days = open_earlier_life(config)
         yield Services(
             ask=ask,
             method=method,
@@ -174,7 +175,8 @@ def open_services(
             answering=Answering(rate=config.feedback_rate, noise=config.feedback_noise),
             sizes=config.search,
             player=_player(config, logs),
-            life=EarlierLife(days) if (days := open_earlier_life(config)) else LivedNow(),
+            life=EarlierLife(days) if days else LivedNow(),
+            stranger=days.stranger if days and method.swapped else None,
         )
 
 

@@ -126,9 +126,14 @@ def _refuse_online(config: Config) -> None:
 
 
 def _refuse_unknowable(config: Config) -> None:
-    """Refuse a ceiling where nobody knows the person's true parameters."""
+    """Refuse a ceiling where nobody knows the person's true parameters, and a swap where there is nobody else."""
     from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
 
+    if find_method(config.method).swapped and (config.earlier_life is None or config.schedule):
+        raise ConfigError(
+            f"method: the robot of {config.method} is told of another person's days, so it needs an earlier_life of at "
+            "least two people, each with days of their own."
+        )
     if not find_method(config.method).knows:
         return
     if not config.models.human.startswith("offline") or config.played_by != "simulated":

@@ -50,6 +50,8 @@ class Method:
             Of the other fields it meets `traits` (whether the evening infers a belief about the person) and `learns`.
         knows: Makes the robot in place of `own` from the true people, by the text and the traits that they live by, and
             by their household file: a ceiling. Refused where the person is not simulated by the offline model.
+        swapped: Whether the evening is another person's: their account, and their answers to the robot's candidates.
+            What the robot still gains cannot come from knowing whom it lives with. Needs an earlier life of several.
         tunes: Makes the robot in place of `own` if the robot's model is one of Hugging Face. This robot finetunes the
             model of that name by a recipe (None: the shipped one). Models elsewhere are refused.
     """
@@ -74,6 +76,7 @@ class Method:
     judge: Callable[[CandidateKind], Classifier] | None = None
     own: MakeRobot | None = None
     knows: KnowPeople | None = None
+    swapped: bool = False
     tunes: Callable[[str, Path | None], Robot] | None = None
 
     @property

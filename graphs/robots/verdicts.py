@@ -2,7 +2,7 @@
 
 The paper keeps what is more probable than not. That serves the F1 over the robot's own candidates. A person's needs are
 served otherwise: with F the F1 that can be reached, an offer pays as soon as its probability is above F/2, since it
-adds its probability to the hits and one to the offers (the plug-in rule for F1). With F at about 0.6, that is 0.3.
+adds its probability to the hits and one to the offers (the plug-in rule for F1). With F at about 0.7, that is 0.35.
 An intention only costs thought, so it goes on earlier.
 """
 
@@ -16,7 +16,7 @@ from coopera.graphs.robots.learning import Learner
 from coopera.graphs.robots.method import Method
 
 HALF = 0.5
-NEED: dict[CandidateKind, float] = {"intention": 0.15, "task": 0.3}
+NEED: dict[CandidateKind, float] = {"intention": 0.15, "task": 0.35}
 UNKNOWN = 0.5
 """What every untrained classifier says."""
 

@@ -20,7 +20,7 @@ Floats = npt.NDArray[np.float64]
 COUNTS = ("prior", "told", "sight", "hour")
 """Shares that enter as log-odds."""
 PLAIN = ("support",)
-HOLD = 3.0
+HOLD = 1.0
 """Ridge on each weight, for features of unit spread."""
 FADING = 0.98
 """What an example counts per day of its age: half after five weeks, so that old habits give way."""
@@ -81,7 +81,7 @@ def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bo
     x = np.column_stack([np.ones(len(labels)), (features - mean) / spread])
     newest = max(e.day for e in examples)
     counts = FADING ** np.array([newest - e.day for e in examples], np.float64)
-    hold = np.diag([HOLD / 2, *[HOLD] * (x.shape[1] - 1)])
+    hold = np.diag([2 * HOLD, *[HOLD] * (x.shape[1] - 1)])
     weights = np.zeros(x.shape[1])
     for _ in range(_STEPS):
         chance = _sigmoid(offset + x @ weights)
