@@ -42,16 +42,14 @@ class Intention(Frozen):
     Attributes:
         text: In words.
         reasons: Why, where a model has said so.
-        continues: Whether it goes on from the hour before.
+        continues: Whether it goes on with what was begun in an earlier hour of the day.
         away: Whether the person is outside the home: no tasks, and the robot has nothing to see.
     """
 
     text: str
     reasons: Reasons = Reasons()
     continues: bool = False
-    """Whether it goes on with what was begun in an earlier hour of the day."""
     away: bool = False
-    """Whether it is done outside the home: there are no tasks then, and the robot has nothing to see."""
 
 
 class Task(Frozen):
@@ -64,7 +62,7 @@ class Task(Frozen):
 
 
 class Recalled(Frozen):
-    """One retrieved memory: score = recency x relevance (PAPER §3.2, Memory Retrieval)."""
+    """One retrieved memory: score = recency x relevance (PAPER §3.2). `source`: told in the evening, or guessed today."""
 
     kind: CandidateKind
     text: str
@@ -73,7 +71,6 @@ class Recalled(Frozen):
     recency: float
     score: float
     source: Literal["told", "guessed"] | None = Field(None, exclude_if=is_none)
-    """For a robot's memory: whether the person told it, or the robot guessed it today; None where that is not kept."""
 
 
 class Found(Frozen):
@@ -148,8 +145,7 @@ class LoggedHour(Frozen):
 class Observation(Frozen):
     """What the robot is given of the hour: neither the intention nor a task after the first.
 
-    `frames`: picture files, relative to the run directory, robot views first, in order of time.
-    `percept`: set if the robot's model cannot look at pictures.
+    `frames`: picture files, relative to the run directory, robot views first. `percept`: set if none are looked at.
     `first_task`: the text of the first task, in collaboration type 1 only (PAPER §3.1).
     """
 
@@ -159,21 +155,17 @@ class Observation(Frozen):
 
 
 class IntentionCandidate(Frozen):
-    """An intention the robot imagines; whether it was right stands in the evening's feedback."""
+    """An intention the robot imagines; whether it was right stands in the evening's feedback. `evidence`: `Example`."""
 
     text: str
     reasons: Reasons = Reasons()
     evidence: dict[str, float] = Field({}, exclude_if=is_empty)
-    """What speaks for it before any verdict; see `Example.evidence`."""
     probability: float | None = None
     accepted: bool | None = None
 
 
 class TaskCandidate(Frozen):
-    """A task the robot imagines for one of its intentions (by text). `correct`: predicate success.
-
-    `evidence` as in `IntentionCandidate`.
-    """
+    """A task the robot imagines for one of its intentions (by text). `correct`: predicate success."""
 
     intention: str
     thought: str
@@ -216,8 +208,7 @@ class Proposal(Frozen):
 class Counts(Frozen):
     """A confusion count over one task superset; `unscored` candidates are in none of the others.
 
-    f1, precision and recall are None where nothing could be scored. PAPER §4.3: F1 over the task
-    superset, the accepted tasks being the predicted positives.
+    f1, precision and recall are None where nothing could be scored. PAPER §4.3: accepted tasks are predicted positives.
     """
 
     tp: int = Field(0, ge=0)
@@ -384,7 +375,8 @@ class DayPlan(Frozen):
 class Example(Frozen):
     """What a yes/no classifier is shown, in the paper's fields (PAPER App. C.2), and the label.
 
-    `person` keeps people apart. `candidate` is the intention's text or the task's description.
+    `person` keeps people apart. `candidate` is the intention's text or the task's description. `evidence` is what was
+    estimated and counted before any verdict (`coopera.graphs.robots.evidence`).
     """
 
     person: PersonId
@@ -405,10 +397,4 @@ class Example(Frozen):
     None where the robot did not imagine it, or where its order is not to be known.
     """
     evidence: dict[str, float] = Field({}, exclude_if=is_empty)
-    """What was counted and estimated before any verdict: `prior` is the robot's own probability, in (0, 1).
-
-    The others are smoothed shares of the hours that the person told of: `told` among those of like intentions, `sight`
-    among those that looked like this one, `hour` among those at this hour of day; and `support`, the logarithm of 1 +
-    how many hours `told` rests on. Empty where nothing was counted (`coopera.graphs.robots.evidence`).
-    """
     label: bool | None = None

@@ -1,4 +1,6 @@
-"""The methods: the paper's, ours, and each baseline or ablation as its difference from one of them. Adding one is adding a line here.
+"""The methods: the paper's, ours, and each baseline or ablation as a difference from one of them.
+
+Adding one is adding a line here.
 
 Methods of other packages join by an entry point in the group `coopera.methods`; see `coopera.graphs.robots.own_robot`.
 """
@@ -8,9 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from coopera.core.registry import Registry
+from coopera.evaluation.baselines import Finetuned, Habit
 from coopera.evaluation.controls.ceiling import CEILING
 from coopera.evaluation.controls.habit import HABIT
-from coopera.evaluation.baselines import Finetuned, Habit
 from coopera.evaluation.finetuned import FinetunedModel
 from coopera.graphs.robots.method import Method
 from coopera.graphs.robots.rehearsal import REHEARSED

@@ -103,8 +103,18 @@ _FULL: dict[str, Any] = {
     ],
     "in_hand": "book",
     "recalled_tasks": [
-        {"when": "1 pm", "hours_ago": 1, "text": "wipe the top at the coffee table with the sponge in hand", "guessed": False},
-        {"when": "9 am", "hours_ago": 5, "text": "sit and eat at the dining table with the bowl in hand", "guessed": False},
+        {
+            "when": "1 pm",
+            "hours_ago": 1,
+            "text": "wipe the top at the coffee table with the sponge in hand",
+            "guessed": False,
+        },
+        {
+            "when": "9 am",
+            "hours_ago": 5,
+            "text": "sit and eat at the dining table with the bowl in hand",
+            "guessed": False,
+        },
     ],
     "intention": "Relax with some quiet reading",
     "fixed": {

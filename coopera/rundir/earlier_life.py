@@ -84,9 +84,9 @@ def open_earlier_life(config: Config) -> LivedDays | None:
     if find_method(run.config.method).robot:
         raise ConfigError(f"{where} must be a run without a robot (--method none), and its method is another.")
     theirs, ours = _days(run.config), _days(config)
-    for field in theirs:
-        if theirs[field] != ours[field]:
-            raise ConfigError(f"{where} has {field} {theirs[field]}, where this run has {ours[field]}.")
+    for name in theirs:
+        if theirs[name] != ours[name]:
+            raise ConfigError(f"{where} has {name} {theirs[name]}, where this run has {ours[name]}.")
     return LivedDays(config.earlier_life, _others(run) if find_method(config.method).swapped else {})
 
 

@@ -36,9 +36,8 @@ from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
 from coopera.models.households import household_file
-from coopera.models.offline.household.knowledge import Household
+from coopera.models.offline.household.knowledge import Household, shipped
 from coopera.models.offline.household.knowledge import load as load_household
-from coopera.models.offline.household.knowledge import shipped
 from coopera.models.transport import wait
 from coopera.people.changes import open_changes
 from coopera.prompts import PromptLibrary
@@ -213,8 +212,8 @@ def _own_robot(
 ) -> MakeRobot | None:
     """What takes the place of our graph, if anything does."""
     if method.knows:
-        model, known = PERSON_MODELS[config.person_model], {one.id: one for one in people.values()}
-        texts = {name: model.profile(one) for name, one in known.items()}
+        known = {one.id: one for one in people.values()}
+        texts = {name: PERSON_MODELS[config.person_model].profile(one) for name, one in known.items()}
         return partial(method.knows, texts, known, persons_household(config), embeddings)
     if method.tunes and (model := tuned_model(config)):
         return partial(method.tunes, model, config.classifier_config)

@@ -14,7 +14,7 @@ from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCand
 from coopera.evaluation.controls.acts import help_with
 from coopera.graphs.robots.method import Method
 from coopera.graphs.robots.robot_view import RobotView
-from coopera.graphs.robots.told import held, same, shares, told_hours
+from coopera.graphs.robots.told import held, shares, told_hours
 
 PATIENCE = 0.5
 WORTH = 0.3  # half of an F1 of 0.6: see `coopera.graphs.robots.verdicts`

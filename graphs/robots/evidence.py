@@ -1,7 +1,12 @@
 """What speaks for a candidate before any verdict: the proposer's probability, and counts of what was told.
 
 These are the features that a classifier reads beside words (`Example.evidence`), and until the first evening the robot
-goes by their `prior` alone. All shares are smoothed, so that one hour decides nothing.
+goes by their `prior` alone.
+
+`prior` is the robot's own probability. Others are shares of the hours that the person told of: `told` among those of
+like intentions, `sight` among those that looked like this one, `hour` among those at this time of day. `support` is the
+logarithm of 1 + the number of hours that `told` rests on. All shares are smoothed, so that one hour decides nothing, and
+lie in (0, 1).
 DEVIATES: the paper's classifiers see neither; they see that a text is like another, not that it is the same.
 """
 

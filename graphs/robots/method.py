@@ -94,6 +94,7 @@ class Numbers:
     DIRECT_TASKS = 8  # ours: where no intention is inferred, as many tasks as one reply may hold
     RECALL_INTENTIONS = 3  # PAPER §4.1
     RECALL_TASKS = 5  # PAPER §4.1
+    RECALL_WEEKS = {"intention": 6, "task": 6}  # ours: where the memory is one of weeks
     MOST_TASKS = {1: 5, 2: 8}  # ours: where much was told; as many as one reply may hold in type 2
     TOLD_HOURS = {"intention": 10, "task": 6}  # ours: how many told hours a prompt gives
     SCENE_ROUNDS = 3  # ours: second reflections at most, while code still finds something wrong

@@ -57,9 +57,7 @@ def how_many(method: Method, view: RobotView, told: Sequence[ToldHour], weights:
     return min(max(usual, often), Numbers.MOST_TASKS[view.collab])
 
 
-def superset_of(
-    method: Method, view: RobotView, imagined: Sequence[Imagined]
-) -> tuple[list[TaskCandidate], list[str]]:
+def superset_of(method: Method, view: RobotView, imagined: Sequence[Imagined]) -> tuple[list[TaskCandidate], list[str]]:
     """All tasks that can be done, each once and for the likeliest of its intentions, and why others were dropped."""
     found: dict[str, TaskCandidate] = {}
     dropped: list[str] = []
@@ -93,6 +91,8 @@ def with_evidence(
             for batch in imagined
             if any(one.act.describe() == said for one in batch["tasks"])
         }
-        known = of_task(task.act, told, [(chance[text], of[text]) for text in of], list(of).index(task.intention), view.collab)
+        known = of_task(
+            task.act, told, [(chance[text], of[text]) for text in of], list(of).index(task.intention), view.collab
+        )
         weighed.append(task.model_copy(update={"evidence": known}))
     return weighed

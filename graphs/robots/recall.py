@@ -49,10 +49,9 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
     dawn = now.day * 24
     guessed = recall_both(view.guesses, query, now, since=dawn)
     kept: list[Recalled] = []
-    for kind, stream, most in (
-        ("intention", view.history.intentions, 2 * Numbers.RECALL_INTENTIONS),
-        ("task", view.history.tasks, Numbers.RECALL_TASKS + 1),
-    ):
+    streams: dict[CandidateKind, Readable] = {"intention": view.history.intentions, "task": view.history.tasks}
+    for kind, stream in streams.items():
+        most = Numbers.RECALL_WEEKS[kind]
         own = [_from(memory, "guessed") for memory in guessed if memory.kind == kind]
         told = [_from(memory, "told") for memory in _told(stream, kind, query, now, most)]
         kept += sorted([*told[: most - min(len(own), most // 2)], *own[: most // 2]], key=_rank)

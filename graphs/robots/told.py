@@ -79,9 +79,7 @@ def best_hours(told: Sequence[ToldHour], weights: Sequence[float], most: int) ->
     return [(hour, weight) for hour, weight in ranked[:most] if weight > 0.01]
 
 
-def as_told(
-    hours: Iterable[tuple[ToldHour, float]], now: Clock, *, without: Use | None = None
-) -> list[dict[str, Any]]:
+def as_told(hours: Iterable[tuple[ToldHour, float]], now: Clock, *, without: Use | None = None) -> list[dict[str, Any]]:
     """The variable `told` of `coopera.core.asks`, without tasks with the thing that the person holds already."""
     return [
         {

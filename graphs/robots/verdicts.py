@@ -9,7 +9,7 @@ An intention only costs thought, so it goes on earlier.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from coopera.core.hour import CandidateKind, Example
 from coopera.graphs.robots.learning import Learner
@@ -19,6 +19,16 @@ HALF = 0.5
 NEED: dict[CandidateKind, float] = {"intention": 0.15, "task": 0.35}
 UNKNOWN = 0.5
 """What every untrained classifier says."""
+
+
+@runtime_checkable
+class GivesChances(Protocol):
+    """A classifier whose P(yes) may be a chance that nothing shifts; for any other, 0.5 is the place to decide."""
+
+    @property
+    def gives_chances(self) -> bool:
+        """Whether it is one now."""
+        ...
 
 
 class Verdicts(NamedTuple):
@@ -38,9 +48,11 @@ def judge(method: Method, learner: Learner, kind: CandidateKind, asked: Sequence
         return _sure([kind == "task" or place == 0 for place in range(len(asked))])
     if method.verdicts != "classifiers":
         return _sure([method.verdicts == "accept"] * len(asked))
-    said = learner.classifiers[kind].probabilities(asked) if asked else []
+    classifier = learner.classifiers[kind]
+    said = classifier.probabilities(asked) if asked else []
     if not method.evidence or any(p != UNKNOWN for p in said):
-        bar = NEED[kind] if method.accepts == "need" else HALF
+        chances = isinstance(classifier, GivesChances) and classifier.gives_chances
+        bar = NEED[kind] if chances and method.accepts == "need" else HALF
         return Verdicts(said, [p >= bar for p in said])
     prior = [example.evidence.get("prior", UNKNOWN) for example in asked]
     best = prior.index(max(prior)) if prior else 0

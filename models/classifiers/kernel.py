@@ -78,6 +78,11 @@ class KernelClassifier:
                 chances[known] = fitted.blend.probabilities(scores[known], [e for e in shown if e.evidence])
             return [round(float(p), _DECIMALS) for p in chances]
 
+    @property
+    def gives_chances(self) -> bool:
+        """Whether P(yes) is a chance (`blend`), or is shifted so that 0.5 serves F1 (`calibration.scale`)."""
+        return self._fitted is not None and self._fitted.blend is not None
+
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
         """Learn anew from all labelled examples so far.
 

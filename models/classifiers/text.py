@@ -26,7 +26,7 @@ class Inputs:
             the person by nothing else.
         context: The recalled earlier intentions and tasks.
         time: The hour.
-        rank: The robot's own order of its candidates. DEVIATES: the paper's classifiers do not see it. They do not see
+        rank: The robot's own order of its candidates, and its evidence for them. DEVIATES: the paper's classifiers do not see it. They do not see
             the observation either, and the order sums it up.
     """
 
@@ -47,12 +47,10 @@ class Inputs:
             hidden |= {"person": _NOBODY, "profile": "", "big_five": None}
         if not self.context:
             hidden |= {"intentions": [], "tasks": []}
-        if not (self.context and self.rank):
-            hidden |= {"evidence": {}}
         if not self.time:
             hidden |= {"hour": _NO_HOUR}
         if not self.rank:
-            hidden |= {"rank": None}
+            hidden |= {"rank": None, "evidence": {}}
         return example.model_copy(update=hidden) if hidden else example
 
 

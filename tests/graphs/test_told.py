@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
 
 from coopera.core.clock import Clock
-from coopera.core.hour import DayPlan, Observation
+from coopera.core.hour import DayPlan, Example, Observation
 from coopera.core.household import FreeMotion, HandOver, Percept, PickPlace, SceneId, Use, use_of
 from coopera.core.people import Belief
 from coopera.evaluation import METHODS
@@ -17,7 +18,7 @@ from coopera.graphs.robot import robot_hour
 from coopera.graphs.robots.evidence import of_intentions
 from coopera.graphs.robots.recall import recall_weeks, weight
 from coopera.graphs.robots.told import told_hours
-from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
+from tests.fakes import MARA, FakeHome, ScriptedAsk, TableClassifier, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
 STIRRING = Observation(percept=Percept(room="kitchen", near=["stove_1"], motion="stirring", in_hand="pot"))
@@ -56,7 +57,10 @@ TOLD = {10: ("Cook a meal", COOKING), 20: ("Read quietly", READING), 34: ("Cook 
 @pytest.mark.parametrize(
     ("act", "use"),
     [
-        (FreeMotion(target_id=1, target="stove_1", in_hand="wooden_spoon", motion="stir"), Use("wooden spoon", "stove")),
+        (
+            FreeMotion(target_id=1, target="stove_1", in_hand="wooden_spoon", motion="stir"),
+            Use("wooden spoon", "stove"),
+        ),
         (PickPlace(object_id=1, object="mug_2", receptacle_id=2, receptacle="side_table_1"), Use("mug", "side table")),
         (HandOver(object="mug_2"), Use("mug")),
     ],
@@ -92,7 +96,9 @@ def test_the_papers_robot_is_told_nothing_of_this(make_services: MakeServices) -
 
 def test_what_the_person_holds_is_never_offered_whatever_the_model_says(make_services: MakeServices) -> None:
     answers = type2_answers()
-    answers["robot/tasks_type2"] = lambda v: {"tasks": [{"thought": "x", "act": {"object": t}} for t in ("pot", "fork")]}
+    answers["robot/tasks_type2"] = lambda v: {
+        "tasks": [{"thought": "x", "act": {"object": t}} for t in ("pot", "fork")]
+    }
     hour = watch(robot(make_services, ask=ScriptedAsk(answers)))
     assert [task.act.object for task in hour.tasks] == ["fork"]
     assert '"bring the pot" was dropped: The person has it already.' in hour.fallbacks
@@ -112,7 +118,10 @@ def test_in_type_1_the_step_just_seen_is_never_offered(make_services: MakeServic
 def test_as_many_tasks_are_imagined_as_were_often_told_up_to_a_cap(make_services: MakeServices) -> None:
     for n, asked_for in ((2, 5), (7, 7), (12, 8)):
         things = [f"thing{chr(97 + i)}" for i in range(n)]
-        cooked = ["stir at the stove with the pot in hand", *(f"stir at the stove with the {t} in hand" for t in things)]
+        cooked = [
+            "stir at the stove with the pot in hand",
+            *(f"stir at the stove with the {t} in hand" for t in things),
+        ]
         ask = ScriptedAsk(type2_answers())
         watch(robot(make_services, ask=ask, told={10: ("Cook a meal", cooked)}, day=1))
         [count] = [v["n_tasks"] for v in ask.variables_of("robot/tasks_type2") if v["intention"] == "Cook a meal"]
@@ -238,3 +247,34 @@ def test_a_habit_of_type_1_puts_one_of_the_things_where_they_were_put(make_servi
     said = made().help(view)
     assert [task.act.describe() for task in said.tasks if task.accepted] == ["put the book on the sofa"]
     assert FakeHome().movable["book_1"][0] == said.tasks[0].act.object_id  # type: ignore[union-attr]
+
+
+class Sure(TableClassifier):
+    """Knows one chance for all."""
+
+    def __init__(self, p: float, chances: bool) -> None:
+        super().__init__()
+        self.p, self.gives_chances = p, chances
+
+    def probabilities(self, examples: Sequence[Example]) -> list[float]:
+        return [self.p] * len(examples)
+
+
+@pytest.mark.parametrize(
+    ("p", "chances", "method", "accepted"),
+    [
+        (0.4, True, "ours", True),  # worth it for the person's needs
+        (0.3, True, "ours", False),
+        (0.4, False, "ours", False),  # the classifier has put its place to decide at 0.5
+        (0.6, False, "ours", True),
+        (0.4, True, "paper", False),
+    ],
+)
+def test_a_chance_is_accepted_where_it_pays_for_needs_and_any_other_verdict_from_a_half(
+    make_services: MakeServices, p: float, chances: bool, method: str, accepted: bool
+) -> None:
+    ctx = robot(make_services, method=method)
+    ctx.learner.classifiers["task"] = Sure(p, chances)
+    tasks = watch(ctx).tasks
+    assert tasks
+    assert {task.accepted for task in tasks} == {accepted}

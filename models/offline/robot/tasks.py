@@ -122,7 +122,9 @@ def _as_told(sense: CommonSense, variables: Mapping[str, Any], recalled: Sequenc
     past = memories(variables["recalled_intentions"], int(variables["hour"]))
     hours = {memory.hours_ago for memory in past if like(memory.text)}
     told = [want for want in wants([m.text for m in recalled if m.hours_ago in hours]) if want.spot]
-    told += [Want(thing, spot, "", motion) for (thing, spot, motion), often in _told(variables).items() if often >= SOME]
+    told += [
+        Want(thing, spot, "", motion) for (thing, spot, motion), often in _told(variables).items() if often >= SOME
+    ]
     things = {want.thing: want.motion for want in told if want.motion and want.thing not in found.activity.things}
     places = dict.fromkeys((_class(want.thing), _class(str(want.spot))) for want in told if not want.motion)
     return Activity.model_construct(

@@ -85,12 +85,21 @@ def test_the_kernel_judges_by_the_counts_where_there_are_any_and_is_the_same_aft
     assert again.probabilities(asked) == [yes, no]
 
 
-def test_a_method_without_context_or_order_lets_its_classifiers_see_no_counts() -> None:
-    for inputs in (Inputs(context=False), Inputs(rank=False)):
-        kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=inputs)
-        kernel.train(taught(), seed=0)
-        one, other = kernel.probabilities([shown(99, told=0.8), shown(99, told=0.1)])
-        assert one == other
+def test_a_method_without_order_lets_its_classifiers_see_no_counts() -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs(rank=False))
+    kernel.train(taught(), seed=0)
+    one, other = kernel.probabilities([shown(99, told=0.8), shown(99, told=0.1)])
+    assert one == other
+    assert not kernel.gives_chances
+
+
+def test_the_kernel_says_whether_its_probabilities_are_chances() -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs())
+    assert not kernel.gives_chances
+    kernel.train(taught(), seed=0)
+    assert kernel.gives_chances
+    kernel.train([one.model_copy(update={"evidence": {}}) for one in taught()], seed=0)
+    assert not kernel.gives_chances
 
 
 def test_a_blend_of_another_number_of_features_is_refused() -> None:
