@@ -62,7 +62,7 @@ class Task(Frozen):
 
 
 class Recalled(Frozen):
-    """One retrieved memory: score = recency x relevance (PAPER §3.2). `source`: told in the evening, or guessed today."""
+    """One retrieved memory: score = recency x relevance (PAPER §3.2). `source`: told, or guessed today."""
 
     kind: CandidateKind
     text: str

@@ -5,8 +5,8 @@ goes by their `prior` alone.
 
 `prior` is the robot's own probability. Others are shares of the hours that the person told of: `told` among those of
 like intentions, `sight` among those that looked like this one, `hour` among those at this time of day. `support` is the
-logarithm of 1 + the number of hours that `told` rests on. All shares are smoothed, so that one hour decides nothing, and
-lie in (0, 1).
+logarithm of 1 + the number of hours that `told` rests on. All shares lie in (0, 1) and are smoothed, so that one hour
+decides nothing.
 DEVIATES: the paper's classifiers see neither; they see that a text is like another, not that it is the same.
 """
 

@@ -26,8 +26,8 @@ class Inputs:
             the person by nothing else.
         context: The recalled earlier intentions and tasks.
         time: The hour.
-        rank: The robot's own order of its candidates, and its evidence for them. DEVIATES: the paper's classifiers do not see it. They do not see
-            the observation either, and the order sums it up.
+        rank: The robot's own order of its candidates, and its evidence for them. DEVIATES: the paper's classifiers do
+            not see it. They do not see the observation either, and the order sums it up.
     """
 
     traits: bool = True
