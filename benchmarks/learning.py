@@ -49,6 +49,11 @@ class Shuffled:
         self._inner = inner
         self.probabilities, self.save, self.load = inner.probabilities, inner.save, inner.load
 
+    @property
+    def gives_chances(self) -> bool:
+        """As the classifier behind it."""
+        return bool(getattr(self._inner, "gives_chances", False))
+
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
         """Shuffle the labels of each day among themselves, then learn."""
         dealt = list(examples)

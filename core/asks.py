@@ -2,7 +2,12 @@
 
 A prompt file may use any subset of the variables listed here, and no other. Values are plain JSON data:
 
-- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first;
+- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first; a robot's recalled ones also have
+  `guessed`, whether it only thought so today and nobody has confirmed it;
+- `told` are hours of earlier days that the person told a robot of, `{"when", "hours_ago", "intention", "tasks",
+  "weight"}`, the most telling first: for intentions those that looked like this hour, for tasks those of like
+  intentions. `weight` from 0 to 1 is how much an hour counts. It is empty where a method does without;
+- `in_hand` is the thing in the person's hand, to be offered by nobody; None where that is not known or not to count;
 - `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
 - `can` is `{furniture: [captions of motions that can be done there]}`; what can be done anywhere is named at none;
@@ -100,7 +105,7 @@ ASKS: dict[str, AskSpec] = {
     "human/grade_intentions": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "guesses"),
     "human/grade_tasks": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
     "robot/intentions": _spec(
-        "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "rooms", "percept", "first_task", "n_intentions"
+        "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "told", "rooms", "percept", "first_task", "n_intentions"
     ),
     "robot/tasks_type1": _spec(
         "robot",
@@ -108,7 +113,7 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_BELIEF,
         *_MEMORY,
-        *("intention", "fixed", "movable", "states", "first_task", "seen", "n_tasks"),
+        *("told", "intention", "fixed", "movable", "states", "first_task", "seen", "n_tasks"),
     ),
     "robot/tasks_type2": _spec(
         "robot",
@@ -116,7 +121,7 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_BELIEF,
         *_MEMORY,
-        *("intention", "fixed", "states", "seen", "n_tasks"),
+        *("told", "in_hand", "intention", "fixed", "states", "seen", "n_tasks"),
     ),
     "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),

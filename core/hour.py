@@ -8,23 +8,11 @@ from pydantic import ConfigDict, Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
-from coopera.core.people import Belief, BigFive, Frozen, PersonId
+from coopera.core.people import Belief, BigFive, Circumstance, Frozen, PersonId, is_empty, is_none
 from coopera.core.setting import Setting
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
 """The kinds of candidates: the robot imagines them, and a classifier gives a verdict on each."""
-
-
-ChangeKind: TypeAlias = Literal["mood", "drift", "job", "illness", "hobby", "season", "other"]
-"""What may become different in a life."""
-
-
-class Circumstance(Frozen):
-    """Something that is different in a person's life, as it is felt on a day; `strength` from 0 to 1."""
-
-    kind: ChangeKind
-    text: str
-    strength: float = Field(ge=0, le=1)
 
 
 class Reasons(Frozen):
@@ -62,7 +50,7 @@ class Task(Frozen):
 
 
 class Recalled(Frozen):
-    """One retrieved memory: score = recency x relevance (PAPER §3.2, Memory Retrieval)."""
+    """One retrieved memory: score = recency x relevance (PAPER §3.2). `source`: told, or guessed today."""
 
     kind: CandidateKind
     text: str
@@ -70,6 +58,7 @@ class Recalled(Frozen):
     relevance: float
     recency: float
     score: float
+    source: Literal["told", "guessed"] | None = Field(None, exclude_if=is_none)
 
 
 class Found(Frozen):
@@ -144,8 +133,7 @@ class LoggedHour(Frozen):
 class Observation(Frozen):
     """What the robot is given of the hour: neither the intention nor a task after the first.
 
-    `frames`: picture files, relative to the run directory, robot views first, in order of time.
-    `percept`: set if the robot's model cannot look at pictures.
+    `frames`: picture files, relative to the run directory, robot views first. `percept`: set if none are looked at.
     `first_task`: the text of the first task, in collaboration type 1 only (PAPER §3.1).
     """
 
@@ -155,10 +143,11 @@ class Observation(Frozen):
 
 
 class IntentionCandidate(Frozen):
-    """An intention the robot imagines; whether it was right stands in the evening's feedback."""
+    """An intention the robot imagines; whether it was right stands in the evening's feedback. `evidence`: `Example`."""
 
     text: str
     reasons: Reasons = Reasons()
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
     probability: float | None = None
     accepted: bool | None = None
 
@@ -170,6 +159,7 @@ class TaskCandidate(Frozen):
     thought: str
     reasons: Reasons = Reasons()
     act: Act
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
     probability: float | None = None
     accepted: bool | None = None
     correct: bool | None = None
@@ -206,8 +196,7 @@ class Proposal(Frozen):
 class Counts(Frozen):
     """A confusion count over one task superset; `unscored` candidates are in none of the others.
 
-    f1, precision and recall are None where nothing could be scored. PAPER §4.3: F1 over the task
-    superset, the accepted tasks being the predicted positives.
+    f1, precision and recall are None where nothing could be scored. PAPER §4.3: accepted tasks are predicted positives.
     """
 
     tp: int = Field(0, ge=0)
@@ -376,7 +365,8 @@ class DayPlan(Frozen):
 class Example(Frozen):
     """What a yes/no classifier is shown, in the paper's fields (PAPER App. C.2), and the label.
 
-    `person` keeps people apart. `candidate` is the intention's text or the task's description.
+    `person` keeps people apart. `candidate` is the intention's text or the task's description. `evidence` is what was
+    estimated and counted before any verdict (`coopera.graphs.robots.evidence`).
     """
 
     person: PersonId
@@ -396,4 +386,5 @@ class Example(Frozen):
 
     None where the robot did not imagine it, or where its order is not to be known.
     """
+    evidence: dict[str, float] = Field({}, exclude_if=is_empty)
     label: bool | None = None

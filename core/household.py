@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, NewType, TypeAlias
+import re
+from typing import Annotated, Literal, NamedTuple, NewType, TypeAlias
 
 from pydantic import Field
 from pydantic.json_schema import SkipJsonSchema
@@ -69,6 +70,28 @@ class HandOver(Frozen):
 
 
 Act = Annotated[PickPlace | FreeMotion | HandOver, Field(discriminator="kind")]
+
+
+class Use(NamedTuple):
+    """What an act in words is about: a thing and, but for what is brought, the furniture; both as words."""
+
+    thing: str
+    place: str | None = None
+
+
+_IN_WORDS = (
+    re.compile(r" at the (?P<place>.+?) with the (?P<thing>.+) in hand$"),
+    re.compile(r"^put the (?P<thing>.+?) (?:on|in) the (?P<place>.+)$"),
+    re.compile(r"^bring the (?P<thing>.+?)(?: to \S+)?$"),
+)
+
+
+def use_of(described: str) -> Use | None:
+    """Read back what `describe` says of an act; None for other words."""
+    for pattern in _IN_WORDS:
+        if found := pattern.search(described.strip()):
+            return Use(**found.groupdict())
+    return None
 
 
 class Outcome(Frozen):

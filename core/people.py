@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NewType
+from typing import Literal, NewType, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -86,3 +86,15 @@ class Belief(Frozen):
 
     big_five: BigFive | None = None
     profile: str | None = None
+
+
+ChangeKind: TypeAlias = Literal["mood", "drift", "job", "illness", "hobby", "season", "other"]
+"""What may become different in a life."""
+
+
+class Circumstance(Frozen):
+    """Something that is different in a person's life, as it is felt on a day; `strength` from 0 to 1."""
+
+    kind: ChangeKind
+    text: str
+    strength: float = Field(ge=0, le=1)

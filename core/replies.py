@@ -6,9 +6,10 @@ prompt cannot break parsing. Every text and list is bounded, so that constrained
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
+from pydantic.json_schema import SkipJsonSchema
 
 from coopera.core.household import FreeMotion, HandOver, PickPlace
 from coopera.core.people import BigFive, Frozen
@@ -98,6 +99,15 @@ class FreeMotionReflectionReply(FreeMotionReply):
     verdicts: Annotated[list[VerdictReply], Field(min_length=1, max_length=8)]
 
 
+def _probability(value: Any) -> float | None:
+    """Take what is no probability for one that was left out, since no decoder can be held to a range."""
+    known = isinstance(value, int | float) and not isinstance(value, bool) and 0 <= value <= 1
+    return float(value) if known else None
+
+
+Probability = Annotated[float | SkipJsonSchema[None], BeforeValidator(_probability)]
+
+
 class ImaginedIntention(Frozen):
     """One intention that the robot thinks possible."""
 
@@ -106,6 +116,8 @@ class ImaginedIntention(Frozen):
     reason_intentions: Reason = ""
     reason_tasks: Reason = ""
     reason_vision: Reason = ""
+    probability: Probability = None
+    """How likely it is; may be left out."""
 
 
 class IntentionsReply(Frozen):

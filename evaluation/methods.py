@@ -1,4 +1,6 @@
-"""The methods: ours, and each baseline or ablation as its difference from it. Adding one is adding a line here.
+"""The methods: the paper's, ours, and each baseline or ablation as a difference from one of them.
+
+Adding one is adding a line here.
 
 Methods of other packages join by an entry point in the group `coopera.methods`; see `coopera.graphs.robots.own_robot`.
 """
@@ -9,35 +11,55 @@ from dataclasses import replace
 
 from coopera.core.registry import Registry
 from coopera.evaluation.baselines import Finetuned, Habit
+from coopera.evaluation.controls.ceiling import CEILING
+from coopera.evaluation.controls.habit import HABIT
 from coopera.evaluation.finetuned import FinetunedModel
 from coopera.graphs.robots.method import Method
+from coopera.graphs.robots.rehearsal import REHEARSED
 
-OURS = Method(name="ours")
+PAPER = Method(name="paper")
+"""The method as the paper has it, so far as it says; what the fields default to."""
+OURS = replace(
+    PAPER,
+    name="ours",
+    remembers="days",
+    told=True,
+    skips_held=True,
+    evidence=True,
+    accepts="need",
+    replay=(REHEARSED, 2_000),
+)
+"""The best that we have: it counts what it was told, and remembers for weeks."""
 
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
         OURS,
+        PAPER,
         # PAPER §4.3, baselines: one intention and its tasks from the history in the prompt, nothing validated
-        replace(OURS, name="direct_prompting", n_intentions=1, verdicts="accept", learns=False),
+        replace(PAPER, name="direct_prompting", n_intentions=1, verdicts="accept", learns=False),
         Method(
             name="direct_finetuning", traits=False, own=Finetuned, tunes=FinetunedModel
         ),  # see coopera.evaluation.baselines and coopera.evaluation.finetuned for what it learns
-        replace(OURS, name="oracle", intentions="given", verdicts="accept", learns=False),
-        replace(OURS, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
-        replace(OURS, name="intention_agnostic", intentions="skipped"),
-        replace(OURS, name="human_context_agnostic", time_only=True),
+        replace(PAPER, name="oracle", intentions="given", verdicts="accept", learns=False),
+        replace(PAPER, name="random", verdicts="accept", learns=False),  # no classifiers, all accepted
+        replace(PAPER, name="intention_agnostic", intentions="skipped"),
+        replace(PAPER, name="human_context_agnostic", time_only=True),
         replace(OURS, name="no_traits", traits=False),  # PAPER §4.5
         replace(OURS, name="no_context", context=False),  # PAPER §4.5
-        replace(OURS, name="other_backbone", other_backbone=True),  # PAPER §4.5
+        replace(PAPER, name="other_backbone", other_backbone=True),  # PAPER §4.5
         # references that the paper lacks
+        replace(OURS, name="first_guess", verdicts="first", learns=False),  # the first guess and its tasks, always
+        HABIT,
+        replace(OURS, name="swapped", swapped=True),  # told of another person in the evening
+        CEILING,
         Method(name="frequency_prior", traits=False, own=Habit),
-        replace(OURS, name="always_no", traits=False, verdicts="reject", learns=False),
+        replace(PAPER, name="always_no", traits=False, verdicts="reject", learns=False),
         # ours on its very first day, every day: the baseline of generalisation
         replace(OURS, name="untrained", traits=False, context=False, learns=False),
         # nobody helps: a person's life alone, which later runs of any method may take over
-        replace(OURS, name="none", traits=False, context=False, verdicts="accept", learns=False, robot=False),
-        replace(OURS, name="no_order", order=False),  # classifiers see the paper's fields and nothing else
+        replace(PAPER, name="none", traits=False, context=False, verdicts="accept", learns=False, robot=False),
+        replace(PAPER, name="no_order", order=False),  # classifiers see the paper's fields and nothing else
     )
 }
 """The methods of this package, and those that `register` added in this process, by name."""

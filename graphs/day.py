@@ -16,7 +16,16 @@ from langgraph.runtime import Runtime
 from typing_extensions import TypedDict
 
 from coopera.core.errors import ModelOutputError
-from coopera.core.hour import DayPlan, Evening, FeedbackItem, HumanHour, IntentionCandidate, RobotHour, TaskCandidate
+from coopera.core.hour import (
+    DayPlan,
+    Evening,
+    FeedbackItem,
+    HourRecord,
+    HumanHour,
+    IntentionCandidate,
+    RobotHour,
+    TaskCandidate,
+)
 from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
@@ -107,7 +116,7 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     """
     ctx = runtime.context.here().human(state["plan"])
     items: list[FeedbackItem] = []
-    for hour in runtime.context.recorder.read_day(ctx.plan.day):
+    for hour in _told(runtime.context, ctx.plan):
         if hour.human is not None and hour.robot is not None:
             meant = _hour_feedback(ctx, hour.hour, hour.human, hour.robot)
             clock = ctx.plan.clock(ctx.plan.hours.index(hour.hour))
@@ -122,7 +131,7 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     A reply that cannot be read leaves the belief as it was.
     """
     services, plan = runtime.context, state["plan"]
-    past = accounts(services.recorder.read_day(plan.day), plan.episode_day * 24)
+    past = accounts(_told(services, plan), plan.episode_day * 24)
     belief = state["beliefs"].get(plan.person, Belief())
     if not services.method.traits or not past:
         return {"traits_reasons": {}}
@@ -140,7 +149,7 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     services, plan = runtime.context, state["plan"]
     if not services.method.robot:
         return {"measured": {}}
-    hours = services.recorder.read_day(plan.day)
+    hours = _told(services, plan)
     history = services.memories("history", plan.episode, plan.person)
     history.forget_from(plan.episode_day * 24)
     history.extend(
@@ -179,6 +188,15 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     )
     runtime.stream_writer({"day": plan.day, "hour": None, "node": "end_day", "success": None})
     return {}
+
+
+def _told(services: Services, plan: DayPlan) -> list[HourRecord]:
+    """The day's hours as the evening speaks of them: the person's own, or those of a stranger in their place."""
+    hours = services.recorder.read_day(plan.day)
+    if services.stranger is None:
+        return hours
+    others = ((hour, services.stranger(plan, hour.hour)) for hour in hours)
+    return [hour.model_copy(update={"human": other}) for hour, other in others if other is not None]
 
 
 def _hour_feedback(ctx: HumanContext, hour: int, human: HumanHour, robot: RobotHour) -> list[FeedbackItem]:

@@ -7,7 +7,6 @@ nothing else. A robot of one's own has a graph of two nodes over the same view: 
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeVar
 
@@ -19,8 +18,6 @@ from typing_extensions import TypedDict
 
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import (
-    CandidateKind,
-    Example,
     IntentionCandidate,
     Observation,
     Reasons,
@@ -34,11 +31,23 @@ from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
 from coopera.graphs.players.variables import when
+from coopera.graphs.robots.evidence import weights_for
 from coopera.graphs.robots.learning import Known, Learner, example
 from coopera.graphs.robots.method import Method, Numbers
 from coopera.graphs.robots.own_robot import Robot, checked
-from coopera.graphs.robots.recall import as_variables, best, recall_both
+from coopera.graphs.robots.proposing import (
+    Imagined,
+    evidence_of,
+    how_many,
+    like_hours,
+    most_telling,
+    superset_of,
+    with_evidence,
+)
+from coopera.graphs.robots.recall import as_variables, best, recall_both, recall_weeks
 from coopera.graphs.robots.robot_view import RobotView
+from coopera.graphs.robots.told import ToldHour, as_told, held, likeness, told_hours
+from coopera.graphs.robots.verdicts import judge
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceReply, 2: HandOverReply}
 
@@ -81,18 +90,12 @@ class OracleInput(RobotInput):
     true_intention: str
 
 
-class Imagined(TypedDict):
-    """The tasks imagined for one accepted intention."""
-
-    rank: int
-    tasks: list[TaskCandidate]
-
-
 class RobotState(RobotInput, total=False):
     """Working state of the robot's hour; a key is absent until its node has run."""
 
     true_intention: str  # the true intention, of an oracle alone
     recalled: list[Recalled]  # by observe
+    told: list[ToldHour]  # by observe: what was told of earlier days, oldest first
     intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
     imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
     tasks: list[TaskCandidate]  # by classify_tasks; in the order of their intentions, without repeats
@@ -104,6 +107,7 @@ class TaskRequest(TypedDict):
     """What one imagine_tasks gets: an accepted intention, and what was recalled."""
 
     recalled: list[Recalled]
+    told: list[ToldHour]
     intention: IntentionCandidate
     rank: int
 
@@ -161,18 +165,22 @@ def propose(state: RobotInput, runtime: Runtime[OwnRobotContext]) -> dict[str, A
 
 
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Recall what the robot knows that resembles what it sees. Writes `recalled`.
+    """Recall what the robot knows that resembles what it sees. Writes `recalled` and `told`.
 
     Earlier days come from the person's accounts, today from the robot's own guesses.
     """
     view, clock = runtime.context.view, runtime.context.view.clock
-    if not runtime.context.method.context:
-        return {"recalled": []}
+    method = runtime.context.method
+    if not method.context:
+        return {"recalled": [], "told": []}
     query = f"{clock.label}, {clock.weekday}. {_sight(view.observation)}"
+    told_of = told_hours(view) if method.told or method.evidence else []
+    if method.remembers == "days":
+        return {"recalled": recall_weeks(view, query), "told": told_of}
     dawn = clock.day * 24
     told = recall_both(view.history, query, clock, since=None)
     guessed = recall_both(view.guesses, query, clock, since=dawn)
-    return {"recalled": best([*told, *guessed])}
+    return {"recalled": best([*told, *guessed]), "told": told_of}
 
 
 def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
@@ -199,16 +207,20 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         variables={
             **when(clock),
             **_belief(ctx),
-            **as_variables(state["recalled"], clock),
+            **as_variables(state["recalled"], clock, marked=True),
+            "told": as_told(most_telling(ctx.method, state["told"]), clock),
             "rooms": view.home.rooms,
             "percept": percept,
             "first_task": seen.first_task,
             "n_intentions": count,
         },
     )
+    replies = reply.intentions[:count]
+    evidence = evidence_of(ctx.method, view, state["told"], replies)
     candidates = {
         item.intention: IntentionCandidate(
             text=item.intention,
+            evidence=known,
             reasons=Reasons(
                 human=item.reason_human,
                 intentions=item.reason_intentions,
@@ -216,7 +228,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
                 vision=item.reason_vision,
             ),
         )
-        for item in reversed(reply.intentions[:count])
+        for item, known in reversed(list(zip(replies, evidence, strict=True)))
     }
     return {"intentions": list(reversed(candidates.values()))}
 
@@ -232,9 +244,8 @@ def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> di
     if ctx.method.intentions != "inferred":
         return {"intentions": [c.model_copy(update={"probability": 1.0, "accepted": True}) for c in candidates]}
     known = _known(state, ctx.view)
-    asked = [example(known, intention=c.text) for c in candidates]
-    probabilities = _verdicts(ctx, "intention", asked)
-    accepted = [p >= 0.5 for p in probabilities]
+    asked = [example(known, intention=c.text, evidence=c.evidence) for c in candidates]
+    probabilities, accepted = judge(ctx.method, ctx.learner, "intention", asked)
     fallbacks = []
     if not any(accepted):
         accepted[probabilities.index(max(probabilities))] = True
@@ -251,7 +262,7 @@ def one_per_accepted(state: RobotState) -> list[Send]:
     return [
         Send(
             "imagine_tasks",
-            TaskRequest(recalled=state["recalled"], intention=intention, rank=rank),
+            TaskRequest(recalled=state["recalled"], told=state["told"], intention=intention, rank=rank),
         )
         for rank, intention in enumerate(state["intentions"])
         if intention.accepted
@@ -264,11 +275,13 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     A reply that cannot be read leaves this intention without tasks, and that is said.
     """
     ctx, view, intention = runtime.context, runtime.context.view, state["intention"]
-    home, count = view.home, Numbers.ROBOT_TASKS[view.collab]
-    direct = ctx.method.intentions == "skipped"
-    if direct:
-        count = Numbers.DIRECT_TASKS
-    extra = {"movable": home.objects("movable"), "first_task": view.observation.first_task} if view.collab == 1 else {}
+    home, direct = view.home, ctx.method.intentions == "skipped"
+    in_hand = held(view.observation) if ctx.method.skips_held else None
+    weights = weights_for(state["told"], likeness(view, state["told"], intention.text))
+    count = Numbers.DIRECT_TASKS if direct else how_many(ctx.method, view, state["told"], weights)
+    extra: dict[str, Any] = {"in_hand": in_hand.thing if in_hand else None}
+    if view.collab == 1:
+        extra = {"movable": home.objects("movable"), "first_task": view.observation.first_task}
     try:
         reply = view.ask(
             f"robot/tasks_type{view.collab}",
@@ -278,8 +291,9 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
             variables={
                 **when(view.clock),
                 **_belief(ctx),
-                **as_variables(state["recalled"], view.clock),
+                **as_variables(state["recalled"], view.clock, marked=True),
                 **extra,
+                "told": as_told(like_hours(ctx.method, state["told"], weights), view.clock, without=in_hand),
                 "intention": intention.text,
                 "seen": intention.text if direct else None,
                 "fixed": home.objects("fixed"),
@@ -298,7 +312,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
         )
         for draft in reply.tasks[:count]
     ]
-    return {"imagined": [{"rank": state["rank"], "tasks": tasks}]}
+    return {"imagined": [Imagined(rank=state["rank"], tasks=tasks, weights=weights)]}
 
 
 def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
@@ -309,21 +323,17 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
     and that is said.
     """
     ctx = runtime.context
-    superset: dict[str, TaskCandidate] = {}
-    dropped: list[str] = []
-    for batch in sorted(state.get("imagined", []), key=lambda batch: batch["rank"]):
-        for task in batch["tasks"]:
-            if wrong := ctx.view.home.misfit(task.act):
-                dropped.append(f'"{task.act.describe()}" was dropped: {wrong}')
-            else:
-                superset.setdefault(task.act.describe(), task)
+    imagined = sorted(state.get("imagined", []), key=lambda batch: batch["rank"])
+    superset, dropped = superset_of(ctx.method, ctx.view, imagined)
     known = _known(state, ctx.view)
-    asked = [example(known, intention=t.intention, task=t.act.describe()) for t in superset.values()]
-    probabilities = _verdicts(ctx, "task", asked)
+    if ctx.method.evidence:
+        superset = with_evidence(ctx.view, state["told"], state["intentions"], imagined, superset)
+    asked = [example(known, intention=t.intention, task=t.act.describe(), evidence=t.evidence) for t in superset]
+    probabilities, accepted = judge(ctx.method, ctx.learner, "task", asked)
     watches = [] if superset else ["no valid task was imagined: the robot only watches"]
     tasks = [
-        task.model_copy(update={"probability": p, "accepted": p >= 0.5})
-        for task, p in zip(superset.values(), probabilities, strict=True)
+        task.model_copy(update={"probability": p, "accepted": yes})
+        for task, p, yes in zip(superset, probabilities, accepted, strict=True)
     ]
     return {"tasks": tasks, "fallbacks": [*dict.fromkeys(dropped), *watches]}
 
@@ -342,12 +352,6 @@ def _belief(ctx: RobotContext) -> dict[str, Any]:
 
 def _known(state: RobotState, view: RobotView) -> Known:
     return Known(view.person, view.clock, view.belief, state["recalled"], state["intentions"])
-
-
-def _verdicts(ctx: RobotContext, kind: CandidateKind, asked: Sequence[Example]) -> list[float]:
-    if ctx.method.verdicts != "classifiers":
-        return [1.0 if ctx.method.verdicts == "accept" else 0.0] * len(asked)
-    return ctx.learner.classifiers[kind].probabilities(asked) if asked else []
 
 
 def _sight(seen: Observation) -> str:

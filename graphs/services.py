@@ -109,6 +109,8 @@ class Services:
     """Whether the robot is told whom it is with, or infers it (`coopera.graphs.robots.identity`)."""
     hourly_traits: bool = False
     """Whether the robot revises its belief about the person each hour, from its own guesses, or each evening."""
+    stranger: Callable[[DayPlan, int], HumanHour | None] | None = None
+    """What another person did in the same hour of their life, for a method whose robot is told of them instead."""
     own: OwnRobot | None = None
     """A robot of one's own with its evenings, where the method names one."""
     human_agent: AgentId = HUMAN

@@ -85,16 +85,36 @@ _FULL: dict[str, Any] = {
     "statements": [item.says for item in ITEMS],
     "rooms": ["bathroom", "bedroom", "kitchen", "living room", "study"],
     "today": [
-        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast"},
-        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room"},
+        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast", "guessed": False},
+        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "guessed": False},
     ],
     "recalled_intentions": [
-        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room"},
-        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast"},
+        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "guessed": False},
+        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast", "guessed": False},
     ],
+    "told": [
+        {
+            "when": "day 1, 2 pm",
+            "hours_ago": 48,
+            "intention": "Relax with some quiet reading",
+            "tasks": ["sit and read at the armchair with the book in hand"],
+            "weight": 0.8,
+        },
+    ],
+    "in_hand": "book",
     "recalled_tasks": [
-        {"when": "1 pm", "hours_ago": 1, "text": "wipe the top at the coffee table with the sponge in hand"},
-        {"when": "9 am", "hours_ago": 5, "text": "sit and eat at the dining table with the bowl in hand"},
+        {
+            "when": "1 pm",
+            "hours_ago": 1,
+            "text": "wipe the top at the coffee table with the sponge in hand",
+            "guessed": False,
+        },
+        {
+            "when": "9 am",
+            "hours_ago": 5,
+            "text": "sit and eat at the dining table with the bowl in hand",
+            "guessed": False,
+        },
     ],
     "intention": "Relax with some quiet reading",
     "fixed": {
@@ -153,9 +173,9 @@ _FULL: dict[str, Any] = {
     "seen": None,
     "n_intentions": 5,
     "intentions": [
-        {"when": "9 am", "hours_ago": 12, "text": "Start the day slowly with breakfast"},
-        {"when": "2 pm", "hours_ago": 7, "text": "Relax with some quiet reading"},
-        {"when": "9 pm", "hours_ago": 0, "text": "Get ready for the night"},
+        {"when": "9 am", "hours_ago": 12, "text": "Start the day slowly with breakfast", "guessed": False},
+        {"when": "2 pm", "hours_ago": 7, "text": "Relax with some quiet reading", "guessed": False},
+        {"when": "9 pm", "hours_ago": 0, "text": "Get ready for the night", "guessed": False},
     ],
 }
 _BARE: dict[str, Any] = {
@@ -166,6 +186,8 @@ _BARE: dict[str, Any] = {
     "today": [],
     "recalled_intentions": [],
     "recalled_tasks": [],
+    "told": [],
+    "in_hand": None,
     "findings": [],
     "states": {},
     "steps": [],
@@ -204,8 +226,8 @@ def _of_type(collab: int) -> dict[str, Any]:
         "tasks": _TASKS[1],
         "offers": offers,
         "recalled_tasks": [
-            {"when": "1 pm", "hours_ago": 1, "text": "put the cushion on the sofa"},
-            {"when": "9 am", "hours_ago": 5, "text": "put the bowl on the dining table"},
+            {"when": "1 pm", "hours_ago": 1, "text": "put the cushion on the sofa", "guessed": False},
+            {"when": "9 am", "hours_ago": 5, "text": "put the bowl on the dining table", "guessed": False},
         ],
         "first_task": _TEXTS_1[0],
         "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 3 tasks, not 2."],

@@ -43,6 +43,13 @@ def made_up(schema: Mapping[str, Any], key: str, definitions: Mapping[str, Any] 
     return 1 + number % 5
 
 
+def scripted(value: Any, script: Mapping[str, Any]) -> Any:
+    """A made-up value in which the fields of these names say what the script says."""
+    if isinstance(value, dict):
+        return {name: script.get(name, scripted(part, script)) for name, part in value.items()}
+    return [scripted(item, script) for item in value] if isinstance(value, list) else value
+
+
 class Served:
     """What the server was told to do, and what it did."""
 
@@ -51,6 +58,7 @@ class Served:
         self.share: float = options.faults
         self.hang: float = options.hang
         self.refuse: list[str] = options.refuse
+        self.script: dict[str, Any] = json.loads(options.say)
         self.done: list[str] = []
         self.lock = threading.Lock()
         self.model: Any = None
@@ -74,7 +82,7 @@ class Served:
         told = json.dumps(asked["messages"])
         if self.model is None:
             key = f"{told} {asked.get('seed')}"
-            text = json.dumps(made_up(schema, key)) if schema is not None else "No."
+            text = json.dumps(scripted(made_up(schema, key), self.script)) if schema is not None else "No."
             return text, len(told) // 4, len(text) // 4
         from langchain_core.messages import convert_to_messages  # noqa: PLC0415
 
@@ -182,6 +190,7 @@ def main() -> None:
     parser.add_argument("--faults", type=float, default=0.0)
     parser.add_argument("--hang", type=float, default=5.0)
     parser.add_argument("--refuse", nargs="*", default=[])
+    parser.add_argument("--say", default="{}", help="what fields of a name always say, as JSON")
     Handler.served = Served(parser.parse_args())
     server = _Server(("127.0.0.1", 0), Handler)
     sys.stdout.write(f"{server.server_address[1]}\n")

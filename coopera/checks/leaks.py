@@ -202,6 +202,10 @@ class _ListeningClassifier:
         self._inner, self._heard = inner, heard
         self.train, self.save, self.load = inner.train, inner.save, inner.load
 
+    @property
+    def gives_chances(self) -> bool:
+        return bool(getattr(self._inner, "gives_chances", False))
+
     def probabilities(self, examples: Sequence[Example]) -> list[float]:
         self._heard.extend((example.hour, example) for example in examples)
         return self._inner.probabilities(examples)

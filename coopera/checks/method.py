@@ -38,7 +38,7 @@ def check_method(method: Method, *, collabs: Sequence[Collab] = (1, 2), hours: i
     Every hour is scored and every candidate has a verdict of the right kind. The same seed gives the same results when
     the run is stopped between the days, and within the second, and goes on with a new robot. Evenings with no hours,
     without any readable answer, and with nothing but yes or no are learned from without harm. In two lives that look
-    alike the method gets the same and does the same, unless it declares that it is given the intention.
+    alike the method gets the same and does the same, unless it declares that it is given the truth.
 
     Args:
         method: With a robot; its other parts are the classifier `kernel` and the offline model.
@@ -88,7 +88,7 @@ def _check(config: Config) -> None:
                 f"{one.day} at {one.hour}:00. Keep what is learned in save and load, or let learn alone decide it; "
                 "draw from coopera.core.randomness."
             )
-    if METHODS[config.method].intentions != "given":
+    if not METHODS[config.method].told_the_truth:
         _check_leaks(config, name)
 
 

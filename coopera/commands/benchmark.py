@@ -119,7 +119,7 @@ def _methods(text: str | None) -> list[str] | None:
         return as_list(text)
     from coopera.evaluation import METHODS
 
-    return [name for name, method in METHODS.items() if method.robot]
+    return [name for name, method in METHODS.items() if method.robot and not method.swapped]
 
 
 def _numbers(flag: str, text: str | None) -> list[int] | None:

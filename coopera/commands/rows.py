@@ -23,20 +23,26 @@ def _methods() -> Rows:
 
 
 def _of_method(method: Any) -> str:
-    """A method as its differences from ours, which it is declared by; another package's is not loaded to be listed."""
-    from coopera.evaluation.methods import OURS
+    """A method as its differences from ours or the paper's; another package's is not loaded to be listed."""
+    from coopera.evaluation.methods import OURS, PAPER
 
     if method is None:
         return "of another package"
-    if method is OURS:
-        return "the paper's method"
+    if method in (OURS, PAPER):
+        return "the best that we have" if method is OURS else "the paper's method"
+    if method.knows is not None:
+        return "a ceiling: it knows the true person"
     if method.own is not None:
         own = getattr(method.own, "__doc__", None) or type(method.own).__doc__ or ""
         return f"another robot: {_first_sentence(own)}"
     names = [field.name for field in fields(method) if field.name != "name"]
-    given = {name: getattr(method, name) for name in names if getattr(method, name) != getattr(OURS, name)}
-    said = ", ".join(f"{name}={getattr(value, '__name__', value)}" for name, value in given.items())
-    return f"ours with {said}"
+    given = {
+        base.name: {name: getattr(method, name) for name in names if getattr(method, name) != getattr(base, name)}
+        for base in (PAPER, OURS)
+    }
+    base = min(given, key=lambda name: len(given[name]))
+    said = ", ".join(f"{name}={getattr(value, '__name__', value)}" for name, value in given[base].items())
+    return f"{base} with {said}"
 
 
 def _measures() -> Rows:

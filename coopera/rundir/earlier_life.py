@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from pydantic import ValidationError
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.hour import DayPlan, HourRecord
+from coopera.core.hour import DayPlan, HourRecord, HumanHour
 from coopera.graphs.earlier_life import Shown
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
@@ -28,6 +29,8 @@ class LivedDays:
     """
 
     root: Path
+    others: Mapping[int, int] = field(default_factory=dict)
+    """For each day of the run, the same day in the life of another person."""
 
     def hour(self, plan: DayPlan, hour: int) -> HourRecord:
         """The hour as it was lived."""
@@ -36,6 +39,12 @@ class LivedDays:
         if (record.person, record.scene, record.episode_day) != (plan.person, plan.scene, plan.episode_day):
             raise RunError(f"{path}: this is an hour of {record.person} in {record.scene}, not of {plan.person}.")
         return record
+
+    def stranger(self, plan: DayPlan, hour: int) -> HumanHour | None:
+        """What another person, always the same one, did in this hour of theirs; None where they did nothing at home."""
+        path = self.root / "trace" / f"day-{self.others[plan.day]:02d}" / f"hour-{hour:02d}.json"
+        human = read_record(path, HourRecord).human if path.is_file() else None
+        return None if human is None or human.intention.away else human
 
     def shown(self, plan: DayPlan, hour: int) -> Shown | None:
         """What was kept of the first task of an hour, or None."""
@@ -76,10 +85,26 @@ def open_earlier_life(config: Config) -> LivedDays | None:
     if find_method(run.config.method).robot:
         raise ConfigError(f"{where} must be a run without a robot (--method none), and its method is another.")
     theirs, ours = _days(run.config), _days(config)
-    for field in theirs:
-        if theirs[field] != ours[field]:
-            raise ConfigError(f"{where} has {field} {theirs[field]}, where this run has {ours[field]}.")
-    return LivedDays(config.earlier_life)
+    for name in theirs:
+        if theirs[name] != ours[name]:
+            raise ConfigError(f"{where} has {name} {theirs[name]}, where this run has {ours[name]}.")
+    return LivedDays(config.earlier_life, _others(run) if find_method(config.method).swapped else {})
+
+
+def _others(run: RunDir) -> dict[int, int]:
+    """By day, the same day of the next person in the order of their ids, the first one after the last."""
+    lives: dict[str, dict[int, int]] = {}
+    for day in run.days():
+        first = run.read_day(day)[0]
+        lives.setdefault(first.person, {})[first.episode_day] = day
+    people = sorted(lives)
+    if len(people) < 2:
+        raise ConfigError(
+            f"method: the robot of this method is told of another person, and only {people[0]} takes part in "
+            f"{run.root}; live at least two people's days there."
+        )
+    after = dict(zip(people, [*people[1:], people[0]], strict=True))
+    return {day: lives[after[who]][n] for who in people for n, day in lives[who].items() if n in lives[after[who]]}
 
 
 def _days(config: Config) -> dict[str, Any]:

@@ -43,7 +43,7 @@ from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import Scene, World, load_scene
 from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
-from coopera.studies.catalogues import known_activities, tuned_model
+from coopera.studies.catalogues import known_activities, persons_household, tuned_model
 
 _GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
@@ -143,6 +143,7 @@ def open_services(
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
         ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
+        days = open_earlier_life(config)
         yield Services(
             ask=ask,
             method=method,
@@ -155,10 +156,11 @@ def open_services(
                 run,
                 config.seed,
                 config.learning,
+                dict(zip(KINDS, method.replay, strict=True)),
             ),
             identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",
-            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method)) else None,
+            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method, people, embeddings)) else None,
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
@@ -169,7 +171,8 @@ def open_services(
             answering=_answering(config),
             sizes=config.search,
             player=_player(config, logs),
-            life=EarlierLife(days) if (days := open_earlier_life(config)) else LivedNow(),
+            life=EarlierLife(days) if days else LivedNow(),
+            stranger=days.stranger if days and method.swapped else None,
         )
 
 
@@ -201,8 +204,14 @@ def _player(config: Config, logs: Logs | None) -> Player:
     return Interviewed(graded) if config.played_by == "me" else Simulated(graded)
 
 
-def _own_robot(config: Config, method: Method) -> MakeRobot | None:
+def _own_robot(
+    config: Config, method: Method, people: Mapping[str, Persona], embeddings: Embeddings
+) -> MakeRobot | None:
     """What takes the place of our graph, if anything does."""
+    if method.knows:
+        known = {one.id: one for one in people.values()}
+        texts = {name: PERSON_MODELS[config.person_model].profile(one) for name, one in known.items()}
+        return partial(method.knows, texts, known, persons_household(config), embeddings)
     if method.tunes and (model := tuned_model(config)):
         return partial(method.tunes, model, config.classifier_config)
     return method.own

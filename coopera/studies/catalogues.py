@@ -15,8 +15,8 @@ from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.households import chosen_household, household_file
+from coopera.models.offline.household.knowledge import Household, shipped
 from coopera.models.offline.household.knowledge import load as load_household
-from coopera.models.offline.household.knowledge import shipped
 from coopera.people import shipped as humans
 from coopera.people.changes import open_changes
 from coopera.people.shipped import read_persona
@@ -70,6 +70,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
     _check("method", "method", [config.method], known.methods)
     _check("person_model", "person model", [config.person_model], list(PERSON_MODELS))
     load_robot(config.robot)
+    _refuse_unknowable(config)
     _refuse_online(config)
     _check("humans", "person", config.humans or [], [*known.people, *config.files.humans])
     _check("scenes", "home", config.scenes or [], [*known.scenes, *config.files.scenes])
@@ -126,6 +127,24 @@ def _refuse_online(config: Config) -> None:
         )
 
 
+def _refuse_unknowable(config: Config) -> None:
+    """Refuse a ceiling where nobody knows the person's true parameters, and a swap where there is nobody else."""
+    from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
+
+    if find_method(config.method).swapped and (config.earlier_life is None or config.schedule):
+        raise ConfigError(
+            f"method: the robot of {config.method} is told of another person's days, so it needs an earlier_life of at "
+            "least two people, each with days of their own."
+        )
+    if not find_method(config.method).knows:
+        return
+    if not config.models.human.startswith("offline") or config.played_by != "simulated":
+        who = config.models.human if config.played_by == "simulated" else f"played by {config.played_by}"
+        raise ConfigError(
+            f"method: {config.method} knows the true person, whom only the offline model has; the person here is {who}."
+        )
+
+
 def _by_schedule(config: Config) -> Config:
     """With a schedule, its people, homes and days are the run's."""
     if not config.schedule:
@@ -177,8 +196,13 @@ def known_activities(config: Config) -> Collection[str] | None:
     """Activities that a file of changes may name; None where the person's model is no offline model and reads words."""
     if not config.models.human.startswith("offline"):
         return None
+    return persons_household(config).index
+
+
+def persons_household(config: Config) -> Household:
+    """The household file that people live by whom the offline model plays."""
     path = household_file(config.models.human)
-    return (load_household(path) if path else shipped()).index
+    return load_household(path) if path else shipped()
 
 
 def _groups(field: str, ids: Sequence[str], size: int, setting: int) -> None:

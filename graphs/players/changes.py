@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import Field, model_validator
 
-from coopera.core.hour import ChangeKind, Circumstance
-from coopera.core.people import Frozen, PersonId
+from coopera.core.people import ChangeKind, Circumstance, Frozen, PersonId
 
 Logits = Annotated[float, Field(ge=-10, le=10)]
 DayNumber = Annotated[int, Field(strict=True, ge=0, le=100_000)]

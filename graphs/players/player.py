@@ -12,7 +12,6 @@ from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
 from coopera.core.hour import (
-    Circumstance,
     DayPlan,
     Found,
     HumanHour,
@@ -24,7 +23,7 @@ from coopera.core.hour import (
     Task,
 )
 from coopera.core.household import HUMAN, AgentId, Collab
-from coopera.core.people import Persona
+from coopera.core.people import Circumstance, Persona
 from coopera.core.protocols import Ask, Home
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
 from coopera.graphs.players.changes import Change

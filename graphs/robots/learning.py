@@ -27,7 +27,7 @@ from coopera.core.hour import (
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Classifier, Recorder
 from coopera.core.randomness import seed_at
-from coopera.graphs.robots.rehearsal import keep
+from coopera.graphs.robots.rehearsal import REHEARSED, keep
 
 __all__ = ["EXAMPLES", "KEPT", "KINDS", "Known", "Learner", "Mode", "example", "labelled", "account_of"]
 
@@ -47,13 +47,16 @@ class Known(NamedTuple):
     intentions: Sequence[IntentionCandidate]
 
 
-def example(known: Known, *, intention: str, task: str | None = None) -> Example:
+def example(
+    known: Known, *, intention: str, task: str | None = None, evidence: Mapping[str, float] | None = None
+) -> Example:
     """What a classifier is shown of a candidate (PAPER App. C.2).
 
     Args:
         known: What the robot knows now.
         intention: The candidate, or the intention that a candidate task belongs to.
         task: The candidate task in words.
+        evidence: What speaks for the candidate, where the method counts that.
     """
     order = [candidate.text for candidate in known.intentions]
     return Example(
@@ -67,6 +70,7 @@ def example(known: Known, *, intention: str, task: str | None = None) -> Example
         intentions=[m.text for m in known.recalled if m.kind == "intention"],
         tasks=[m.text for m in known.recalled if m.kind == "task"],
         rank=order.index(intention) if intention in order else None,
+        evidence=dict(evidence or {}),
     )
 
 
@@ -106,12 +110,13 @@ def labelled(account: DayAccount) -> dict[CandidateKind, list[Example]]:
         said: dict[CandidateKind, dict[str, bool]] = {kind: _answers(hour, kind) for kind in KINDS}
         imagined = [c.text for c in hour.robot.intentions if c.text in said["intention"]]
         verdicts = {hour.intention: True, **{text: said["intention"][text] for text in imagined}}
+        evidence = {c.text: c.evidence for c in hour.robot.intentions}
         for text, yes in verdicts.items():
-            examples["intention"].append(_label(example(known, intention=text), yes))
+            examples["intention"].append(_label(example(known, intention=text, evidence=evidence.get(text)), yes))
         for task in hour.robot.tasks:
             text = task.act.describe()
             if text in said["task"]:
-                shown = example(known, intention=task.intention, task=text)
+                shown = example(known, intention=task.intention, task=text, evidence=task.evidence)
                 examples["task"].append(_label(shown, said["task"][text]))
     return examples
 
@@ -124,6 +129,7 @@ class Learner:
         fresh: Makes an untrained classifier of a kind.
         mode: "warm" goes on from the evening before, with the day's examples and a fixed number of earlier ones, so
             that no evening takes longer than another. "fresh" starts anew on all examples, as the authors' code does.
+        replay: That number, by kind.
         classifiers: The classifiers in use, by kind.
     """
 
@@ -131,6 +137,7 @@ class Learner:
     recorder: Recorder
     seed: int = 0
     mode: Mode = "warm"
+    replay: Mapping[CandidateKind, int] = field(default_factory=lambda: dict.fromkeys(KINDS, REHEARSED))
     classifiers: dict[CandidateKind, Classifier] = field(init=False)
     _days: tuple[int, ...] | None = field(init=False, default=None)  # None: in no state that is on file
 
@@ -203,7 +210,7 @@ class Learner:
         if self.mode == "fresh":
             self.classifiers[kind] = self.fresh[kind]()
         else:
-            _write(folder / KEPT, keep(known))
+            _write(folder / KEPT, keep(known, self.replay[kind]))
         measured: dict[str, Any] = {"examples": len(known), "positives": sum(e.label is True for e in known)}
         try:
             measured |= self.classifiers[kind].train(known, seed=seed_at(self.seed, "learn", day, kind))
@@ -223,7 +230,7 @@ class Learner:
         for day in earlier:
             today = _read(self._folder(day, kind) / EXAMPLES)
             every = [*_renewed(every, today), *today]
-        return every if self.mode == "fresh" else keep(every)
+        return every if self.mode == "fresh" else keep(every, self.replay[kind])
 
     def _folder(self, day: int, kind: CandidateKind) -> Path:
         return self.recorder.adapters_folder(day) / kind

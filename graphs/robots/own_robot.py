@@ -24,16 +24,18 @@ from __future__ import annotations
 import inspect
 import logging
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
+from langchain_core.embeddings import Embeddings
 from pydantic import ValidationError
 
 from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import DayAccount, IntentionCandidate, Proposal, TaskCandidate
 from coopera.core.household import Collab
+from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Recorder
 from coopera.core.randomness import seed_at
 from coopera.graphs.robots.robot_view import RobotView
@@ -63,6 +65,8 @@ class Robot(Protocol):
 
 
 MakeRobot: TypeAlias = Callable[[], Robot]
+KnowPeople: TypeAlias = Callable[[Mapping[PersonId, str], Mapping[PersonId, Persona], Any, Embeddings], Robot]
+"""Makes a ceiling from the texts that people live by, who they are, their household file, and a sentence encoder."""
 
 
 @runtime_checkable

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Literal
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
 from coopera.graphs.robots.method import Numbers
-from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories
+from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories, RobotView
 from coopera.memory import MemoryStream
+
+DAYS = 60
+"""How many days back a robot recalls what it was told; by then an hour counts a sixth of a new one."""
+FADING = 0.97  # per day: half after three weeks
+OTHER_KIND = 0.7  # an hour of a working day counts so much on a free one, and the reverse
+NARROW, WIDE = 1.5, 3.0  # hours of day: for what is wanted, and for what is used for it
+_AT_ANY_HOUR = {NARROW: 0.15, WIDE: 0.4}  # what an hour counts that is at quite another time of day
+_FREE_DAYS = ("Saturday", "Sunday")
+_ALL = 10**6
 
 
 def recall_both(memories: Memories | ReadMemories, query: str, now: Clock, *, since: int | None) -> list[Recalled]:
@@ -28,11 +38,72 @@ def best(recalled: Iterable[Recalled]) -> list[Recalled]:
     return intentions[: Numbers.RECALL_INTENTIONS] + tasks[: Numbers.RECALL_TASKS]
 
 
-def as_variables(recalled: Iterable[Recalled], now: Clock) -> dict[str, list[dict[str, Any]]]:
-    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`."""
+def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
+    """What the robot recalls who lives with somebody for weeks: at least half of it told, the rest guessed today.
+
+    What was told fades by the day and counts more at a like hour of a like day. It is ranked exactly, since every
+    intention and every task of these days is scored. DEVIATES: by the paper's decay of 0.95 an hour, yesterday counts
+    0.29 and nothing older is ever recalled; the paper describes that decay for one day.
+    """
+    now = view.clock
+    dawn = now.day * 24
+    guessed = recall_both(view.guesses, query, now, since=dawn)
+    kept: list[Recalled] = []
+    streams: dict[CandidateKind, Readable] = {"intention": view.history.intentions, "task": view.history.tasks}
+    for kind, stream in streams.items():
+        most = Numbers.RECALL_WEEKS[kind]
+        own = [_from(memory, "guessed") for memory in guessed if memory.kind == kind]
+        told = [_from(memory, "told") for memory in _told(stream, kind, query, now, most)]
+        kept += sorted([*told[: most - min(len(own), most // 2)], *own[: most // 2]], key=_rank)
+    return kept
+
+
+def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: int) -> list[Recalled]:
+    found = stream.recall(query, now.day * 24 - 1, _ALL, (now.day - DAYS) * 24) if now.day else []
+    weighed = []
+    for one in found:
+        recency = weight(now, one.hour)
+        score = one.relevance * recency
+        weighed.append(
+            Recalled(kind=kind, text=one.text, hour=one.hour, relevance=one.relevance, recency=recency, score=score)
+        )
+    once = {memory.text: memory for memory in sorted(weighed, key=_rank, reverse=True)}  # the best one of each text
+    return sorted(once.values(), key=_rank)[:most]
+
+
+def weight(now: Clock, hour: int, width: float = NARROW) -> float:
+    """How much a told hour (a global index) counts at this hour of this day, in (0, 1]."""
+    then = Clock(day=hour // 24, hour=hour % 24)
+    fade = FADING ** (now.day - then.day)
+    if (now.weekday in _FREE_DAYS) != (then.weekday in _FREE_DAYS):
+        fade *= OTHER_KIND
+    any_hour = _AT_ANY_HOUR[width]
+    return fade * (any_hour + (1 - any_hour) * math.exp(-(((then.hour - now.hour) / width) ** 2) / 2))
+
+
+def _rank(memory: Recalled) -> tuple[float, int, str]:
+    return (-memory.score, -memory.hour, memory.text)
+
+
+def _from(memory: Recalled, source: Literal["told", "guessed"]) -> Recalled:
+    return memory.model_copy(update={"source": source})
+
+
+def as_variables(recalled: Iterable[Recalled], now: Clock, *, marked: bool = False) -> dict[str, list[dict[str, Any]]]:
+    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`.
+
+    Args:
+        recalled: Best first.
+        now: The hour of the recall.
+        marked: Whether each says if it is a guess that nobody has confirmed: a robot's do.
+    """
     memories = list(recalled)
+
+    def mark(memory: Recalled) -> dict[str, bool]:
+        return {"guessed": memory.source == "guessed"} if marked else {}
+
     return {
-        f"recalled_{kind}s": [as_memory(m.text, m.hour, now) for m in memories if m.kind == kind]
+        f"recalled_{kind}s": [as_memory(m.text, m.hour, now) | mark(m) for m in memories if m.kind == kind]
         for kind in ("intention", "task")
     }
 

@@ -19,6 +19,7 @@ from coopera.core.errors import CooperaError
 from coopera.core.hour import CandidateKind, Example
 from coopera.core.lazy import made_once
 from coopera.memory.embeddings import as_array
+from coopera.models.classifiers.blend import Blend, blend, read_blend
 from coopera.models.classifiers.calibration import Scale, scale
 from coopera.models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
@@ -44,6 +45,8 @@ class _Fitted:
     points: Points
     weights: Floats
     scale: Scale
+    blend: Blend | None = None
+    """Where the examples had evidence: it then gives P(yes) instead of the scale."""
 
 
 class KernelClassifier:
@@ -65,10 +68,20 @@ class KernelClassifier:
         if self._fitted is None or not examples:
             return [0.5] * len(examples)
         with _threads().limit(limits=1, user_api="blas"):
-            batch = read([self._inputs.show(example) for example in examples], self._embeddings)
+            shown = [self._inputs.show(example) for example in examples]
+            batch = read(shown, self._embeddings)
             fitted = self._fitted
             scores = fitted.similarity.gram(fitted.similarity.points(batch), fitted.points) @ fitted.weights
-            return [round(float(p), _DECIMALS) for p in fitted.scale.probabilities(scores)]
+            chances = fitted.scale.probabilities(scores)
+            known = np.array([bool(example.evidence) for example in shown])
+            if fitted.blend and known.any():
+                chances[known] = fitted.blend.probabilities(scores[known], [e for e in shown if e.evidence])
+            return [round(float(p), _DECIMALS) for p in chances]
+
+    @property
+    def gives_chances(self) -> bool:
+        """Whether P(yes) is a chance (`blend`), or is shifted so that 0.5 serves F1 (`calibration.scale`)."""
+        return self._fitted is not None and self._fitted.blend is not None
 
     def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
         """Learn anew from all labelled examples so far.
@@ -107,6 +120,9 @@ class KernelClassifier:
         asked = batch.rank >= 0
         if len(set(labels[asked])) < 2:
             asked[:] = True
+        judged = [row for row in np.flatnonzero(asked) if taught.examples[row].evidence]
+        counted = [taught.examples[row] for row in judged]
+        mixed = blend(unseen[judged], counted, labels[judged]) if counted else None
         unseen, labels = unseen[asked], labels[asked]
         chosen = scale(unseen, labels, days=n_days)
         measured = {
@@ -114,7 +130,7 @@ class KernelClassifier:
             "f1_always_yes": _f1(np.ones(len(labels), bool), labels),
         }
         solution = solve_triangular(lower, weights, lower=True, trans="T")
-        return _Fitted(landmarks, similarity, standing, solution, chosen), measured
+        return _Fitted(landmarks, similarity, standing, solution, chosen, mixed), measured
 
     def _similarity(self, centre: Floats) -> Similarity:
         return Similarity(task=self._kind == "task", centre=centre)
@@ -135,6 +151,8 @@ class KernelClassifier:
             )
             replace_bytes(folder / ARRAYS, buffer.getvalue())
             manifest["scale"] = list(fitted.scale)
+            if fitted.blend:
+                manifest["blend"] = fitted.blend._asdict()
         manifest["probe"] = self._probe().tolist()
         manifest["trained"] = self._fitted is not None
         write_manifest(folder, manifest)
@@ -150,14 +168,15 @@ class KernelClassifier:
             probe = np.array(manifest["probe"], np.float64)
             trained = bool(manifest["trained"])
             chosen = Scale(*map(float, manifest["scale"])) if trained else None
+            mixed = read_blend(manifest["blend"]) if trained and "blend" in manifest else None
         except (KeyError, TypeError, ValueError) as err:
             raise CooperaError(f"{folder}: classifier.json is damaged ({err})") from err
         ours = self._probe()
         if probe.shape != ours.shape or not np.allclose(probe, ours, atol=1e-3):
             raise CooperaError(f"{folder}: the classifier was learned on other embeddings than those given")
-        self._fitted = None if chosen is None else self._read_arrays(folder / ARRAYS, chosen)
+        self._fitted = None if chosen is None else self._read_arrays(folder / ARRAYS, chosen, mixed)
 
-    def _read_arrays(self, path: Path, chosen: Scale) -> _Fitted:
+    def _read_arrays(self, path: Path, chosen: Scale, mixed: Blend | None) -> _Fitted:
         try:
             with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
                 columns = {field.name: arrays[field.name] for field in fields(Batch)}
@@ -169,7 +188,7 @@ class KernelClassifier:
         if rows != {len(weights)} or centre.shape != (2, columns["vectors"].shape[1]):
             raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
         landmarks, similarity = Batch(**columns), self._similarity(centre)
-        return _Fitted(landmarks, similarity, similarity.points(landmarks), weights, chosen)
+        return _Fitted(landmarks, similarity, similarity.points(landmarks), weights, chosen, mixed)
 
     def _identity(self) -> dict[str, Any]:
         return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": self._inputs.names}

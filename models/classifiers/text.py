@@ -26,8 +26,8 @@ class Inputs:
             the person by nothing else.
         context: The recalled earlier intentions and tasks.
         time: The hour.
-        rank: The robot's own order of its candidates. DEVIATES: the paper's classifiers do not see it. They do not see
-            the observation either, and the order sums it up.
+        rank: The robot's own order of its candidates, and its evidence for them. DEVIATES: the paper's classifiers do
+            not see it. They do not see the observation either, and the order sums it up.
     """
 
     traits: bool = True
@@ -50,7 +50,7 @@ class Inputs:
         if not self.time:
             hidden |= {"hour": _NO_HOUR}
         if not self.rank:
-            hidden |= {"rank": None}
+            hidden |= {"rank": None, "evidence": {}}
         return example.model_copy(update=hidden) if hidden else example
 
 

@@ -34,7 +34,7 @@ def test_methods_of_other_packages_are_choices_under_the_name_they_are_registere
     [
         ("gone", r"gone of another package \(no_such_module:METHOD\) cannot be loaded: No module named"),
         ("word", r"word of another package .* must give a Method, and gives str"),
-        ("nothing", r"there is no method 'nothing' \(known are ours, direct_prompting"),
+        ("nothing", r"there is no method 'nothing' \(known are ours, paper, direct_prompting"),
     ],
 )
 def test_a_method_that_cannot_be_used_is_named_with_its_reason(name: str, why: str) -> None:

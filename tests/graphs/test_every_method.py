@@ -13,7 +13,7 @@ from coopera.graphs import build_study_graph
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 
-HELPING = [name for name, method in METHODS.items() if method.robot]
+HELPING = [name for name, method in METHODS.items() if method.robot and not method.knows]
 SCHEDULE = [
     DayPlan(day=day, episode_day=day, person=MARA.id, scene=SceneId("toy"), hours=[9, 10], collab=2) for day in (0, 1)
 ]

@@ -16,7 +16,6 @@ from coopera.checks.leaks import Hidden, HiddenLife, Reached, check_no_leak, rea
 from coopera.core.clock import Clock
 from coopera.core.errors import ConformanceError
 from coopera.core.hour import (
-    Circumstance,
     DayAccount,
     DayPlan,
     Example,
@@ -31,7 +30,7 @@ from coopera.core.hour import (
     TaskCandidate,
 )
 from coopera.core.household import Collab, FreeMotion, HandOver, Outcome, PickPlace, SceneId
-from coopera.core.people import BigFive
+from coopera.core.people import BigFive, Circumstance
 from coopera.evaluation import METHODS
 from coopera.graphs import Method, RobotView, Services
 from coopera.graphs.robots.own_robot import OwnRobot
@@ -41,7 +40,7 @@ from tests.fakes import MARA, LetterEmbeddings, ScriptedAsk, TableClassifier, pl
 from tests.graphs.conftest import MakeServices
 
 HOURS = (9, 10)
-HIDING = [name for name, method in METHODS.items() if method.robot and method.intentions != "given"]
+HIDING = [name for name, method in METHODS.items() if method.robot and not method.told_the_truth]
 NOOR = MARA.model_copy(
     update={"name": "Noor", "profile": "I write poems.", "notes": "", "big_five": BigFive(openness=1.5)}
 )

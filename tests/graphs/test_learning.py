@@ -193,3 +193,12 @@ def test_what_is_kept_day_by_day_is_what_would_be_kept_of_all_days_at_once(
     counts = {person: sum(e.person == person for e in kept) for person in {e.person for e in every}}
     there = {person: sum(e.person == person for e in every) for person in counts}
     assert all(counts[p] == min(there[p], most // len(counts)) for p in counts)
+
+
+@pytest.mark.parametrize("most", [2, 4])
+def test_as_many_examples_of_a_kind_are_kept_as_the_method_says(tmp_path: Path, most: int) -> None:
+    one = learner(tmp_path)
+    one.replay = {"intention": most, "task": 1_000}
+    for day in range(3):
+        one.learn(day, list(range(day)), account(day))
+    assert len((tmp_path / "adapters/day-02/intention/kept.jsonl").read_text().splitlines()) == most

@@ -42,9 +42,11 @@ def test_the_nodes_are_those_of_the_design() -> None:
     assert nodes == ["observe", "imagine_intentions", "classify_intentions", "imagine_tasks", "classify_tasks", "act"]
 
 
-def test_untrained_it_accepts_everything_and_imagines_tasks_once_per_intention(make_services: MakeServices) -> None:
+def test_untrained_the_papers_accepts_everything_and_imagines_tasks_once_per_intention(
+    make_services: MakeServices,
+) -> None:
     ask = ScriptedAsk(type2_answers())
-    hour = watch(robot(make_services, ask=ask))
+    hour = watch(robot(make_services, ask=ask, method="paper"))
     assert [(c.text, c.probability, c.accepted) for c in hour.intentions] == [
         ("Cook a meal", 0.5, True),
         ("Read quietly", 0.5, True),
@@ -78,7 +80,7 @@ def test_graphs_can_be_awaited_side_by_side_with_the_results_of_each_alone(make_
 
 
 def test_a_thing_imagined_for_two_intentions_counts_once_for_the_likelier(make_services: MakeServices) -> None:
-    tasks = watch(robot(make_services)).tasks
+    tasks = watch(robot(make_services, method="paper")).tasks
     assert [(t.act.object, t.intention) for t in tasks] == [
         ("spoon", "Cook a meal"),
         ("whisk", "Cook a meal"),
@@ -88,7 +90,7 @@ def test_a_thing_imagined_for_two_intentions_counts_once_for_the_likelier(make_s
 
 
 def test_only_accepted_tasks_are_done_in_the_home(make_services: MakeServices) -> None:
-    ctx = robot(make_services)
+    ctx = robot(make_services, method="paper")
     ctx.learner.classifiers["task"].train(
         [_labelled("bring the whisk", False), _labelled("bring the novel", True)], seed=0
     )
@@ -116,7 +118,7 @@ def test_an_unreadable_task_reply_costs_that_intention_alone_and_is_said(make_se
         return fine(variables)
 
     answers["robot/tasks_type2"] = garbled
-    hour = watch(robot(make_services, ask=ScriptedAsk(answers)))
+    hour = watch(robot(make_services, ask=ScriptedAsk(answers), method="paper"))
     assert {t.intention for t in hour.tasks} == {"Cook a meal", "Tidy the home"}
     [sentence] = hour.fallbacks
     assert sentence.startswith('no tasks for "Read quietly"')

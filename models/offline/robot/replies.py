@@ -28,6 +28,7 @@ GOES_ON = 2.0  # logits for what was done in the hour before, times the chance t
 ALREADY_TODAY = 2.5  # logits against what was done today and does not repeat
 BELIEF = 0.3  # logits per point of the inferred traits x loading
 PROFILE = 0.5  # logits per standard deviation of the inferred profile's closeness
+USUAL = 1.0  # what is usual counts as so many told hours that are just like this one
 WRONG_ROOM, WRONG_SPOT, WRONG_THING = 0.08, 0.15, 0.2  # likelihoods that perception, or custom, is off
 WRONG_MOTION = 0.15  # share of motions that are recognised wrongly or done for another reason
 
@@ -59,17 +60,46 @@ class Robot:
     def _intentions(self, variables: Mapping[str, Any]) -> IntentionsReply:
         """The n most probable activities, each in the words in which the person is known to put it."""
         household, hour = self._sense.household, int(variables["hour"])
+        told = told_weights(variables["told"], hour)
         recalled = memories(variables["recalled_intentions"], hour)
+        if told:  # what was told is counted, and so it is not remembered a second time
+            recalled = [*(memory for memory in recalled if memory.today), *told]
         known, strange = self._sorted(recalled)
         usual = household.log_hours[:, hour] + self._sight(variables["percept"], variables["first_task"])
-        logits = usual + self._recall(known, hour) + self._belief(variables)
+        past = self._recall(known, hour, told=bool(told))
+        logits = usual + past + self._belief(variables)
         kinds = {room_kind(room) for room in variables["rooms"]}
         possible = np.array([bool(kinds.intersection(a.rooms)) and not a.away for a in household.activities])
         logits = np.where(possible | ~possible.any(), logits, -1e9)
         average = float(np.log(np.exp(usual).mean()))  # what is not known is as likely as anything
-        logits = np.append(logits, [average + _of_strange(done, hour) for done in strange])
+        odd = np.array([_of_strange(done, hour, told=bool(told)) for done in strange])
+        logits = np.append(logits, average + odd)
+        if told:
+            logits = self._counted(logits, told, known, strange, np.append(past, odd))
         best = np.argsort(-np.round(logits, 6), kind="stable")[: int(variables["n_intentions"])]
-        return IntentionsReply(intentions=[self._imagined(int(i), known, strange, hour, variables) for i in best])
+        chance = np.exp(logits - logits.max())
+        chance /= chance.sum()
+        return IntentionsReply(
+            intentions=[self._imagined(int(i), known, strange, hour, variables, float(chance[i])) for i in best]
+        )
+
+    def _counted(
+        self,
+        logits: Floats,
+        told: Mapping[Memory, float],
+        known: Sequence[Known],
+        strange: Sequence[Sequence[Memory]],
+        today: Floats,
+    ) -> Floats:
+        """Mix what is usual with the told hours, each by its weight, for what today leaves of them; log-chances."""
+        mass = np.zeros(len(logits))
+        for memory, index in known:
+            mass[index] += told.get(memory, 0.0)
+        for place, done in enumerate(strange, len(self._sense.household.activities)):
+            mass[place] += sum(told.get(memory, 0.0) for memory in done)
+        usual = np.exp(logits - logits.max())
+        mixed = USUAL * usual / usual.sum() + mass * np.exp(np.minimum(today, 0.0))
+        return np.asarray(np.log(np.maximum(mixed / mixed.sum(), 1e-12)), dtype=np.float64)
 
     def _sorted(self, recalled: Sequence[Memory]) -> tuple[list[Known], list[list[Memory]]]:
         """Memories of activities that the household file has, with these; and the others, by what they say."""
@@ -90,6 +120,7 @@ class Robot:
         strange: Sequence[Sequence[Memory]],
         hour: int,
         variables: Mapping[str, Any],
+        chance: float,
     ) -> ImaginedIntention:
         """An activity as an intention or, after the last activity, something remembered that no activity is."""
         activities = self._sense.household.activities
@@ -103,6 +134,7 @@ class Robot:
             reason_intentions=clip(past, 400),
             reason_tasks=clip(_of_tasks(variables["recalled_tasks"]), 400),
             reason_vision=clip(_of_sight(activity, variables), 400),
+            probability=round(chance, 4),
         )
 
     def _sight(self, percept: Mapping[str, Any] | None, first_task: str | None) -> Floats:
@@ -141,14 +173,14 @@ class Robot:
         spot = want.spot in [b for _, b in pairs]
         return float(np.log(0.3 if thing and spot else 0.15 if thing else 0.05 if spot else 0.02))
 
-    def _recall(self, known: Sequence[Known], hour: int) -> Floats:
+    def _recall(self, known: Sequence[Known], hour: int, *, told: bool) -> Floats:
         """Logits for what was done at like hours of earlier days, against what was done today, for what follows it."""
         household = self._sense.household
         total = np.zeros(len(household.activities))
         latest = min((memory.hours_ago for memory, _ in known if memory.today), default=0)
         for memory, index in known:
             if not memory.today:
-                total[index] += _seen_before(memory, hour)
+                total[index] += 0.0 if told else _seen_before(memory, hour)
                 continue
             activity = household.activities[index]
             if memory.hours_ago == 1 and activity.lasts > 1:
@@ -175,9 +207,15 @@ def _seen_before(memory: Memory, hour: int) -> float:
     return SEEN_BEFORE * float(np.exp(-0.5 * ((memory.hour - hour) / LIKE_HOUR) ** 2))
 
 
-def _of_strange(done: Sequence[Memory], hour: int) -> float:
+def _of_strange(done: Sequence[Memory], hour: int, *, told: bool) -> float:
     """Logits for what no activity is, by when it was done; nothing says that it comes again on one day."""
-    return sum(-ALREADY_TODAY if memory.today else _seen_before(memory, hour) for memory in done)
+    earlier = [0.0 if told else _seen_before(memory, hour) for memory in done if not memory.today]
+    return sum(earlier) - ALREADY_TODAY * (len(done) - len(earlier))
+
+
+def told_weights(told: Sequence[Any], hour: int) -> dict[Memory, float]:
+    """The told hours as memories of their intentions, with what each counts."""
+    return {memory: float(one["weight"]) for memory, one in zip(memories(told, hour), told, strict=True)}
 
 
 def _spot_fit(activity: Activity, near: Sequence[str]) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -12,7 +13,7 @@ from coopera.core.household import HandOver, PickPlace, plain
 from coopera.core.people import Frozen
 from coopera.core.replies import HandOverDraft, HandOverReply, PickPlaceDraft, PickPlaceReply
 from coopera.models.offline.household.knowledge import Activity
-from coopera.models.offline.household.offers import wants
+from coopera.models.offline.household.offers import Want, wants
 from coopera.models.offline.household.placing import (
     Placement,
     by_name,
@@ -26,6 +27,8 @@ from coopera.models.offline.household.sense import CommonSense
 
 USED_BEFORE = 1.5  # logits for a thing or a placement that a recalled task of this person shows
 HALF_USED = 0.5  # the same for a placement of which only the thing was used
+TOLD = 5.0  # logits for what was used in all hours of like intentions that the person told of
+SOME = 0.1  # the share of these hours from which a thing or a place is known that the household file lacks
 LIKE = 0.6  # cosine from which two intentions are alike where the household file does not know them
 DOUBT = 0.5  # scale of the noise among equally plausible things at the usual temperature
 USUAL_TEMPERATURE = 0.7
@@ -43,6 +46,7 @@ def pick_and_place(
         Surroundings(variables["movable"]),
     )
     recalled = memories(variables["recalled_tasks"], int(variables["hour"]))
+    told = {(thing, spot): often for (thing, spot, _), often in _told(variables).items() if spot}
     activity = _as_told(sense, variables, recalled)
     used = wants([memory.text for memory in recalled])
     done = variables["first_task"] or ""
@@ -51,7 +55,8 @@ def pick_and_place(
     for thing, spot in (activity.places[i] for i in places):
         exact = any((want.thing, want.spot) == (plain(thing), plain(spot)) for want in used)
         half = any(want.thing == plain(thing) for want in used)
-        logits.append(USED_BEFORE if exact else HALF_USED if half else 0.0)
+        often = told.get((plain(thing), plain(spot)), 0.0)
+        logits.append((USED_BEFORE if exact else HALF_USED if half else 0.0) + TOLD * often)
     chosen: list[Placement] = []
     for index in (places[i] for i in _ranked(logits, rng, temperature)[:count]):
         chosen.append(placement(activity, index, fixed, movable, [c.thing.name for c in chosen], by_name))
@@ -78,9 +83,13 @@ def hand_overs(
     """Answer robot/tasks_type2: the things that the activity most plausibly needs, from a box that has everything."""
     recalled, count = memories(variables["recalled_tasks"], int(variables["hour"])), int(variables["n_tasks"])
     activity = _as_told(sense, variables, recalled)
-    names = activity.thing_names
+    names = [name for name in activity.thing_names if plain(name) != plain(variables["in_hand"] or "")]
     used = sense.mentioned(" ".join(memory.text for memory in recalled), names)
-    order = _ranked([USED_BEFORE if name in used else 0.0 for name in names], rng, temperature)
+    told: Counter[str] = Counter()
+    for (thing, _, _), often in _told(variables).items():
+        told[thing] += often  # type: ignore[assignment]
+    logits = [(USED_BEFORE if name in used else 0.0) + TOLD * told[plain(name)] for name in names]
+    order = _ranked(logits, rng, temperature)
     things = [names[i] for i in order[:count]]
     return HandOverReply(
         tasks=[
@@ -113,6 +122,9 @@ def _as_told(sense: CommonSense, variables: Mapping[str, Any], recalled: Sequenc
     past = memories(variables["recalled_intentions"], int(variables["hour"]))
     hours = {memory.hours_ago for memory in past if like(memory.text)}
     told = [want for want in wants([m.text for m in recalled if m.hours_ago in hours]) if want.spot]
+    told += [
+        Want(thing, spot, "", motion) for (thing, spot, motion), often in _told(variables).items() if often >= SOME
+    ]
     things = {want.thing: want.motion for want in told if want.motion and want.thing not in found.activity.things}
     places = dict.fromkeys((_class(want.thing), _class(str(want.spot))) for want in told if not want.motion)
     return Activity.model_construct(
@@ -122,6 +134,17 @@ def _as_told(sense: CommonSense, variables: Mapping[str, Any], recalled: Sequenc
             "places": tuple(dict.fromkeys([*found.activity.places, *places])),
         }
     )
+
+
+def _told(variables: Mapping[str, Any]) -> dict[tuple[str, str | None, str], float]:
+    """What was told to be used for like intentions, as thing, spot and motion, with its share of these hours."""
+    total = sum(float(hour["weight"]) for hour in variables["told"]) or 1.0
+    found: dict[tuple[str, str | None, str], float] = {}
+    for hour in variables["told"]:
+        for want in wants(hour["tasks"]):
+            key = (want.thing, want.spot, want.motion)
+            found[key] = found.get(key, 0.0) + float(hour["weight"]) / total
+    return found
 
 
 def _class(words: str) -> str:

@@ -43,7 +43,7 @@ def test_what_is_listed_is_what_can_be_chosen(coopera: Cli, tmp_path: Path) -> N
 
 def test_a_method_of_ones_own_is_listed(coopera: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(METHODS, "mine", Method(name="mine", traits=False))
-    assert {"id": "mine", "about": "ours with traits=False"} in coopera("list", "methods", "--json").json
+    assert {"id": "mine", "about": "paper with traits=False"} in coopera("list", "methods", "--json").json
 
 
 def test_the_lists_of_the_groups_say_the_same(coopera: Cli) -> None:

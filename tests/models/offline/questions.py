@@ -59,6 +59,8 @@ _NOTHING: dict[str, Any] = {
     "changes": [],
     "may_go_on": False,
     "may_leave": False,
+    "told": [],
+    "in_hand": None,
 }
 
 

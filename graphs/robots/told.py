@@ -1,0 +1,144 @@
+"""What the person told of earlier days, hour by hour, and how much each of these hours says about now.
+
+An account gives an hour's intention and its tasks together. The memory keeps them in two streams; here they are joined
+again. A robot that lives with somebody for weeks counts such hours. What counts is how they looked, at which time of
+day and on which kind of day they were, what was wanted, and how many days have passed.
+DEVIATES: the paper weighs memories by hours alone and keeps intentions and tasks apart.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from coopera.core.clock import Clock
+from coopera.core.hour import Observation
+from coopera.core.household import Use, plain, use_of
+from coopera.graphs.robots.recall import DAYS, NARROW, WIDE, as_memory
+from coopera.graphs.robots.recall import weight as weight_of
+from coopera.graphs.robots.robot_view import RobotView
+
+SAME_FIRST, SAME_ANY, OTHER_THING = 1.0, 0.5, 0.05  # what the thing in hand says of an hour, by its part in it
+SAME_PLACE, OTHER_PLACE = 0.6, 0.15  # and the furniture, where the thing was not recognised
+UNLIKE, ALIKE = 0.3, 0.65  # cosines of intentions below and above which they are different, and the same
+
+
+@dataclass(frozen=True, slots=True)
+class ToldHour:
+    """An hour of an account. `uses` are its tasks as things and places, in the order in which they were done.
+
+    Attributes:
+        now: Global hour index.
+        intention: In the person's words.
+        tasks: In words, the first one first.
+        uses: The same, as far as they can be read.
+        near: How much it counts at this hour of this day, whatever was seen, in (0, 1].
+        looks: How well it fits what is seen, in (0, 1].
+        wide: As `near`, with more patience for another time of day.
+    """
+
+    now: int
+    intention: str
+    tasks: tuple[str, ...]
+    uses: tuple[Use, ...]
+    near: float
+    looks: float
+    wide: float
+
+    @property
+    def speaks(self) -> float:
+        """How much it says of what is wanted now."""
+        return self.near * self.looks
+
+
+def told_hours(view: RobotView) -> list[ToldHour]:
+    """Join what was told of the last `DAYS` days before today, oldest first."""
+    clock = view.clock
+    dawn, since = clock.day * 24, (clock.day - DAYS) * 24
+    tasks: dict[int, list[str]] = defaultdict(list)
+    for record in view.history.tasks.records(since=since):
+        tasks[record.hour].append(record.text)
+    said = {record.hour: record.text for record in view.history.intentions.records(since=since)}
+    return [_told(view, now, text, tasks[now]) for now, text in said.items() if now < dawn]
+
+
+def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[float]:
+    """How like an intention is to that of each told hour, by meaning, in [0, 1]; the same words give 1."""
+    if not told:
+        return []
+    found = view.history.intentions.recall(intention, view.clock.now, len(told), told[0].now)
+    cosine = {one.hour: one.relevance for one in found}
+    return [min(1.0, max(0.0, (cosine.get(hour.now, 0.0) - UNLIKE) / (ALIKE - UNLIKE))) for hour in told]
+
+
+def best_hours(told: Sequence[ToldHour], weights: Sequence[float], most: int) -> list[tuple[ToldHour, float]]:
+    """The hours of most weight with their weights, the newer of equals first; none without weight."""
+    ranked = sorted(zip(told, weights, strict=True), key=lambda pair: (-round(pair[1], 9), -pair[0].now))
+    return [(hour, weight) for hour, weight in ranked[:most] if weight > 0.01]
+
+
+def as_told(hours: Iterable[tuple[ToldHour, float]], now: Clock, *, without: Use | None = None) -> list[dict[str, Any]]:
+    """The variable `told` of `coopera.core.asks`, without tasks with the thing that the person holds already."""
+    return [
+        {
+            **{key: value for key, value in as_memory("", hour.now, now).items() if key in ("when", "hours_ago")},
+            "intention": hour.intention,
+            "tasks": [task for task in hour.tasks if without is None or not same(use_of(task), without)],
+            "weight": round(weight, 4),
+        }
+        for hour, weight in hours
+    ]
+
+
+def held(seen: Observation) -> Use | None:
+    """What the person has in hand, or has just put somewhere; None where nobody knows."""
+    if seen.first_task:
+        return use_of(seen.first_task)
+    thing = seen.percept.in_hand if seen.percept else None
+    return Use(plain(thing)) if thing else None
+
+
+def same(one: Use | None, other: Use) -> bool:
+    """Whether an act is about the same thing and, where both name one, the same place."""
+    if one is None or one.thing.lower() != other.thing.lower():
+        return False
+    return one.place is None or other.place is None or one.place.lower() == other.place.lower()
+
+
+def share(told: Sequence[ToldHour], weights: Sequence[float], use: Use, *, usual: float, patience: float) -> float:
+    """In which share of the hours something was used, by weight; `patience` hours of the `usual` share come on top."""
+    used = sum(w for hour, w in zip(told, weights, strict=True) if any(same(one, use) for one in hour.uses))
+    return (used + patience * usual) / (sum(weights) + patience)
+
+
+def shares(
+    told: Sequence[ToldHour], weights: Sequence[float], without: Use | None, *, places: bool
+) -> dict[Use, float]:
+    """The share of the hours, by weight, in which each thing was used, with `places` each at each place."""
+    total = sum(weights) or 1.0
+    found: dict[Use, float] = defaultdict(float)
+    for hour, weight in zip(told, weights, strict=True):
+        kept = [use for use in hour.uses if without is None or not same(use, without)]
+        for use in dict.fromkeys(kept if places else (Use(use.thing) for use in kept)):
+            found[use] += weight / total
+    return found
+
+
+def _told(view: RobotView, now: int, intention: str, tasks: Sequence[str]) -> ToldHour:
+    uses = tuple(use for text in tasks if (use := use_of(text)) is not None)
+    near, wide = (weight_of(view.clock, now, width) for width in (NARROW, WIDE))
+    return ToldHour(now, intention, tuple(tasks), uses, near, _looks(view.observation, uses), wide)
+
+
+def _looks(seen: Observation, uses: Sequence[Use]) -> float:
+    """How well a told hour fits what is seen now: by the thing in hand, else by the furniture."""
+    if not uses:
+        return OTHER_PLACE
+    if (now := held(seen)) is not None:
+        return SAME_FIRST if same(uses[0], now) else SAME_ANY if any(same(use, now) for use in uses) else OTHER_THING
+    near = [plain(name) for name in seen.percept.near] if seen.percept else []
+    if not near:
+        return SAME_FIRST
+    return SAME_PLACE if uses[0].place in near else OTHER_PLACE

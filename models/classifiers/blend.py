@@ -1,0 +1,101 @@
+"""From scores and counts to P(yes): a logistic regression that starts from what the robot believed already.
+
+The prior of each example (`Example.evidence`) is the offset: without any lesson P(yes) is the prior. What was learned
+from feedback (the score), and the counts of what was told, move it as far as feedback bears them out. A ridge holds
+each weight near 0, so that a first evening moves little. P(yes) is calibrated: nothing shifts it to a threshold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from coopera.core.hour import Example
+
+Floats = npt.NDArray[np.float64]
+
+COUNTS = ("prior", "told", "sight", "hour")
+"""Shares that enter as log-odds."""
+PLAIN = ("support",)
+HOLD = 1.0
+"""Ridge on each weight, for features of unit spread."""
+FADING = 0.98
+"""What an example counts per day of its age: half after five weeks, so that old habits give way."""
+_STEPS = 30
+
+
+class Blend(NamedTuple):
+    """P(yes) = sigmoid(logit(prior) + ((features - mean) / spread) @ weights + shift); see `features_of`."""
+
+    shift: float
+    mean: tuple[float, ...]
+    spread: tuple[float, ...]
+    weights: tuple[float, ...]
+
+    def probabilities(self, scores: Floats, examples: Sequence[Example]) -> Floats:
+        """Return P(yes) per example, shape (n,); each has evidence."""
+        features, offset = features_of(scores, examples)
+        x = (features - np.array(self.mean)) / np.array(self.spread)
+        chances: Floats = _sigmoid(offset + x @ np.array(self.weights) + self.shift)
+        return chances
+
+
+def read_blend(given: Mapping[str, Any]) -> Blend:
+    """Return a blend from its fields as JSON has them.
+
+    Raises:
+        KeyError, TypeError, ValueError: If they are none.
+    """
+    mean, spread, weights = (tuple(float(n) for n in given[name]) for name in ("mean", "spread", "weights"))
+    if {len(mean), len(spread), len(weights)} != {1 + len(COUNTS) + len(PLAIN)}:
+        raise ValueError("the blend has not one number per feature")
+    return Blend(float(given["shift"]), mean, spread, weights)
+
+
+def features_of(scores: Floats, examples: Sequence[Example]) -> tuple[Floats, Floats]:
+    """Return what the blend reads, shape (n, 1 + counts), and the prior's log-odds, shape (n,).
+
+    A share that an example lacks, as an intention has no `sight`, counts as even.
+    """
+    odds = [[_logit(e.evidence.get(name, 0.5)) for name in COUNTS] for e in examples]
+    plain = [[e.evidence.get(name, 0.0) for name in PLAIN] for e in examples]
+    log_odds = np.array(odds, np.float64).reshape(len(examples), len(COUNTS))
+    others = np.array(plain, np.float64).reshape(len(examples), len(PLAIN))
+    return np.column_stack([scores, log_odds, others]), log_odds[:, 0]
+
+
+def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bool_]) -> Blend:
+    """Fit by Newton's method; the penalised likelihood has one maximum.
+
+    Args:
+        scores: Of examples that the score had not learned from, shape (n,).
+        examples: The same, each with evidence; at least one.
+        labels: Shape (n,); one label alone will do.
+    """
+    features, offset = features_of(scores, examples)
+    mean, spread = features.mean(axis=0), features.std(axis=0)
+    spread = np.where(spread > 1e-6, spread, 1.0)
+    x = np.column_stack([np.ones(len(labels)), (features - mean) / spread])
+    newest = max(e.day for e in examples)
+    counts = FADING ** np.array([newest - e.day for e in examples], np.float64)
+    hold = np.diag([2 * HOLD, *[HOLD] * (x.shape[1] - 1)])
+    weights = np.zeros(x.shape[1])
+    for _ in range(_STEPS):
+        chance = _sigmoid(offset + x @ weights)
+        slope = x.T @ (counts * (labels - chance)) - hold @ weights
+        bend = (x * (counts * chance * (1 - chance))[:, None]).T @ x + hold
+        step = np.linalg.solve(bend, slope)
+        weights = weights + step * min(1.0, 2.0 / max(float(np.abs(step).max()), 1e-12))
+    return Blend(float(weights[0]), tuple(mean.tolist()), tuple(spread.tolist()), tuple(weights[1:].tolist()))
+
+
+def _logit(p: float) -> float:
+    return float(np.log(p) - np.log1p(-p))
+
+
+def _sigmoid(x: Floats) -> Floats:
+    chance: Floats = 1.0 / (1.0 + np.exp(-np.clip(x, -30.0, 30.0)))
+    return chance

@@ -1,0 +1,119 @@
+"""P(yes) from scores and counts: it starts from the prior, and moves as far as feedback bears the rest out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coopera.core.errors import CooperaError
+from coopera.core.hour import Example
+from coopera.core.people import PersonId
+from coopera.models.classifiers.blend import Blend, blend, read_blend
+from coopera.models.classifiers.kernel import KernelClassifier
+from coopera.models.classifiers.text import Inputs
+from tests.fakes import LetterEmbeddings
+
+MARA = PersonId("mara")
+
+
+def shown(n: int, *, day: int = 0, label: bool | None = None, **evidence: float) -> Example:
+    known = {"prior": 0.5, **evidence}
+    return Example(person=MARA, day=day, hour=9 + n % 12, candidate=f"thing {n}", rank=0, evidence=known, label=label)
+
+
+def chances(fitted: Blend, *examples: Example, score: float = 0.0) -> list[float]:
+    return [float(p) for p in fitted.probabilities(np.full(len(examples), score), examples)]
+
+
+def test_a_single_answer_leaves_the_prior_about_where_it_was() -> None:
+    fitted = blend(np.zeros(1), [shown(0, prior=0.3)], np.array([True]))
+    low, high = chances(fitted, shown(1, prior=0.1), shown(2, prior=0.8))
+    assert 0.1 < low < 0.18
+    assert 0.8 < high < 0.9
+
+
+def test_it_believes_in_counts_that_feedback_bears_out_and_not_in_those_that_say_nothing() -> None:
+    rng = np.random.default_rng(0)
+    told, hour = rng.uniform(0.05, 0.95, 400), rng.uniform(0.05, 0.95, 400)
+    labels = rng.random(400) < told
+    examples = [shown(n, told=float(t), hour=float(h)) for n, (t, h) in enumerate(zip(told, hour, strict=True))]
+    fitted = blend(np.zeros(400), examples, labels)
+    low, high = chances(fitted, shown(0, told=0.1, hour=0.5), shown(0, told=0.9, hour=0.5))
+    assert low < 0.25
+    assert high > 0.75
+    one, other = chances(fitted, shown(0, told=0.5, hour=0.1), shown(0, told=0.5, hour=0.9))
+    assert abs(one - other) < 0.15
+
+
+def test_its_probabilities_are_shares() -> None:
+    rng = np.random.default_rng(1)
+    prior = rng.uniform(0.05, 0.95, 600)
+    labels = rng.random(600) < prior**2  # the prior is too sure of itself
+    examples = [shown(n, prior=float(p)) for n, p in enumerate(prior)]
+    fitted = blend(np.zeros(600), examples, labels)
+    said = np.array(chances(fitted, *examples))
+    for low in (0.0, 0.25, 0.5):
+        part = (said >= low) & (said < low + 0.25)
+        assert abs(said[part].mean() - labels[part].mean()) < 0.1
+
+
+def test_what_is_new_counts_more_than_what_is_months_old() -> None:
+    old = [shown(n, day=0, told=0.9) for n in range(40)]
+    new = [shown(n, day=120, told=0.9) for n in range(40)]
+    labels = np.array([True] * 40 + [False] * 40)
+    fitted = blend(np.zeros(80), [*old, *new], labels)
+    assert chances(fitted, shown(0, told=0.9))[0] < 0.3
+
+
+def taught(n: int = 60) -> list[Example]:
+    return [shown(i, day=i // 12, told=0.8 if i % 3 else 0.1, label=bool(i % 3)) for i in range(n)]
+
+
+def test_the_kernel_judges_by_the_counts_where_there_are_any_and_is_the_same_after_reading_it_back(
+    tmp_path: Path,
+) -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs())
+    kernel.train(taught(), seed=0)
+    asked = [shown(99, told=0.8), shown(99, told=0.1)]
+    yes, no = kernel.probabilities(asked)
+    assert yes > 0.5 > no
+    kernel.save(tmp_path)
+    again = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs())
+    again.load(tmp_path)
+    assert again.probabilities(asked) == [yes, no]
+
+
+def test_a_method_without_order_lets_its_classifiers_see_no_counts() -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs(rank=False))
+    kernel.train(taught(), seed=0)
+    one, other = kernel.probabilities([shown(99, told=0.8), shown(99, told=0.1)])
+    assert one == other
+    assert not kernel.gives_chances
+
+
+def test_the_kernel_says_whether_its_probabilities_are_chances() -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs())
+    assert not kernel.gives_chances
+    kernel.train(taught(), seed=0)
+    assert kernel.gives_chances
+    kernel.train([one.model_copy(update={"evidence": {}}) for one in taught()], seed=0)
+    assert not kernel.gives_chances
+
+
+def test_a_blend_of_another_number_of_features_is_refused() -> None:
+    whole = blend(np.zeros(1), [shown(0)], np.array([True]))._asdict()
+    assert read_blend(whole) == Blend(**whole)
+    with pytest.raises(ValueError, match="one number per feature"):
+        read_blend(whole | {"weights": [1.0]})
+
+
+def test_a_damaged_blend_is_named_with_its_folder(tmp_path: Path) -> None:
+    kernel = KernelClassifier(kind="task", embeddings=LetterEmbeddings(), inputs=Inputs())
+    kernel.train(taught(), seed=0)
+    kernel.save(tmp_path)
+    path = tmp_path / "classifier.json"
+    path.write_text(path.read_text().replace('"shift"', '"shifty"'))
+    with pytest.raises(CooperaError, match=r"classifier\.json is damaged"):
+        kernel.load(tmp_path)
