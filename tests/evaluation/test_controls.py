@@ -38,14 +38,16 @@ def helped(make: MakeServices, thing: str | None, profile: str = MARA.profile) -
 def test_a_ceiling_goes_by_the_person_and_by_what_it_sees_and_offers_nothing_that_is_in_hand(
     make_services: MakeServices,
 ) -> None:
-    chopping, brewing = helped(make_services, "kitchen knife"), helped(make_services, "coffee beans")
-    assert chopping.intentions != brewing.intentions
-    for said, held in ((chopping, "kitchen knife"), (brewing, "coffee beans")):
+    retired = "I am 75 years old and retired. I drink a lot of coffee."  # so nothing fixed is on
+    eating = helped(make_services, "cereal box", profile=retired)
+    brewing = helped(make_services, "coffee beans", profile=retired)
+    assert eating.intentions != brewing.intentions
+    for said, held in ((eating, "cereal box"), (brewing, "coffee beans")):
         things = [task.act.object for task in said.tasks if task.accepted]  # type: ignore[union-attr]
         assert things
         assert held not in things
         assert all(0 <= (task.probability or 0) <= 1 for task in said.tasks)
-    assert helped(make_services, "kitchen knife") == chopping
+    assert helped(make_services, "cereal box", profile=retired) == eating
     assert helped(make_services, None, profile="I write poems.") != helped(make_services, None)
 
 
