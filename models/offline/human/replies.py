@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -21,6 +22,7 @@ from coopera.models.offline.human.circumstances import circumstances, speaks_for
 from coopera.models.offline.human.person import PrivateLife
 from coopera.models.offline.human.routine import Choice, Done, Moment, Why, choose
 
+NOON = 12
 DIRTY = 0.5  # logits for what makes something clean that is dirty
 
 
@@ -65,7 +67,7 @@ class Human:
         choice = choose(life, moment, rng, temperature)
         activity = self._sense.household.activities[choice.activity]
         return IntentionReply(
-            intention=clip(_anew(life, activity, rng, today), 300),
+            intention=clip(_anew(life, activity, rng, hour, today), 300),
             reason_human=clip(self._why(life, activity, choice, hour, variables["changes"]), 400),
             reason_intentions=clip(self._since(activity, choice, today), 400),
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
@@ -84,7 +86,7 @@ class Human:
             moment = self._moment({**variables, "states": {}}, hour, so_far, lasting=False)
             choice = choose(life, moment, rng, temperature)
             activity = self._sense.household.activities[choice.activity]
-            text = clip(life.wording(activity, rng), 300)
+            text = clip(_anew(life, activity, rng, hour, so_far), 300)
             planned.append((hour, text))
             why = self._why(life, activity, choice, hour, variables["changes"])
             replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away))
@@ -143,17 +145,24 @@ _HABIT: dict[Why, str] = {
     "asleep": "It is a habit: I am not up at this hour.",
     "wish": "It is a habit of mine.",
 }
-_TRIES = 6
+_TRIES = 12
+_MORNING = re.compile(r"\b(?:morning|waking|wide awake|before the day (?:begins|gets going))\b", re.IGNORECASE)
+_EVENING = re.compile(r"\b(?:evening|tonight|tonight's|wash off the day|for the night)\b", re.IGNORECASE)
 
 
-def _anew(life: PrivateLife, activity: Activity, rng: np.random.Generator, today: Sequence[Memory]) -> str:
-    """Word an intention; what goes on from the hour before is put in other words, if the person has any."""
+def _anew(life: PrivateLife, activity: Activity, rng: np.random.Generator, hour: int, today: Sequence[Memory]) -> str:
+    """Word an intention: not as the hour before, and naming no other time of day, if the person has such words."""
     text = life.wording(activity, rng)
     for _ in range(_TRIES):
-        if not today or text != today[-1].text:
+        if not (today and text == today[-1].text) and not _out_of_time(text, hour):
             break
         text = life.wording(activity, rng)
     return text
+
+
+def _out_of_time(text: str, hour: int) -> bool:
+    """Whether a text speaks of the morning in the afternoon, or of the evening before it."""
+    return bool(_MORNING.search(text) if hour >= NOON + 2 else hour < NOON + 3 and _EVENING.search(text))
 
 
 def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random.Generator:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from functools import lru_cache
 
@@ -209,3 +210,9 @@ def test_dirty_dishes_are_washed_up_a_little_more_often_and_nothing_else_is() ->
     usual = washing_up({})
     assert washing_up({"fridge_1": "open", "mug_1": "with tea in it", "sofa_1": "dirty"}) == usual
     assert usual < washing_up({"plate_2": "open, dirty"}) < 3 * usual
+
+
+def test_nobody_speaks_of_the_morning_in_the_evening_or_of_tonight_at_noon() -> None:
+    said = [(hour, text) for life in _lives() for day in life for hour, text in enumerate(day, start=9)]
+    assert not [text for hour, text in said if hour >= 14 and "morning" in text]
+    assert not [text for hour, text in said if hour < 15 and re.search("tonight|evening", text)]
