@@ -22,15 +22,19 @@ COUNTS = ("prior", "told", "sight", "hour")
 PLAIN = ("support",)
 HOLD = 1.0
 """Ridge on each weight, for features of unit spread."""
+BIASES = 2
 FADING = 0.98
 """What an example counts per day of its age: half after five weeks, so that old habits give way."""
 _STEPS = 30
 
 
 class Blend(NamedTuple):
-    """P(yes) = sigmoid(logit(prior) + ((features - mean) / spread) @ weights + shift); see `features_of`."""
+    """P(yes) = sigmoid(logit(prior) + ((features - mean) / spread) @ weights + bias @ shifts).
 
-    shift: float
+    See `features_of` and `bias_of`.
+    """
+
+    shifts: tuple[float, ...]
     mean: tuple[float, ...]
     spread: tuple[float, ...]
     weights: tuple[float, ...]
@@ -39,7 +43,7 @@ class Blend(NamedTuple):
         """Return P(yes) per example, shape (n,); each has evidence."""
         features, offset = features_of(scores, examples)
         x = (features - np.array(self.mean)) / np.array(self.spread)
-        chances: Floats = _sigmoid(offset + x @ np.array(self.weights) + self.shift)
+        chances: Floats = _sigmoid(offset + x @ np.array(self.weights) + bias_of(examples) @ np.array(self.shifts))
         return chances
 
 
@@ -49,10 +53,11 @@ def read_blend(given: Mapping[str, Any]) -> Blend:
     Raises:
         KeyError, TypeError, ValueError: If they are none.
     """
-    mean, spread, weights = (tuple(float(n) for n in given[name]) for name in ("mean", "spread", "weights"))
-    if {len(mean), len(spread), len(weights)} != {1 + len(COUNTS) + len(PLAIN)}:
+    shifts, *of_features = (tuple(float(n) for n in given[name]) for name in Blend._fields)
+    if {len(one) for one in of_features} != {1 + len(COUNTS) + len(PLAIN)} or len(shifts) != BIASES:
         raise ValueError("the blend has not one number per feature")
-    return Blend(float(given["shift"]), mean, spread, weights)
+    mean, spread, weights = of_features
+    return Blend(shifts, mean, spread, weights)
 
 
 def features_of(scores: Floats, examples: Sequence[Example]) -> tuple[Floats, Floats]:
@@ -67,6 +72,16 @@ def features_of(scores: Floats, examples: Sequence[Example]) -> tuple[Floats, Fl
     return np.column_stack([scores, log_odds, others]), log_odds[:, 0]
 
 
+def bias_of(examples: Sequence[Example]) -> Floats:
+    """Return how far each example rests on common sense alone, and how far on what was told; shape (n, 2), sums to 1.
+
+    Each part has a shift of its own: that common sense was too hopeful on the first day says nothing of the next,
+    when the robot has been told something.
+    """
+    alone = np.exp(-np.array([e.evidence.get("support", 0.0) for e in examples], np.float64))
+    return np.column_stack([alone, 1.0 - alone])
+
+
 def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bool_]) -> Blend:
     """Fit by Newton's method; the penalised likelihood has one maximum.
 
@@ -78,10 +93,10 @@ def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bo
     features, offset = features_of(scores, examples)
     mean, spread = features.mean(axis=0), features.std(axis=0)
     spread = np.where(spread > 1e-6, spread, 1.0)
-    x = np.column_stack([np.ones(len(labels)), (features - mean) / spread])
+    x = np.column_stack([bias_of(examples), (features - mean) / spread])
     newest = max(e.day for e in examples)
     counts = FADING ** np.array([newest - e.day for e in examples], np.float64)
-    hold = np.diag([2 * HOLD, *[HOLD] * (x.shape[1] - 1)])
+    hold = np.diag([*[2 * HOLD] * BIASES, *[HOLD] * (x.shape[1] - BIASES)])
     weights = np.zeros(x.shape[1])
     for _ in range(_STEPS):
         chance = _sigmoid(offset + x @ weights)
@@ -89,7 +104,8 @@ def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bo
         bend = (x * (counts * chance * (1 - chance))[:, None]).T @ x + hold
         step = np.linalg.solve(bend, slope)
         weights = weights + step * min(1.0, 2.0 / max(float(np.abs(step).max()), 1e-12))
-    return Blend(float(weights[0]), tuple(mean.tolist()), tuple(spread.tolist()), tuple(weights[1:].tolist()))
+    shifts, learned = weights[:BIASES].tolist(), weights[BIASES:].tolist()
+    return Blend(tuple(shifts), tuple(mean.tolist()), tuple(spread.tolist()), tuple(learned))
 
 
 def _logit(p: float) -> float:

@@ -47,6 +47,15 @@ def test_it_believes_in_counts_that_feedback_bears_out_and_not_in_those_that_say
     assert abs(one - other) < 0.15
 
 
+def test_a_hopeless_first_day_says_nothing_against_what_is_told_on_the_next() -> None:
+    """On the first day nothing is told, and common sense is mostly wrong; then the robot is told something."""
+    untold = [shown(n, prior=0.35, support=0.0) for n in range(120)]
+    fitted = blend(np.zeros(120), untold, np.arange(120) % 10 == 0)
+    alone, told = chances(fitted, shown(0, prior=0.35, support=0.0), shown(0, prior=0.7, support=2.0))
+    assert alone < 0.2
+    assert told > 0.5
+
+
 def test_its_probabilities_are_shares() -> None:
     rng = np.random.default_rng(1)
     prior = rng.uniform(0.05, 0.95, 600)
@@ -114,6 +123,6 @@ def test_a_damaged_blend_is_named_with_its_folder(tmp_path: Path) -> None:
     kernel.train(taught(), seed=0)
     kernel.save(tmp_path)
     path = tmp_path / "classifier.json"
-    path.write_text(path.read_text().replace('"shift"', '"shifty"'))
+    path.write_text(path.read_text().replace('"shifts"', '"shifty"'))
     with pytest.raises(CooperaError, match=r"classifier\.json is damaged"):
         kernel.load(tmp_path)
