@@ -16,6 +16,8 @@ Ints = npt.NDArray[np.int64]
 
 HAZARD = 0.01
 """Share of steps at which a person is expected to change before anything is known of the person."""
+REMNANT = 0.05
+"""What evidence from before a change still counts: enough to start from, and soon outvoted."""
 MOST = 24
 """Memories kept; the lightest go. The newest ones stay for `_YOUNG` steps, since they cannot have proved anything."""
 _YOUNG = 6
@@ -67,10 +69,10 @@ class Fading:
         self._normalise()
 
     def of(self, steps: Ints) -> Floats:
-        """Return what the evidence of each step counts, in [0, 1], shape as given: P(no change since)."""
-        begun = np.cumsum(self.weights)
-        place = np.searchsorted(np.array(self.starts), steps, side="right")
-        found: Floats = np.minimum(np.concatenate([[0.0], begun])[place], 1.0)
+        """Return what the evidence of each step counts, in [REMNANT, 1], shape as given; 1 without a change since."""
+        begun = np.concatenate([[0.0], np.cumsum(self.weights)])
+        kept = np.minimum(begun[np.searchsorted(np.array(self.starts), steps, side="right")], 1.0)
+        found: Floats = REMNANT + (1.0 - REMNANT) * kept
         return found
 
     def _normalise(self) -> None:

@@ -13,13 +13,13 @@ import numpy as np
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
 from coopera.models.learners.counts import Bools, Counts, Floats, Ints, Observations, Rates
-from coopera.models.learners.fading import HAZARD, Fading
+from coopera.models.learners.fading import HAZARD, REMNANT, Fading
 
 FOLDS = 5
 _FIRST_THRESHOLD = 0.275
 """F1 is best served by saying yes above half of the F1 reached (Lipton et al. 2014), and some 0.5 is reached at first."""
 _THRESHOLDS = np.arange(0.15, 0.51, 0.025)
-_TEMPER = 0.1
+_TEMPER = 0.3
 """What a day's log-likelihood counts for a change: what is observed in an hour hangs together, so rows say less."""
 _TINY = 1e-4
 _SEED = 0  # only splits held-out rows within boosting, which is switched off: nothing here is random
@@ -98,8 +98,8 @@ def faded(seen: Observations, *, hazard: float = HAZARD) -> Fading:
         for place, yes, met in summed:
             at = place[today]
             starts = np.array(fading.starts)
-            since_yes = yes[day][at] - yes[starts][:, at]
-            since_met = met[day][at] - met[starts][:, at]
+            since_yes = yes[day][at] - (1 - REMNANT) * yes[starts][:, at]
+            since_met = met[day][at] - (1 - REMNANT) * met[starts][:, at]
             foretold += (since_yes + 0.05) / (since_met + 1.0)
         chance = np.clip(foretold / len(summed), _TINY, 1 - _TINY)
         fading.learn(_TEMPER * np.where(label, np.log(chance), np.log1p(-chance)).sum(1))
@@ -179,9 +179,14 @@ def _one_thread() -> Any:
 def _logistic(given: Floats, label: Bools, weights: Floats) -> Callable[[Floats], Floats]:
     from sklearn.linear_model import LogisticRegression  # noqa: PLC0415 - heavy
 
-    centre, spread = given.mean(0), given.std(0) + 1e-6
-    model = LogisticRegression(C=0.1, max_iter=300).fit((given - centre) / spread, label, weights)
-    return lambda asked: np.asarray(model.predict_proba((asked - centre) / spread)[:, 1])
+    centre, spread = given.mean(0), np.maximum(given.std(0), 0.1)
+
+    def scaled(rows: Floats) -> Floats:
+        return np.clip((rows - centre) / spread, -5.0, 5.0)
+
+    with _one_thread():
+        model = LogisticRegression(C=0.1, max_iter=300).fit(scaled(given), label, weights)
+    return lambda asked: np.asarray(model.predict_proba(scaled(asked))[:, 1])
 
 
 def _boosted(given: Floats, label: Bools, weights: Floats) -> Callable[[Floats], Floats]:
