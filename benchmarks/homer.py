@@ -85,10 +85,21 @@ def read_days(path: Path) -> Households:
         part[int(named[3])] = _day(f"{path}: {key}", value)
     for household, parts in days.items():
         for part_name, part in parts.items():
-            missing = sorted(set(range(max(part, default=0) + 1)) - set(part))
+            missing = sorted(set(range(max(part, default=-1) + 1)) - set(part))
             if missing:
                 raise ConfigError(f"{path}: the day {household}/{part_name}/{missing[0]:03d} is missing")
-    if len({thing for parts in days.values() for part in parts.values() for day in part.values() for _, thing in day.moves}) > MOST_THINGS:
+    if (
+        len(
+            {
+                thing
+                for parts in days.values()
+                for part in parts.values()
+                for day in part.values()
+                for _, thing in day.moves
+            }
+        )
+        > MOST_THINGS
+    ):
         raise ConfigError(f"{path}: has more than {MOST_THINGS} things")
     return {
         name: {part: [those[number] for number in sorted(those)] for part, those in parts.items()}
@@ -111,7 +122,13 @@ def _day(where: str, value: object) -> Day:
         schedule.append((line[0], float(line[1]), float(line[2])))
     moves: list[tuple[float, str]] = []
     for place, line in enumerate(value["moves"]):
-        if not (isinstance(line, list) and len(line) == 3 and _minute(line[0]) and line[0] < _MIDNIGHT and all(map(is_name, line[1:]))):
+        if not (
+            isinstance(line, list)
+            and len(line) == 3
+            and _minute(line[0])
+            and line[0] < _MIDNIGHT
+            and all(map(is_name, line[1:]))
+        ):
             raise ConfigError(f"{where}: moves[{place}]: expected [minute, thing, destination], the minute below 1440")
         if moves and line[0] < moves[-1][0]:
             raise ConfigError(f"{where}: moves[{place}]: times are out of order, expected each to follow the last")
@@ -129,7 +146,9 @@ class Codes:
     def __init__(self, days: Iterable[Day]) -> None:
         days = list(days)
         self.things = sorted({thing for day in days for _, thing in day.moves})
-        self._activities = {name: place + 1 for place, name in enumerate(sorted({a for d in days for a, _, _ in d.schedule}))}
+        self._activities = {
+            name: place + 1 for place, name in enumerate(sorted({a for d in days for a, _, _ in d.schedule}))
+        }
 
     def observations(self, days: Sequence[Day]) -> Observations:
         """Return a row per day, hour and thing, in this order."""
@@ -215,11 +234,16 @@ def measure(asked: argparse.Namespace) -> dict[str, Any]:
             raise ConfigError(f"{asked.file}: household {name} has no day of {'test' if there else 'train'}")
         wanted = asked.days or [n for n in TRAINED if n <= there]
         if max(wanted) > there:
-            raise ConfigError(f"{asked.file}: household {name} has {there} days of train, and --days asks for {max(wanted)}")
+            raise ConfigError(
+                f"{asked.file}: household {name} has {there} days of train, and --days asks for {max(wanted)}"
+            )
         found[name] = {}
         for n in wanted:
             found[name][str(n)] = got = household(parts["train"][:n], parts["test"])
-            print(f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f} ({got['chosen']})", flush=True)
+            print(
+                f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f} ({got['chosen']})",
+                flush=True,
+            )
     return {"homer": found}
 
 

@@ -61,10 +61,14 @@ def _no_number(name: str) -> float:
 
 def is_name(value: object) -> bool:
     """Whether a value is a text of some, and not too many, characters."""
-    return isinstance(value, str) and 0 < len(value.strip()) and len(value) <= LONGEST
+    return isinstance(value, str) and bool(value.strip()) and len(value) <= LONGEST
 
 
-def run(measure: Callable[[argparse.Namespace], dict[str, Any]], parser: argparse.ArgumentParser, given: Sequence[str] | None) -> int:
+def run(
+    measure: Callable[[argparse.Namespace], dict[str, Any]],
+    parser: argparse.ArgumentParser,
+    given: Sequence[str] | None,
+) -> int:
     """Measure and print; returns the exit code: 0, 1 if the work failed, 2 if the input is wrong."""
     parser.add_argument("--json", action="store_true", help="end with one line of JSON")
     asked = parser.parse_args(given)

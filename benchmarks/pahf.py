@@ -107,11 +107,11 @@ def person(phases: Sequence[Sequence[Request]], embeddings: Embeddings) -> dict[
     first, first_test, second, second_test = phases
     found: dict[str, float] = {}
     for name, fades in (("", True), ("_never", False)):
-        learner = learn(Choices(embeddings, fades), first)
+        learner = learn(Choices(embeddings, fades=fades), first)
         found[f"same{name}"] = accuracy(learner, first_test)
         found[f"shifted{name}"] = accuracy(learner, second_test)
         found[f"relearned{name}"] = accuracy(learn(learner, second), second_test)
-        again = learn(learn(Choices(embeddings, fades), first), first)
+        again = learn(learn(Choices(embeddings, fades=fades), first), first)
         found[f"unchanged{name}"] = accuracy(again, first_test)
     return found
 
@@ -123,7 +123,10 @@ def measure(asked: argparse.Namespace) -> dict[str, Any]:
     found = []
     for name in list(phases[PHASES[0]])[: asked.people]:
         found.append(person([phases[phase][name] for phase in PHASES], embeddings))
-        print(f"{name}: " + ", ".join(f"{key} {found[-1][key]:.2f}" for key in ("same", "shifted", "relearned")), flush=True)
+        print(
+            f"{name}: " + ", ".join(f"{key} {found[-1][key]:.2f}" for key in ("same", "shifted", "relearned")),
+            flush=True,
+        )
     return {"pahf": {key: round(fmean(one[key] for one in found), 4) for key in found[0]}}
 
 

@@ -46,7 +46,7 @@ def read_scenarios(path: Path) -> list[Scenario]:
     """
     text = read_text(path)
     try:
-        found = yaml.load(text, StrictLoader)  # noqa: S506 - a safe loader
+        found = yaml.load(text, StrictLoader)
     except yaml.MarkedYAMLError as err:
         line = err.problem_mark.line + 1 if err.problem_mark else 0
         raise ConfigError(f"{path}: line {line}: is not YAML ({err.problem})") from err
@@ -73,7 +73,7 @@ def _placements(where: str, lines: object) -> dict[str, str]:
     for line in lines:
         if not (isinstance(line, list) and len(line) == 2 and all(map(is_name, line))):
             raise ConfigError(f"{where}: expected pairs of thing and receptacle, not {str(line)[:60]!r}")
-    found: dict[str, str] = {thing: place for thing, place in lines}
+    found: dict[str, str] = dict(lines)
     if len(found) < len(lines):
         raise ConfigError(f"{where}: a thing stands twice")
     return found

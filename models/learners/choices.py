@@ -7,12 +7,13 @@ met again word for word has the greatest likeness there is, so it counts as an e
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from langchain_core.embeddings import Embeddings
 from scipy.linalg import solve
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
 from coopera.memory.embeddings import as_array
 from coopera.models.learners.fading import REMNANT, Fading
@@ -21,31 +22,31 @@ Floats = npt.NDArray[np.float64]
 
 RIDGE = 0.5
 _STEEP = 4.0  # log-odds per score: a choice from which was learned scores near 0.5 above the others
+_LIGHT = 1e-6  # memories of less weight are not asked
 _LIKE = 2  # power of a cosine: what is only vaguely alike says little
 
 
-@dataclass(frozen=True, slots=True)
-class _Told:
-    """A choice: the request's vector (d,), the things' (n, d), and n labels that sum to 0."""
-
-    request: Floats
-    things: Floats
-    labels: Floats
-
-
-@dataclass(slots=True)
 class Choices:
     """Learns from choices in the order in which they are made, and notices by itself when the person has changed.
 
     Attributes:
-        embeddings: Give a text the same vector every time.
-        fades: False never forgets: the control.
+        fading: How much each choice still counts.
     """
 
-    embeddings: Embeddings
-    fades: bool = True
-    fading: Fading = field(default_factory=Fading)
-    _told: list[_Told] = field(default_factory=list)
+    def __init__(self, embeddings: Embeddings, *, fades: bool = True) -> None:
+        """Start with nothing told.
+
+        Args:
+            embeddings: Give a text the same vector every time.
+            fades: False never forgets: the control.
+        """
+        self.fading = Fading()
+        self._embeddings = embeddings
+        self._fades = fades
+        self._step = np.zeros(0, np.int64)
+        self._labels = np.zeros(0)
+        self._requests, self._things, self._among = np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((0, 0))
+        self._solved: dict[int, Floats] = {}
 
     def told(self, request: str, things: Sequence[str], chosen: str) -> None:
         """Learn that of these things one was chosen.
@@ -56,44 +57,65 @@ class Choices:
         labels = np.array([thing == chosen for thing in things], np.float64)
         if not labels.any():
             raise ValueError(f"{chosen!r} is not among the things to choose from")
-        vectors = as_array(self.embeddings, [request, *things]).astype(np.float64)
-        one = _Told(vectors[0], vectors[1:], labels - labels.mean())
-        step = len(self._told)
-        if self.fades and step:
-            self.fading.begin(step)
-            at = int(labels.argmax())
-            foretold = [self._foretold(one, self._since(start)) for start in self.fading.starts]
-            self.fading.learn([float(np.log(chances[at])) for chances in foretold])
-        self._told.append(one)
+        with _one_thread():
+            requests, those = self._vectors(request, things)
+            likeness = self._likeness(requests, those)
+            step = int(self._step[-1]) + 1 if len(self._step) else 0
+            if self._fades and step:
+                self.fading.begin(step)
+                at = int(labels.argmax())
+                foretold = [self._foretold(likeness, start)[at] for start in self.fading.starts]
+                self.fading.learn(np.log(foretold))
+            own = _alike(requests, requests) * _alike(those, those)
+            self._among = np.block([[self._among, likeness.T], [likeness, own]]) if step else own
+        self._requests = np.concatenate([self._requests, requests]) if step else requests
+        self._things = np.concatenate([self._things, those]) if step else those
+        self._labels = np.concatenate([self._labels, labels - labels.mean()])
+        self._step = np.concatenate([self._step, np.full(len(things), step)])
+        self._solved = {}
 
     def probabilities(self, request: str, things: Sequence[str]) -> Floats:
         """Return the probability that each thing is chosen, shape (n,); all equal before anything is known."""
         if not things:
             return np.zeros(0)
-        vectors = as_array(self.embeddings, [request, *things]).astype(np.float64)
-        asked = _Told(vectors[0], vectors[1:], np.zeros(len(things)))
-        starts = zip(self.fading.starts, self.fading.weights, strict=True)
-        parts = [weight * self._foretold(asked, self._since(start)) for start, weight in starts if weight > 1e-6]
-        return np.sum(parts, axis=0) / np.sum(parts)
+        with _one_thread():
+            likeness = self._likeness(*self._vectors(request, things))
+            starts = zip(self.fading.starts, self.fading.weights, strict=True)
+            parts = [weight * self._foretold(likeness, start) for start, weight in starts if weight > _LIGHT]
+        chances: Floats = np.sum(parts, axis=0)
+        chances /= chances.sum()
+        return chances
 
-    def _since(self, start: int) -> Floats:
-        """What each choice counts, shape (choices,), to a memory that begins there."""
-        return np.where(np.arange(len(self._told)) >= start, 1.0, REMNANT)
+    def _vectors(self, request: str, things: Sequence[str]) -> tuple[Floats, Floats]:
+        """Return the vectors of the request, once per thing, and of the things, (n, d) each."""
+        vectors = as_array(self._embeddings, [request, *things]).astype(np.float64)
+        return np.repeat(vectors[:1], len(things), axis=0), vectors[1:]
 
-    def _foretold(self, asked: _Told, counts: Floats) -> Floats:
-        """Return P(chosen) per thing by ridge regression on what was told, each choice counting as said."""
-        if not self._told:
-            return np.full(len(asked.things), 1.0 / len(asked.things))
-        things = np.concatenate([one.things for one in self._told])
-        sizes = [len(one.things) for one in self._told]
-        requests = np.repeat(np.stack([one.request for one in self._told]), sizes, axis=0)
-        labels = np.concatenate([one.labels for one in self._told])
-        among = _alike(requests, requests) * _alike(things, things)
-        among[np.diag_indices_from(among)] += RIDGE / np.repeat(counts, sizes)
-        likeness = _alike(asked.request[None], requests) * _alike(asked.things, things)
-        odds = _STEEP * (likeness @ solve(among, labels, assume_a="pos"))
+    def _likeness(self, requests: Floats, things: Floats) -> Floats:
+        """Return how alike n things for a request are to all that was told, (n, rows told)."""
+        if not len(self._step):
+            return np.zeros((len(things), 0))
+        return _alike(requests, self._requests) * _alike(things, self._things)
+
+    def _foretold(self, likeness: Floats, start: int) -> Floats:
+        """Return P(chosen) per thing, by a memory that begins with a choice."""
+        odds = _STEEP * (likeness @ self._solution(start))
         chances: Floats = np.exp(odds - odds.max())
-        return chances / chances.sum()
+        chances /= chances.sum()
+        return chances
+
+    def _solution(self, start: int) -> Floats:
+        """Return the weights of all that was told, by ridge regression in which what came before counts REMNANT."""
+        if start not in self._solved:
+            counts = np.where(self._step >= start, 1.0, REMNANT)
+            found: Floats = solve(self._among + np.diag(RIDGE / counts), self._labels, assume_a="pos")
+            self._solved[start] = found
+        return self._solved[start]
+
+
+def _one_thread() -> Any:
+    """Compute on one thread: sums then have one order, and such small matrices are solved sooner."""
+    return threadpool_limits(limits=1, user_api="blas")
 
 
 def _alike(some: Floats, others: Floats) -> Floats:

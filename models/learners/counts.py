@@ -19,6 +19,7 @@ Bools = npt.NDArray[np.bool_]
 PRIOR = 1.0
 """How many observations the coarser rate is worth, that a finer one starts from."""
 COARSE = 2
+"""The finest rate starts from the mean of so many, from the first; the others are for what learns on top of counts."""
 _RARE = 0.02
 """The rate of a thing of which nothing is known."""
 NEAR = (1.0, 0.6, 0.14)
@@ -33,7 +34,7 @@ class Observations:
         day: Shape (n,), from 0.
         thing: Shape (n,), from 0.
         contexts: Shape (n, c), from 0. The first is the hour, or another scale on which near values are alike; the last
-            is the finest, and starts from the mean of the others.
+            is the finest, and starts from the mean of the first `COARSE`.
         numbers: Shape (n, k): whatever else is known beforehand; counts do not use it.
         label: Shape (n,).
     """
@@ -66,7 +67,7 @@ class Rates(NamedTuple):
 
     @property
     def probabilities(self) -> Floats:
-        """P(yes), shape (n,): the finest rate, which is the mean of the others where nothing finer was met."""
+        """P(yes), shape (n,): the finest rate, which is the mean of the coarse ones where it was never met."""
         return self.shares[:, -2]
 
 
@@ -97,7 +98,9 @@ class Counts:
         day = None if own_day else asked.day
         yes, met = self._base.at(asked.thing, day)
         base = (yes + PRIOR * _RARE) / (met + PRIOR)
-        counted = [tally.at(_keys(asked.contexts[:, place], asked.thing), day) for place, tally in enumerate(self._tallies)]
+        counted = [
+            tally.at(_keys(asked.contexts[:, place], asked.thing), day) for place, tally in enumerate(self._tallies)
+        ]
         shares = [(yes + PRIOR * base) / (met + PRIOR) for yes, met in counted]
         if len(shares) > 1:
             yes, met = counted[-1]
@@ -139,7 +142,8 @@ class _Tally:
 
 def _counted(keys: Ints, label: Bools, weights: Floats) -> tuple[Ints, Floats, Floats]:
     names, place = np.unique(keys, return_inverse=True)
-    return names, np.bincount(place, weights * label, len(names)), np.bincount(place, weights, len(names))
+    yes, met = (np.bincount(place, one, len(names)).astype(np.float64) for one in (weights * label, weights))
+    return names, yes, met
 
 
 def _found(tally: tuple[Ints, Floats, Floats], keys: Ints) -> tuple[Floats, Floats]:

@@ -24,9 +24,9 @@ _YOUNG = 6
 
 
 class Fading:
-    """A mixture of memories by their beginnings, weighed by what they foretold (Adams and MacKay 2007, arXiv:0710.3742).
+    """A mixture of memories by their beginnings, weighed by what they foretold.
 
-    A step is whatever is foretold at once: a day, or a single choice.
+    After Adams and MacKay (2007, arXiv:0710.3742). A step is whatever is foretold at once: a day, or a single choice.
 
     Attributes:
         starts: The step with which each memory begins, ascending; one that knows everything begins with 0.

@@ -5,7 +5,7 @@ Which of them speaks is chosen each time on days held out, and not by a number o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,9 +15,11 @@ from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 from coopera.models.learners.counts import Bools, Counts, Floats, Ints, Observations, Rates
 from coopera.models.learners.fading import HAZARD, REMNANT, Fading
 
+Model = Callable[[Floats], Floats]
+
 FOLDS = 5
 _FIRST_THRESHOLD = 0.275
-"""F1 is best served by saying yes above half of the F1 reached (Lipton et al. 2014), and some 0.5 is reached at first."""
+"""F1 is best where yes is said above half of the F1 reached (Lipton et al. 2014), and some 0.5 is reached at first."""
 _THRESHOLDS = np.arange(0.15, 0.51, 0.025)
 _TEMPER = 0.3
 """What a day's log-likelihood counts for a change: what is observed in an hour hangs together, so rows say less."""
@@ -30,7 +32,7 @@ class Chosen:
     """What held-out days decided.
 
     Attributes:
-        name: "counts", "logistic", "boosted", "both" or "all".
+        name: "counts"; "learned", a logistic regression and boosted trees on top of counts; or "all" three.
         threshold: P(yes) from which to say yes, for the best F1.
         losses: Mean negative log-likelihood on held-out days, in nats per observation, by name; empty where there was
             one day only.
@@ -55,7 +57,7 @@ class Habits:
         self.chosen = Chosen("counts", _FIRST_THRESHOLD, {})
         self.fading = Fading(hazard=hazard)
         self._counts: Counts | None = None
-        self._fitted: dict[str, Any] = {}
+        self._fitted: list[Model] = []
 
     def train(self, seen: Observations) -> None:
         """Learn anew from all that was observed."""
@@ -65,7 +67,7 @@ class Habits:
         weights = self.fading.of(seen.day)
         self.chosen = _choose(seen, weights)
         self._counts = Counts(seen, weights)
-        self._fitted = _fit(seen, weights, _PARTS[self.chosen.name])
+        self._fitted = [] if self.chosen.name == "counts" else _fit(seen, weights)
 
     def probabilities(self, asked: Observations) -> Floats:
         """Return P(yes) of each observation, shape (n,), in (0, 1)."""
@@ -117,43 +119,42 @@ def _by_day(seen: Observations, column: int, days: int) -> tuple[Ints, Floats, F
     return place, yes.cumsum(0), met.cumsum(0)
 
 
-_PARTS: dict[str, tuple[str, ...]] = {
-    "counts": (),
-    "logistic": ("logistic",),
-    "boosted": ("boosted",),
-    "both": ("logistic", "boosted"),
-    "all": ("logistic", "boosted"),
-}
-
-
 def _choose(seen: Observations, weights: Floats) -> Chosen:
     """Choose what speaks by the likelihood of held-out days, and the threshold by their F1."""
     days = np.unique(seen.day)
     if len(days) < 2:
         return Chosen("counts", _FIRST_THRESHOLD, {})
     unseen: dict[str, Floats] = {}
+    complete = True
     for fold in range(min(FOLDS, len(days))):
         out = np.isin(seen.day, days[fold::FOLDS])
         rest, asked = seen.take(~out), seen.take(out)
-        said = _speak(_fit(rest, weights[~out], _PARTS["all"]), Counts(rest, weights[~out]).rates(asked), asked)
+        said = _speak(_fit(rest, weights[~out]), Counts(rest, weights[~out]).rates(asked), asked)
+        complete &= len(said) > 1
         for name, chance in said.items():
             unseen.setdefault(name, np.zeros(len(seen)))[out] = chance
-    losses = {name: _loss(chance, seen.label, weights) for name, chance in unseen.items()}
+    losses = {
+        name: _loss(chance, seen.label, weights) for name, chance in unseen.items() if complete or name == "counts"
+    }
     name = min(losses, key=lambda one: losses[one])
     return Chosen(name, _threshold(unseen[name], seen.label, weights), losses)
 
 
-def _speak(fitted: dict[str, Any], rates: Rates, asked: Observations) -> dict[str, Floats]:
-    """Return P(yes) by each that can speak: counts, what is fitted, and means of their log-odds."""
+def _speak(fitted: Sequence[Model], rates: Rates, asked: Observations) -> dict[str, Floats]:
+    """Return P(yes) by counts, by the mean log-odds of what is fitted, and by that of all three.
+
+    Neither of the two speaks alone: a mean of them was the better one on later days at any number of days.
+    """
     counts = np.clip(rates.probabilities, _TINY, 1 - _TINY)
-    said = {"counts": counts}
-    for name, model in fitted.items():
-        said[name] = np.clip(model(features(rates, asked)), _TINY, 1 - _TINY)
-    if {"logistic", "boosted"} <= said.keys():
-        learned = (_odds(said["logistic"]) + _odds(said["boosted"])) / 2
-        said["both"] = _chance(learned)
-        said["all"] = _chance((2 * learned + _odds(counts)) / 3)
-    return said
+    if not fitted:
+        return {"counts": counts}
+    given = features(rates, asked)
+    odds = [_odds(np.clip(model(given), _TINY, 1 - _TINY)) for model in fitted]
+    return {
+        "counts": counts,
+        "learned": _chance(np.mean(odds, axis=0)),
+        "all": _chance(np.mean([*odds, _odds(counts)], axis=0)),
+    }
 
 
 def features(rates: Rates, asked: Observations) -> Floats:
@@ -163,12 +164,12 @@ def features(rates: Rates, asked: Observations) -> Floats:
     return np.hstack([*parts, asked.numbers])
 
 
-def _fit(seen: Observations, weights: Floats, parts: tuple[str, ...]) -> dict[str, Callable[[Floats], Floats]]:
-    """Fit what is learned on top of counts; none where there is one day only, or one label."""
-    if not parts or len(np.unique(seen.day)) < 2 or seen.label.all() or not seen.label.any():
-        return {}
+def _fit(seen: Observations, weights: Floats) -> list[Model]:
+    """Fit what is learned on top of counts; nothing where there is one day only, or one label."""
+    if len(np.unique(seen.day)) < 2 or seen.label.all() or not seen.label.any():
+        return []
     given = features(Counts(seen, weights).rates(seen, own_day=False), seen)
-    return {name: _MODELS[name](given, seen.label, weights) for name in parts}
+    return [_logistic(given, seen.label, weights), _boosted(given, seen.label, weights)]
 
 
 def _one_thread() -> Any:
@@ -176,20 +177,21 @@ def _one_thread() -> Any:
     return threadpool_limits(limits=1)
 
 
-def _logistic(given: Floats, label: Bools, weights: Floats) -> Callable[[Floats], Floats]:
+def _logistic(given: Floats, label: Bools, weights: Floats) -> Model:
     from sklearn.linear_model import LogisticRegression  # noqa: PLC0415 - heavy
 
     centre, spread = given.mean(0), np.maximum(given.std(0), 0.1)
 
     def scaled(rows: Floats) -> Floats:
-        return np.clip((rows - centre) / spread, -5.0, 5.0)
+        found: Floats = np.clip((rows - centre) / spread, -5.0, 5.0)
+        return found
 
     with _one_thread():
         model = LogisticRegression(C=0.1, max_iter=300).fit(scaled(given), label, weights)
     return lambda asked: np.asarray(model.predict_proba(scaled(asked))[:, 1])
 
 
-def _boosted(given: Floats, label: Bools, weights: Floats) -> Callable[[Floats], Floats]:
+def _boosted(given: Floats, label: Bools, weights: Floats) -> Model:
     from sklearn.ensemble import HistGradientBoostingClassifier  # noqa: PLC0415 - heavy
 
     model = HistGradientBoostingClassifier(
@@ -209,9 +211,6 @@ def _boosted(given: Floats, label: Bools, weights: Floats) -> Callable[[Floats],
             return np.asarray(model.predict_proba(asked)[:, 1])
 
     return chance
-
-
-_MODELS = {"logistic": _logistic, "boosted": _boosted}
 
 
 def _loss(chance: Floats, label: Bools, weights: Floats) -> float:
