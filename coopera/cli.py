@@ -24,8 +24,7 @@ from coopera.commands import (
     scenes,
     sharing,
 )
-from coopera.core.deprecation import OldWordWarning
-from coopera.core.errors import ConfigError, CooperaError
+from coopera.core.errors import ConfigError, CooperaError, OldWordWarning
 from coopera.core.version import __version__
 
 app = typer.Typer(

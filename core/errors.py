@@ -6,6 +6,7 @@ exit code 2 (the input is wrong) and every other `CooperaError` into 1 (the work
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 
@@ -86,3 +87,18 @@ class RunError(CooperaError):
 
 class StoppedError(RunError):
     """A run was told to end, by Ctrl-C or `kill`; it is stopped, not failed, and resuming it goes on."""
+
+
+class OldWordWarning(FutureWarning):
+    """An old word was used; its text is one sentence for the person who used it."""
+
+
+def deprecated(old: str, new: str, gone: str) -> None:
+    """Warn that a word goes.
+
+    Args:
+        old: The word that was used, such as "--who".
+        new: What takes its place.
+        gone: The version in which the old word is no longer known.
+    """
+    warnings.warn(f"{old} is deprecated and goes in version {gone}: use {new}.", OldWordWarning, stacklevel=3)

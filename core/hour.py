@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
 from coopera.core.people import Belief, BigFive, Circumstance, Frozen, PersonId, is_empty, is_none
 from coopera.core.setting import Setting
+from coopera.core.success import Success
 
 CandidateKind: TypeAlias = Literal["intention", "task"]
 """The kinds of candidates: the robot imagines them, and a classifier gives a verdict on each."""
@@ -191,63 +192,6 @@ class Proposal(Frozen):
     tasks: list[TaskCandidate] = []
     recalled: list[Recalled] = []
     fallbacks: list[str] = []
-
-
-class Counts(Frozen):
-    """A confusion count over one task superset; `unscored` candidates are in none of the others.
-
-    f1, precision and recall are None where nothing could be scored. PAPER §4.3: accepted tasks are predicted positives.
-    """
-
-    tp: int = Field(0, ge=0)
-    fp: int = Field(0, ge=0)
-    fn: int = Field(0, ge=0)
-    tn: int = Field(0, ge=0)
-    unscored: int = Field(0, ge=0)
-    f1: float | None = None
-    precision: float | None = None
-    recall: float | None = None
-
-
-class Help(Frozen):
-    """The effect of the robot's help by the predicate, whatever the robot proposed.
-
-    Attributes:
-        remaining: Number of the person's tasks after the first.
-        helped: Number of these tasks with help by an act of the robot.
-        accepted: Number of the acts that the robot accepted, failed ones included.
-        done: Number of the robot's successful acts.
-        useless: Number of successful acts without help for any task.
-        metres: The robot's way, failed acts included.
-        saved_metres: The robot's way for acts with help for a new task; a second act for the same task saves nothing.
-    """
-
-    remaining: int = Field(0, ge=0)
-    helped: int = Field(0, ge=0)
-    accepted: int = Field(0, ge=0)
-    done: int = Field(0, ge=0)
-    useless: int = Field(0, ge=0)
-    metres: float = Field(0.0, ge=0)
-    saved_metres: float = Field(0.0, ge=0)
-
-
-class Success(Frozen):
-    """The hour's success by each measure; `help` is None in traces of before it was measured.
-
-    The figures of further measures stand beside these, each under its own name (`coopera.evaluation.measuring`).
-    """
-
-    model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, dict[str, int | float | None]] = Field(init=False)
-
-    predicate: Counts
-    judge: Counts
-    help: Help | None = None
-
-    def of(self, measure: str) -> Counts | Help | dict[str, int | float | None] | None:
-        """The figures by a measure; None where it was not taken."""
-        shipped = {"predicate": self.predicate, "judge": self.judge, "help": self.help}
-        return shipped[measure] if measure in shipped else self.__pydantic_extra__.get(measure)
 
 
 class ModelCall(Frozen):

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from coopera.core.hour import Counts, FeedbackItem
+from coopera.core.hour import FeedbackItem
+from coopera.core.success import Counts
 from coopera.evaluation.counts import count
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from coopera.core.hour import Counts
+from coopera.core.success import Counts
 
 
 def count(accepted: Sequence[bool], correct: Sequence[bool | None]) -> Counts:

@@ -14,12 +14,13 @@ from typing import Any, Generic, TypeAlias, TypeVar
 from pydantic import ValidationError
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.hour import Counts, Intention, Success, Task, TaskCandidate
+from coopera.core.hour import Intention, Task, TaskCandidate
 from coopera.core.household import Act, Outcome
 from coopera.core.people import Frozen
 from coopera.core.protocols import Ask, Home
 from coopera.core.randomness import Address
 from coopera.core.registry import Registry
+from coopera.core.success import Counts, Success
 from coopera.evaluation.counts import count, pool
 
 F = TypeVar("F", bound=Frozen)

@@ -16,8 +16,9 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
-from coopera.core.hour import Counts, Evening, HourRecord
+from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Frozen
+from coopera.core.success import Counts
 from coopera.evaluation.agreement import by_person
 from coopera.evaluation.measuring import F, MeasureSpec, all_measures
 

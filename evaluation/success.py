@@ -15,10 +15,11 @@ from typing import Any
 
 from langchain_core.embeddings import Embeddings
 
-from coopera.core.hour import Intention, Success, Task, TaskCandidate
+from coopera.core.hour import Intention, Task, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.protocols import Ask, Home
 from coopera.core.randomness import Address
+from coopera.core.success import Success
 from coopera.evaluation.measuring import MeasuredHour, MeasureSpec, all_measures
 from coopera.evaluation.predicate import Predicate
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from coopera.core.hour import Counts
+from coopera.core.success import Counts
 from coopera.evaluation import paper
 from coopera.evaluation.analysis import (
     PEOPLE,

@@ -18,12 +18,13 @@ from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
 from coopera.core.errors import HourError, ModelOutputError
-from coopera.core.hour import DayPlan, HourRecord, HumanHour, Intention, Observation, RobotHour, Success
+from coopera.core.hour import DayPlan, HourRecord, HumanHour, Intention, Observation, RobotHour
 from coopera.core.household import Act, AgentId, Outcome
 from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
+from coopera.core.success import Success
 from coopera.graphs.robot import (
     OracleInput,
     OwnRobotContext,

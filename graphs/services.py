@@ -15,11 +15,12 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
-from coopera.core.hour import DayPlan, HumanHour, Intention, Observation, SearchSizes, Success, Task, TaskCandidate
+from coopera.core.hour import DayPlan, HumanHour, Intention, Observation, SearchSizes, Task, TaskCandidate
 from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
+from coopera.core.success import Success
 from coopera.graphs.players.answering import Answering
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel

@@ -12,8 +12,7 @@ from typer.models import OptionInfo
 
 from coopera.config.declared import OLD_WORDS_GO, Declared
 from coopera.config.schema import SETTINGS
-from coopera.core.deprecation import deprecated
-from coopera.core.errors import ConfigError
+from coopera.core.errors import ConfigError, deprecated
 
 RunPath = Annotated[Path, typer.Argument(metavar="RUN", help="A run directory, such as runs/run-001.")]
 AsJson = Annotated[bool, typer.Option("--json", help="End with one line of JSON on standard output.")]

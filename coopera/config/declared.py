@@ -13,8 +13,7 @@ from annotated_types import Ge, Le
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from coopera.core.deprecation import deprecated
-from coopera.core.errors import ConfigError
+from coopera.core.errors import ConfigError, deprecated
 from coopera.core.setting import Setting
 
 

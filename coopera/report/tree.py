@@ -11,9 +11,10 @@ from rich.tree import Tree
 
 from coopera.core.clock import hour_label
 from coopera.core.errors import ConfigError
-from coopera.core.hour import Counts, Evening, HourRecord, HumanHour, ModelCall, Reasons, RobotHour, TaskCandidate
+from coopera.core.hour import Evening, HourRecord, HumanHour, ModelCall, Reasons, RobotHour, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.people import TRAITS
+from coopera.core.success import Counts
 from coopera.evaluation.measuring import all_measures
 from coopera.report.progress import figure
 from coopera.rundir.directory import RunDir

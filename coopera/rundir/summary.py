@@ -9,7 +9,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from coopera.config.schema import Config
-from coopera.core.hour import Counts, Evening, HourRecord
+from coopera.core.hour import Evening, HourRecord
+from coopera.core.success import Counts
 from coopera.evaluation.agreement import by_person, l1
 from coopera.evaluation.measures.help import need, pool_help
 from coopera.evaluation.measuring import Pooled, all_measures, find_measure

@@ -19,11 +19,12 @@ from langgraph.graph.state import CompiledStateGraph
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, RunError, WaitingError
-from coopera.core.hour import Counts, DayPlan
+from coopera.core.hour import DayPlan
 from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
 from coopera.core.people import PersonId
 from coopera.core.protocols import Role
+from coopera.core.success import Counts
 from coopera.evaluation import SETTINGS, episode, pool, schedule
 from coopera.graphs import STATE_TYPES, Services, build_study_graph
 from coopera.graphs.players.real_person import Interview

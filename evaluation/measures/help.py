@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from coopera.core.hour import Help
 from coopera.core.household import Outcome
+from coopera.core.success import Help
 from coopera.evaluation.measuring import MeasuredHour, MeasureSpec, Pooled, sums
 
 

@@ -23,7 +23,6 @@ from coopera.core.hour import (
     Recalled,
     Reflection,
     RobotHour,
-    Success,
     Task,
     TaskCandidate,
     TaskVerdict,
@@ -31,6 +30,7 @@ from coopera.core.hour import (
 from coopera.core.household import Act, FreeMotion, HandOver, Outcome, Percept, PickPlace
 from coopera.core.people import TRAITS, Belief, BigFive, Persona
 from coopera.core.randomness import rng_at
+from coopera.core.success import Success
 from coopera.evaluation.counts import count
 from coopera.evaluation.measures.help import help_given
 from coopera.people.shipped import find

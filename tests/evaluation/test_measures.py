@@ -4,9 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coopera.core.hour import Counts, FeedbackItem, Help, HourRecord, ModelCall, Observation, RobotHour
+from coopera.core.hour import FeedbackItem, HourRecord, ModelCall, Observation, RobotHour
 from coopera.core.household import HandOver, Outcome, SceneId
 from coopera.core.people import PersonId
+from coopera.core.success import Counts, Help
 from coopera.evaluation.agreement import by_person, l1
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.measures.help import Need, false_help, help_given, need, pool_help

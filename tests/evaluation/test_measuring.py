@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.hour import Counts, Help, Success
 from coopera.core.people import Frozen
+from coopera.core.success import Counts, Help, Success
 from coopera.evaluation.measuring import MeasureSpec, all_measures, find_measure, known_measures, means, sums
 
 

@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import ModelOutputError
-from coopera.core.hour import Counts, Help, Intention, Task, TaskCandidate
+from coopera.core.hour import Intention, Task, TaskCandidate
 from coopera.core.household import FreeMotion, HandOver, Outcome, PickPlace
 from coopera.core.randomness import Address
+from coopera.core.success import Counts, Help
 from coopera.evaluation import Measure, count, pool
 from coopera.evaluation.predicate import Predicate
 from tests.fakes import FakeHome, LetterEmbeddings, ScriptedAsk

@@ -10,8 +10,7 @@ import pytest
 
 from coopera.benchmark.grid_runs import load_grid, shared_config
 from coopera.config.schema import Config, load_config
-from coopera.core.deprecation import OldWordWarning
-from coopera.core.errors import ConfigError
+from coopera.core.errors import ConfigError, OldWordWarning
 from coopera.rundir.directory import RunDir
 from tests.coopera.conftest import Said
 from tests.coopera.fake_run import fake_run
@@ -72,7 +71,7 @@ def test_a_grid_file_may_use_the_old_name(tmp_path: Path) -> None:
     assert shared_config(grid, path, {}).person_model == "single_shot"
 
 
-@pytest.mark.filterwarnings("default::coopera.core.deprecation.OldWordWarning")
+@pytest.mark.filterwarnings("default::coopera.core.errors.OldWordWarning")
 @pytest.mark.parametrize(("old", "new", "value"), [("--who", "--identity", "x"), ("--human", "--played-by", "x")])
 def test_an_old_flag_sets_the_setting_and_says_once_that_it_goes(
     coopera: Callable[..., Said], old: str, new: str, value: str
