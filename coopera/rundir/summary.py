@@ -29,8 +29,8 @@ def columns() -> list[str]:
 def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
     """The hour's rows of metrics.csv, one per measure; a failed hour has rows without figures.
 
-    What the help was worth (`coopera.core.hour.Help`, and the hour's need precision, recall and F1) stands in the row
-    of the predicate, which it is measured by.
+    What the help was worth (`coopera.core.success.Help`, and the hour's need precision, recall and F1) stands in the
+    row of the predicate, which it is measured by.
     """
     blank: dict[str, Any] = dict.fromkeys(columns())
     blank |= {name: getattr(record, name) for name in (*_HOUR, "status")}
