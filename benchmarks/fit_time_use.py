@@ -32,7 +32,7 @@ from coopera.models.offline.human.circumstances import Circumstances
 from coopera.models.offline.human.person import PrivateLife
 from coopera.models.offline.human.persona import shipped_aspects
 from coopera.models.offline.human.rhythm import Rhythm, Schedule, of_day_type
-from coopera.models.offline.human.routine import USUAL_TEMPERATURE, Done, Moment, choose
+from coopera.models.offline.human.routine import Done, Moment, live_day
 
 HOURS = range(FIRST, LAST + 1)
 PEOPLE, DAYS, ROUNDS = 200, 14, 12
@@ -114,22 +114,18 @@ def a_day(
 ) -> list[Done]:
     """Live a day with nothing broken or dirty; `who` tells lives of one person apart."""
     count = len(life.household.activities)
-    can_do = np.ones(count, dtype=bool) if today is None else today.can_do
-    done: list[Done] = []
-    for hour in HOURS:
-        free = Moment(
-            hour=hour,
-            weekday=day % 7,
-            today=done,
-            lasting=True,
-            absence=absence,
-            possible=can_do,
-            extra=np.zeros(count) if today is None else today.pull,
-            job=None if today is None else today.job,
-        )
-        choice = choose(life, free, rng_at(0, "lived", who, day, hour), USUAL_TEMPERATURE)
-        done.append(Done(choice.activity, hour))
-    return done
+    free = Moment(
+        hour=FIRST,
+        weekday=day % 7,
+        today=(),
+        lasting=True,
+        absence=absence,
+        possible=np.ones(count, dtype=bool) if today is None else today.can_do,
+        extra=np.zeros(count) if today is None else today.pull,
+        job=None if today is None else today.job,
+    )
+    lived = live_day(life, free, HOURS, (rng_at(0, "lived", who, day, hour) for hour in HOURS))
+    return [Done(choice.activity, hour) for hour, choice in zip(HOURS, lived, strict=True)]
 
 
 def somebody(count: int) -> Iterator[tuple[str, BigFive]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Annotated, Literal, NamedTuple, NewType, TypeAlias
 
 from pydantic import Field
@@ -86,6 +87,7 @@ _IN_WORDS = (
 )
 
 
+@lru_cache(maxsize=50_000)  # a robot reads weeks of told tasks every hour
 def use_of(described: str) -> Use | None:
     """Read back what `describe` says of an act; None for other words."""
     for pattern in _IN_WORDS:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import repeat
 from typing import Any
 
 import numpy as np
@@ -29,11 +30,10 @@ from coopera.models.offline.household.placing import feasible_places
 from coopera.models.offline.household.reading import Surroundings, class_of, room_kind, weighted_order
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human.person import PrivateLife
-from coopera.models.offline.human.routine import Done, Moment, choose
+from coopera.models.offline.human.routine import Moment, live_day
 
 DAYS, HOURS = 60, 100
 """Days of each weekday, and hours of each activity, that are drawn to know how often something comes."""
-TEMPERATURE = 0.7
 WORTH = 0.3  # see `coopera.graphs.robots.verdicts`
 STRANGE = 0.02  # the likelihood of what this person never does: perception errs
 
@@ -46,11 +46,12 @@ class Knower:
     """The text that each lives by."""
     personas: Mapping[PersonId, Persona]
     sense: CommonSense
+    _lives: dict[PersonId, PrivateLife] = field(default_factory=dict, repr=False)
     _usual: dict[tuple[PersonId, int, int], Counter[int]] = field(default_factory=dict, repr=False)
 
     def help(self, view: RobotView) -> Proposal:
         """Propose what this person most probably needs."""
-        life = PrivateLife(self.sense, self.people[view.person], self.personas[view.person].big_five)
+        life = self._life(view.person)
         usual = self._usual_at(life, view)
         now, chance, wanted = held(view.observation), Counter[int](), Counter[Use]()
         for index, often in sorted(usual.items()):
@@ -80,6 +81,11 @@ class Knower:
         """Learn nothing: there is nothing left to know."""
         return {"hours": len(account.hours)}
 
+    def _life(self, person: PersonId) -> PrivateLife:
+        if person not in self._lives:
+            self._lives[person] = PrivateLife(self.sense, self.people[person], self.personas[person].big_five)
+        return self._lives[person]
+
     def _usual_at(self, life: PrivateLife, view: RobotView) -> Counter[int]:
         """How often each activity comes at this hour of such a weekday, of `DAYS` drawn days."""
         day = WEEKDAYS.index(view.clock.weekday)
@@ -93,13 +99,11 @@ class Knower:
         possible = np.array([bool(kinds.intersection(activity.rooms)) for activity in activities])
         hours = range(FIRST_HOUR, FIRST_HOUR + max(HOURS_PER_DAY, view.clock.hour + 1 - FIRST_HOUR))
         found: dict[int, Counter[int]] = {hour: Counter() for hour in hours}
+        any_hour = Moment(hours[0], weekday, (), True, False, possible, np.zeros(len(activities)))
         for number in range(DAYS):
-            rng, today = rng_at(0, "ceiling", view.person, weekday, number), list[Done]()
-            for hour in hours:
-                moment = Moment(hour, weekday, today, True, False, possible, np.zeros(len(activities)))
-                index = choose(life, moment, rng, TEMPERATURE).activity
-                today.append(Done(index, hour))
-                found[hour][index] += 1
+            rng = rng_at(0, "ceiling", view.person, weekday, number)
+            for hour, choice in zip(hours, live_day(life, any_hour, hours, repeat(rng)), strict=True):
+                found[hour][choice.activity] += 1
         return found
 
     def _drawn(self, life: PrivateLife, index: int, view: RobotView) -> list[list[Use]]:

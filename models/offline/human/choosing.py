@@ -95,10 +95,7 @@ def reasons(
     thing: str,
 ) -> Reasons:
     """Return the three reasons of a task: the person, the intention, and the tasks before it."""
-    sentence = person.evidence(activity)
-    human = f"It is a habit: the {thing} is what I usually reach for."
-    if sentence:
-        human = f'I say of myself: "{sentence.rstrip(" .,;")}".'
+    human = person.own_words(activity) or f"It is a habit: the {thing} is what I usually reach for."
     earlier = [memory for memory in before if f" {thing} " in f" {memory.text} "]
     if earlier:
         tasks = f"I already had the {thing} today, when I wanted to {earlier[0].text}."

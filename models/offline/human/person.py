@@ -34,13 +34,18 @@ FAVOUR = 1.3  # scale of the Gumbel draws behind favourites: at 1.3 some five of
 ENOUGH = 5  # things that must be left of an activity, so that its hour can be filled
 
 
+def private_rng(profile: str, *what: object) -> np.random.Generator:
+    """What is drawn of somebody once and for all; the profile's text alone decides."""
+    return rng_at(0, "private life", key(profile), *what)
+
+
 class PrivateLife:
     """One person's private parameters. Arrays are in the household file's order of activities."""
 
     def __init__(self, sense: CommonSense, profile: str, big_five: BigFive, rhythm: Rhythm | None = None) -> None:
         self._sense = sense
         self.household: Household = sense.household
-        self._who = key(profile)
+        self._rng = partial(private_rng, profile)
         self.big_five = big_five
         self.said: Statements = statements(profile)
         self.facts: Facts = facts(profile, sense.household)
@@ -118,6 +123,11 @@ class PrivateLife:
         """Return the person's own sentence that speaks for an activity, if one does; a borrowed one is none."""
         return self.facts.because.get(activity.id)
 
+    def own_words(self, activity: Activity) -> str | None:
+        """Return that sentence as the reason that the person gives for it."""
+        sentence = self.evidence(activity)
+        return f'I say of myself: "{sentence.rstrip(" .,;")}".' if sentence else None
+
     def strongest_trait(self, activity: Activity) -> tuple[str, float] | None:
         """Return the trait that speaks most for an activity, with this person's score, if one does."""
         pulls = {t: load * (getattr(self.big_five, t) - 3.0) for t, load in activity.big_five.items()}
@@ -153,6 +163,3 @@ class PrivateLife:
     def _favour(self, what: str, count: int, scale: float = FAVOUR) -> Floats:
         weights = np.exp(scale * self._rng(what).gumbel(size=count))
         return np.asarray(weights / weights.sum(), dtype=np.float64)
-
-    def _rng(self, *what: object) -> np.random.Generator:
-        return rng_at(0, "private life", self._who, *what)

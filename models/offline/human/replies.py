@@ -68,7 +68,7 @@ class Human:
         activity = self._sense.household.activities[choice.activity]
         return IntentionReply(
             intention=clip(_anew(life, activity, rng, hour, today), 300),
-            reason_human=clip(self._why(life, activity, choice, hour, variables["changes"]), 400),
+            reason_human=clip(self._why(life, activity, choice, variables["changes"]), 400),
             reason_intentions=clip(self._since(activity, choice, today), 400),
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
             continues=choice.continues,
@@ -88,7 +88,7 @@ class Human:
             activity = self._sense.household.activities[choice.activity]
             text = clip(_anew(life, activity, rng, hour, so_far), 300)
             planned.append((hour, text))
-            why = self._why(life, activity, choice, hour, variables["changes"])
+            why = self._why(life, activity, choice, variables["changes"])
             replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away))
         return DayReply(intentions=replies)
 
@@ -113,11 +113,11 @@ class Human:
         wants = [any(affordances().is_one_of(cls, a.dirty) for cls in dirty) for a in self._sense.household.activities]
         return DIRTY * np.array(wants, dtype=np.float64)
 
-    def _why(self, life: PrivateLife, activity: Activity, choice: Choice, hour: int, changes: Sequence[Any]) -> str:
+    def _why(self, life: PrivateLife, activity: Activity, choice: Choice, changes: Sequence[Any]) -> str:
         """What is different today, the person's own words where they bear on it, their traits; else a habit."""
         parts = [f"{change['text']}." for change in changes if speaks_for(change, activity)][:1]
-        if sentence := life.evidence(activity):
-            parts.append(f'I say of myself: "{sentence.rstrip(" .,;")}".')
+        if own := life.own_words(activity):
+            parts.append(own)
         if choice.why == "wish" and (found := life.strongest_trait(activity)):
             trait, score = found
             parts.append(f"My {trait} of {score:.1f} speaks for it.")

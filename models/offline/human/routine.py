@@ -5,7 +5,7 @@ No text is read here: a person's day is a list of activities, so that a life of 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -81,6 +81,26 @@ def choose(life: PrivateLife, moment: Moment, rng: np.random.Generator, temperat
     )
 
 
+def live_day(
+    life: PrivateLife, moment: Moment, hours: Sequence[int], draws: Iterable[np.random.Generator]
+) -> list[Choice]:
+    """Choose hour after hour of a day, each after what was done before it.
+
+    Args:
+        life: Whose day it is.
+        moment: What holds all day; its `hour` and `today` do not count.
+        hours: Of the day, in order.
+        draws: What each of the hours is drawn with.
+    """
+    today: list[Done] = []
+    lived: list[Choice] = []
+    for hour, rng in zip(hours, draws, strict=False):
+        choice = choose(life, moment._replace(hour=hour, today=tuple(today)), rng, USUAL_TEMPERATURE)
+        today.append(Done(choice.activity, hour))
+        lived.append(choice)
+    return lived
+
+
 class _Day:
     """One person's day up to an hour."""
 
@@ -94,6 +114,9 @@ class _Day:
             self._allowed[moment.job.occupation] = True  # whatever the profile says of work: that was before
         self._job = moment.job or Job(life.time.occupation(absence=moment.absence), life.time.schedule)
         self._fresh = self._allowed & self._not_done_lately()
+        self._closing = [one.activity for one in moment.today if self._household.activities[one.activity].closes]
+        # What ends the day, as far as it has been done: after it nothing begins that is not part of ending it.
+        self._needs = {*life.time.daily, self._household.index.get("sleep_in", -1)}
 
     def still_asleep(self, rng: np.random.Generator) -> Choice | None:
         """Sleep late: as many as the rhythm has it, the late types among them."""
@@ -108,7 +131,7 @@ class _Day:
 
     def what_is_needed(self, rng: np.random.Generator) -> Choice | None:
         """Do what belongs to each day, at the hours that are this person's; of several, the most pressing."""
-        if self._closed:
+        if self._closing:
             return None
         due = {}
         for index in self._life.time.daily:
@@ -145,7 +168,7 @@ class _Day:
         if not schedule.covers(self._moment.weekday, self._moment.hour):
             return None
         begun = index in self._done
-        if self._closed or not (begun or self._may_begin(schedule.start)):
+        if self._closing or not (begun or self._may_begin(schedule.start)):
             return None
         if not self._moment.lasting and not self._fresh[index]:
             return None
@@ -173,8 +196,8 @@ class _Day:
     def wish(self, rng: np.random.Generator, temperature: float) -> int:
         """Draw from what the person feels like; without anything new, from all that is possible."""
         open_to = self._fresh & ~self._life.time.set_hours
-        if self._closed:
-            follows = self._allowed & (self._household.follow_matrix[self._last_closing] > 0)
+        if self._closing:
+            follows = self._allowed & (self._household.follow_matrix[self._closing[-1]] > 0)
             open_to = follows & self._fresh if (follows & self._fresh).any() else follows
         for mask in (open_to, self._fresh, self._allowed):
             if mask.any():
@@ -188,26 +211,15 @@ class _Day:
     def _last(self) -> int | None:
         return self._moment.today[-1].activity if self._moment.today else None
 
-    @property
-    def _last_closing(self) -> int:
-        closing = [one.activity for one in self._moment.today if self._household.activities[one.activity].closes]
-        return closing[-1]
-
-    @property
-    def _closed(self) -> bool:
-        """Whether the day is over: something that ends it has been done."""
-        return any(self._household.activities[one.activity].closes for one in self._moment.today)
-
     def _served(self, index: int) -> bool:
         """Whether a need has been met today, by this or by what serves as well."""
-        return bool({index, *self._life.time.serves(index)} & self._done)
+        return not self._done.isdisjoint(self._life.time.serves(index))
 
     def _taken_up(self) -> list[int]:
         """The hours just before this one that sleep or another need took: what was due then still is."""
-        busy = {*self._life.time.daily, self._household.index.get("sleep_in", -1)}
         hours: list[int] = []
         for one in reversed(self._moment.today):
-            if one.activity not in busy:
+            if one.activity not in self._needs:
                 break
             hours.append(one.hour)
         return hours
@@ -222,9 +234,7 @@ class _Day:
 
     def _may_begin(self, start: int) -> bool:
         """Whether work may begin now: at its first hour, or where only needs and sleep have come before."""
-        needs = {*self._life.time.daily, self._household.index.get("sleep_in", -1)}
-        for index in self._life.time.daily:
-            needs |= set(self._life.time.serves(index))
+        needs = self._needs.union(*map(self._life.time.serves, self._life.time.daily))
         since = [one.activity for one in self._moment.today if one.hour >= start]
         return all(index in needs or self._household.activities[index].after for index in since)
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from coopera.core.randomness import rng_at
 from coopera.core.replies import Grade, GradesReply, VerdictReply, VerdictsReply
-from coopera.models.offline.household.knowledge import key
 from coopera.models.offline.household.offers import Want, wants
 from coopera.models.offline.household.reading import big_five_of, clip, said
 from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.human.person import private_rng
 
 MEANS_THE_SAME = 0.7  # cosine from which another wording still means the person's intention
 SERVES = 3  # grade from which the answer is a yes
@@ -73,7 +72,7 @@ def serves_from(variables: Mapping[str, Any]) -> float:
     text, so that somebody is as particular every evening.
     """
     agreeable = big_five_of(variables["big_five"]).agreeableness - 3.0
-    own = float(rng_at(0, "private life", key(str(variables["profile"])), "fussy").normal(0.0, FUSSY))
+    own = float(private_rng(str(variables["profile"]), "fussy").normal(0.0, FUSSY))
     return HELPS - LENIENT * agreeable + own
 
 

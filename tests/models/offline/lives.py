@@ -14,7 +14,7 @@ from coopera.models.offline.household.knowledge import FIRST, LAST, shipped
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human.circumstances import circumstances
 from coopera.models.offline.human.person import PrivateLife
-from coopera.models.offline.human.routine import Done, Moment, Why, choose
+from coopera.models.offline.human.routine import Moment, Why, live_day
 from tests.models.offline.questions import WORDS
 
 HOURS = range(FIRST, LAST + 1)
@@ -56,24 +56,24 @@ def lived(
     changed = circumstances(household, changes, absence=absence)
     lives: list[list[Hour]] = []
     for day in range(days) if isinstance(days, int) else days:
-        today: list[Done] = []
-        hours: list[Hour] = []
-        for hour in HOURS:
-            moment = Moment(
-                hour=hour,
-                weekday=day % 7,
-                today=tuple(today),
-                lasting=lasting,
-                absence=absence,
-                possible=changed.can_do,
-                extra=changed.pull,
-                job=changed.job,
-            )
-            choice = choose(life, moment, rng_at(seed, "a life", float(life.liking[0]), day, hour), 0.7)
-            today.append(Done(choice.activity, hour))
-            doing = household.activities[choice.activity].id
-            hours.append(Hour(day % 7, hour, doing, choice.continues, choice.why))
-        lives.append(hours)
+        moment = Moment(
+            hour=FIRST,
+            weekday=day % 7,
+            today=(),
+            lasting=lasting,
+            absence=absence,
+            possible=changed.can_do,
+            extra=changed.pull,
+            job=changed.job,
+        )
+        draws = (rng_at(seed, "a life", float(life.liking[0]), day, hour) for hour in HOURS)
+        choices = live_day(life, moment, HOURS, draws)
+        lives.append(
+            [
+                Hour(day % 7, hour, household.activities[one.activity].id, one.continues, one.why)
+                for hour, one in zip(HOURS, choices, strict=True)
+            ]
+        )
     return lives
 
 

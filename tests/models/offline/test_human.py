@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coopera.core.clock import Clock
+from coopera.evaluation.people.divergence import jensen_shannon
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.offline.household.statements import statements
 from tests.models.offline.questions import ROOMS, activity, ask, intend, live, memory, person
@@ -94,20 +95,9 @@ def test_people_differ_from_each_other_more_than_from_themselves() -> None:
         return np.bincount([ids.index(activity(text)) for text in day], minlength=len(ids)) / len(day)
 
     lives = [[what(day) for day in life] for life in _lives()]
-    within = [_divergence(a, b) for life in lives for i, a in enumerate(life) for b in life[:i]]
-    between = [_divergence(a, b) for i, life in enumerate(lives) for other in lives[:i] for a in life for b in other]
+    within = [jensen_shannon(a, b) for life in lives for i, a in enumerate(life) for b in life[:i]]
+    between = [jensen_shannon(a, b) for i, life in enumerate(lives) for other in lives[:i] for a in life for b in other]
     assert np.mean(between) > np.mean(within) + 0.1
-
-
-def _divergence(p: np.ndarray, q: np.ndarray) -> float:
-    """Jensen-Shannon divergence in bits."""
-    middle = (p + q) / 2
-
-    def to_middle(x: np.ndarray) -> float:
-        some = x > 0
-        return float(np.sum(x[some] * np.log2(x[some] / middle[some])))
-
-    return (to_middle(p) + to_middle(q)) / 2
 
 
 def test_what_the_profile_says_and_what_the_traits_say_shows_in_the_days() -> None:

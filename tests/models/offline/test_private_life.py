@@ -11,6 +11,7 @@ import pytest
 
 from coopera.core.clock import Clock
 from coopera.core.household import plain
+from coopera.evaluation.people.divergence import jensen_shannon
 from coopera.models.offline.household.knowledge import key, shipped
 from coopera.models.offline.household.reading import class_of
 from coopera.models.offline.human.persona import shipped_aspects
@@ -133,17 +134,6 @@ def test_reasons_of_tasks_quote_nobody_else_either() -> None:
                 assert "It is a habit" in task.reason_human
 
 
-def _divergence(p: np.ndarray, q: np.ndarray) -> float:
-    """Jensen-Shannon divergence in bits."""
-    middle = (p + q) / 2
-
-    def to_middle(x: np.ndarray) -> float:
-        some = x > 0
-        return float(np.sum(x[some] * np.log2(x[some] / middle[some])))
-
-    return (to_middle(p) + to_middle(q)) / 2
-
-
 def _spent(profile: str, seed: int) -> np.ndarray:
     """Shares of the activities in 20 days of a person whose draws come from `seed`, as another id's do."""
     index = shipped().index
@@ -153,8 +143,8 @@ def _spent(profile: str, seed: int) -> np.ndarray:
 
 def test_the_same_persona_under_two_ids_lives_alike_and_two_personas_do_not() -> None:
     profiles = ["I love to bake. I am retired.", "I work hard. I play video games.", "I knit and read.", VEGAN]
-    same = [_divergence(_spent(one, 1), _spent(one, 2)) for one in profiles]
-    others = [_divergence(_spent(one, 1), _spent(other, 2)) for one, other in combinations(profiles, 2)]
+    same = [jensen_shannon(_spent(one, 1), _spent(one, 2)) for one in profiles]
+    others = [jensen_shannon(_spent(one, 1), _spent(other, 2)) for one, other in combinations(profiles, 2)]
     assert max(same) < min(others)
     assert 2 * np.mean(same) < np.mean(others)
 
