@@ -193,8 +193,16 @@ class Recorder(Protocol):
         """Write trace/day-DD/hour-HH.json."""
         ...
 
+    def read_hour(self, day: int, hour: int) -> HourRecord | None:
+        """An hour; None where it has not been written."""
+        ...
+
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
+        ...
+
+    def read_evening(self, day: int) -> Evening | None:
+        """A day's evening; None where it has not been written."""
         ...
 
     def write_evening(self, evening: Evening) -> None:

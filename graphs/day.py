@@ -6,8 +6,9 @@ the homes as they were left, and the robot's beliefs. So a stopped day goes on i
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.graph import END, START, StateGraph
@@ -23,6 +24,7 @@ from coopera.core.hour import (
     HourRecord,
     HumanHour,
     IntentionCandidate,
+    ModelCall,
     RobotHour,
     TaskCandidate,
 )
@@ -33,6 +35,7 @@ from coopera.core.randomness import Address
 from coopera.graphs.hour import HourInput, build_hour_graph
 from coopera.graphs.players.player import HumanContext
 from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.recorded import forget_ahead, remember_day, take_over_hour
 from coopera.graphs.robots.learning import account_of
 from coopera.graphs.robots.traits import accounts, revise
 from coopera.graphs.services import Services
@@ -59,6 +62,7 @@ class DayState(DayInput, total=False):
     feedback: list[FeedbackItem]  # by feedback
     traits_reasons: dict[str, str]  # by infer_traits
     measured: dict[str, Any]  # by learn
+    calls: Annotated[list[ModelCall], operator.add]  # by feedback and infer_traits: asked of models this evening
 
 
 def first_day(plan: DayPlan) -> DayInput:
@@ -75,7 +79,7 @@ def build_day_graph(
         graph.add_node(node)
     graph.add_edge(START, "start_day")
     graph.add_edge("start_day", "hour")
-    graph.add_conditional_edges("hour", next_hour, ["hour", "feedback"])
+    graph.add_conditional_edges("hour", next_hour, ["hour", "feedback", "end_day"])
     graph.add_edge("feedback", "infer_traits")
     graph.add_edge("infer_traits", "learn")
     graph.add_edge("learn", "end_day")
@@ -84,14 +88,21 @@ def build_day_graph(
 
 
 def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Begin at the first hour. Writes `position`."""
+    """Begin at the first hour, knowing nothing of what is yet to come. Writes `position`."""
+    forget_ahead(runtime.context, state["plan"], sorted(runtime.context.people))
     runtime.stream_writer({"day": state["plan"].day, "hour": None, "node": "start_day", "success": None})
     return {"position": 0}
 
 
 def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`."""
+    """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`.
+
+    An hour that stands in the trace is taken over from there.
+    """
     services, plan, position = runtime.context, state["plan"], state["position"]
+    if lived := services.recorder.read_hour(plan.day, plan.hours[position]):
+        return _after(state, take_over_hour(services, plan, lived))
+    forget_ahead(services, plan, [plan.person])
     services.pupil.be_at(state["learned"])
     services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
     services.ask.take_calls()
@@ -99,16 +110,18 @@ def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     belief = state["beliefs"].get(plan.person, Belief())
     given = HourInput(plan=plan, position=position, belief=belief, beliefs=state["beliefs"])
     done = _hour_graph().invoke(given, context=services.here())
-    return {"position": position + 1, "worlds": {**state["worlds"], plan.scene: done["world"]}}
+    return _after(state, done["world"])
 
 
-def next_hour(state: DayState) -> Literal["hour", "feedback"]:
-    """Loop until the plan's hours are lived."""
-    return "hour" if state["position"] < len(state["plan"].hours) else "feedback"
+def next_hour(state: DayState, runtime: Runtime[Services]) -> Literal["hour", "feedback", "end_day"]:
+    """Loop until the plan's hours are lived; an evening that stands in the trace needs no more than its end."""
+    if state["position"] < len(state["plan"].hours):
+        return "hour"
+    return "end_day" if runtime.context.recorder.read_evening(state["plan"].day) else "feedback"
 
 
 def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Ask the person for feedback on all candidates of today. Writes `feedback`.
+    """Ask the person for feedback on all candidates of today. Writes `feedback`; adds to `calls`.
 
     PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the intention candidates too, and for
     the whole superset, not only for the tasks done. So the classifiers do not bias their own labels. How many questions
@@ -122,13 +135,13 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             clock = ctx.plan.clock(ctx.plan.hours.index(hour.hour))
             rng = runtime.context.rng(Address(ctx.plan.person, clock.day, clock.hour, "answering"))
             items += runtime.context.answering.given(meant, rng)
-    return {"feedback": items}
+    return {"feedback": items, "calls": runtime.context.ask.take_calls()}
 
 
 def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Revise the robot's belief about the person from today's accounts. Writes `beliefs`, `traits_reasons`.
+    """Revise the robot's belief about the person from today's accounts.
 
-    A reply that cannot be read leaves the belief as it was.
+    Writes `beliefs` and `traits_reasons`; adds to `calls`. A reply that cannot be read leaves the belief as it was.
     """
     services, plan = runtime.context, state["plan"]
     past = accounts(_told(services, plan), plan.episode_day * 24)
@@ -140,8 +153,12 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     try:
         seen, reasons = revise(services.ask, at, clock, past, belief, evening=True)
     except ModelOutputError as err:
-        return {"traits_reasons": {"failed": str(err)}}
-    return {"beliefs": {**state["beliefs"], plan.person: seen}, "traits_reasons": reasons}
+        return {"traits_reasons": {"failed": str(err)}, "calls": services.ask.take_calls()}
+    return {
+        "beliefs": {**state["beliefs"], plan.person: seen},
+        "traits_reasons": reasons,
+        "calls": services.ask.take_calls(),
+    }
 
 
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -150,17 +167,7 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     if not services.method.robot:
         return {"measured": {}}
     hours = _told(services, plan)
-    history = services.memories("history", plan.episode, plan.person)
-    history.forget_from(plan.episode_day * 24)
-    history.extend(
-        (
-            plan.episode_day * 24 + hour.hour,
-            hour.human.intention.text,
-            [task.act.describe() for task in hour.human.tasks],
-        )
-        for hour in hours
-        if hour.human is not None and not hour.human.intention.away
-    )
+    remember_day(services, plan, hours)
     if not services.method.learns:
         return {"measured": {}}
     belief = state["beliefs"].get(plan.person, Belief())
@@ -170,8 +177,10 @@ def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Write the evening's trace."""
+    """Write the evening's trace, or take over what stands there. Then also writes `beliefs` and `learned`."""
     services, plan = runtime.context, state["plan"]
+    if past := services.recorder.read_evening(plan.day):
+        return _as_it_was(services, state, past)
     services.recorder.write_evening(
         Evening(
             day=plan.day,
@@ -183,11 +192,24 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             belief=state["beliefs"].get(plan.person, Belief()),
             traits_reasons=state["traits_reasons"],
             learned=state["measured"],
-            calls=services.ask.take_calls(),
+            calls=[*state.get("calls", []), *services.ask.take_calls()],
         )
     )
     runtime.stream_writer({"day": plan.day, "hour": None, "node": "end_day", "success": None})
     return {}
+
+
+def _after(state: DayState, world: dict[str, Any]) -> dict[str, Any]:
+    return {"position": state["position"] + 1, "worlds": {**state["worlds"], state["plan"].scene: world}}
+
+
+def _as_it_was(services: Services, state: DayState, past: Evening) -> dict[str, Any]:
+    """Have the robot know what it knew after an evening that stands in the trace."""
+    plan, method = state["plan"], services.method
+    if method.robot:
+        remember_day(services, plan, _told(services, plan))
+    learned = [*state["learned"], plan.day] if method.robot and method.learns else state["learned"]
+    return {"beliefs": {**state["beliefs"], plan.person: past.belief}, "learned": learned}
 
 
 def _told(services: Services, plan: DayPlan) -> list[HourRecord]:

@@ -25,6 +25,7 @@ from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.success import Success
+from coopera.graphs.recorded import remember_guess
 from coopera.graphs.robot import (
     OracleInput,
     OwnRobotContext,
@@ -152,7 +153,7 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     human, robot = state.get("human"), state.get("robot")
     services.life.end(services, plan, clock, human)
     if robot:
-        _remember_guess(services, plan, clock, robot)
+        remember_guess(services, plan, clock, robot)
     world = services.home(plan.scene).snapshot()
     success = state.get("success")
     services.recorder.write_hour(
@@ -253,13 +254,6 @@ def _revised(services: Services, plan: DayPlan, clock: Clock, person: PersonId, 
         return revise(services.ask, at, clock, past, before, evening=False)[0]
     except ModelOutputError:
         return before
-
-
-def _remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: RobotHour) -> None:
-    for guess in guesses([(clock.hour, robot)], plan.episode_day * 24):
-        services.memories("guesses", plan.episode, robot.with_whom or plan.person).add(
-            guess.intention, guess.tasks, guess.now
-        )
 
 
 def _effect(home: Home, agent: AgentId, act: Act) -> tuple[str, ...]:

@@ -52,7 +52,8 @@ class LivedNow:
         return [home.perform(services.human_agent, task.act) for task in left]
 
     def end(self, services: Services, plan: DayPlan, clock: Clock, human: HumanHour | None) -> None:
-        """Have the person remember the hour."""
+        """Have the person remember the hour, and nothing of it or later besides."""
+        memories = services.memories("human", plan.episode, plan.person)
+        memories.forget_from(clock.now)
         if human:
-            texts = [task.act.describe() for task in human.tasks]
-            services.memories("human", plan.episode, plan.person).add(human.intention.text, texts, clock.now)
+            memories.add(human.intention.text, [task.act.describe() for task in human.tasks], clock.now)

@@ -13,14 +13,14 @@ from langgraph.types import Command, StateSnapshot
 from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
-from coopera.core.hour import DayPlan, FeedbackItem
+from coopera.core.hour import DayPlan, FeedbackItem, ModelCall
 from coopera.core.household import SceneId
 from coopera.core.interview import Answer, Question
 from coopera.core.people import Belief, BigFive, PersonId
 from coopera.graphs.day import build_day_graph
 from coopera.graphs.services import Services
 
-STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, Belief)
+STATE_TYPES: tuple[type, ...] = (BigFive, Clock, DayPlan, FeedbackItem, ModelCall, Belief)
 """The classes that stand in checkpoints; a checkpointer's serialiser must be given them."""
 
 

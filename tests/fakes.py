@@ -243,6 +243,13 @@ class FolderRecorder:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(record.model_dump_json())
 
+    def read_hour(self, day: int, hour: int) -> HourRecord | None:
+        path = self._day(day) / f"hour-{hour:02d}.json"
+        return HourRecord.model_validate_json(path.read_text()) if path.exists() else None
+
+    def read_evening(self, day: int) -> Evening | None:
+        return self.evenings.get(day)
+
     def read_day(self, day: int) -> list[HourRecord]:
         return [HourRecord.model_validate_json(path.read_text()) for path in sorted(self._day(day).glob("hour-*.json"))]
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib.metadata
 import platform
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -212,6 +213,15 @@ class RunDir:
         """
         self._stop.check()
 
+    @contextmanager
+    def stopped_by_failure(self) -> Iterator[None]:
+        """Stop the run's work in other threads where this one fails."""
+        try:
+            yield
+        except BaseException:
+            self._stop.ask()
+            raise
+
     # Recorder
 
     def frames_folder(self, day: int, hour: int) -> Path:
@@ -230,8 +240,13 @@ class RunDir:
     def write_hour(self, record: HourRecord) -> None:
         """Write trace/day-DD/hour-HH.json."""
         self._stop.check()
-        write_record(self._day(record.day) / f"hour-{record.hour:02d}.json", record)
+        write_record(self.hour_file(record.day, record.hour), record)
         self._rows[record.day, record.hour] = metrics_rows(record)
+
+    def read_hour(self, day: int, hour: int) -> HourRecord | None:
+        """An hour, or None where there is no trace of it."""
+        path = self.hour_file(day, hour)
+        return read_record(path, HourRecord) if path.is_file() else None
 
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
@@ -241,7 +256,7 @@ class RunDir:
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
         self._stop.check()
-        write_record(self._day(evening.day) / "evening.json", evening)
+        write_record(self.evening_file(evening.day), evening)
         self._write_metrics()
 
     def adapters_folder(self, day: int) -> Path:
@@ -266,7 +281,7 @@ class RunDir:
 
     def read_evening(self, day: int) -> Evening | None:
         """A day's evening, or None where the day has not ended."""
-        path = self._day(day) / "evening.json"
+        path = self.evening_file(day)
         return read_record(path, Evening) if path.is_file() else None
 
     def evenings(self) -> list[Evening]:
@@ -315,6 +330,14 @@ class RunDir:
     def _write_metrics(self) -> None:
         rows = [row for key in sorted(self._rows) for row in self._rows[key]]
         write_atomic(self.root / "metrics.csv", metrics_csv(rows))
+
+    def hour_file(self, day: int, hour: int) -> Path:
+        """The file trace/day-DD/hour-HH.json, there or not."""
+        return self._day(day) / f"hour-{hour:02d}.json"
+
+    def evening_file(self, day: int) -> Path:
+        """The file trace/day-DD/evening.json, there or not."""
+        return self._day(day) / "evening.json"
 
     def _day(self, day: int) -> Path:
         return self.root / "trace" / f"day-{day:02d}"

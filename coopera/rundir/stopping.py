@@ -50,6 +50,10 @@ class Stop:
         if self._outer is not None:
             self._outer.check()
 
-    def _ask(self, number: int, frame: FrameType | None) -> None:
+    def ask(self) -> None:
+        """Ask for a stop."""
         self._asked.set()
+
+    def _ask(self, number: int, frame: FrameType | None) -> None:
+        self.ask()
         raise KeyboardInterrupt

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import sqlite3
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
-from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.checkpoint.memory import InMemorySaver
-from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
-from langgraph.checkpoint.sqlite import SqliteSaver
 from langgraph.graph.state import CompiledStateGraph
 
 from coopera.config.files import canonical_json, reason, write_atomic
@@ -26,7 +22,7 @@ from coopera.core.people import PersonId
 from coopera.core.protocols import Role
 from coopera.core.success import Counts
 from coopera.evaluation import SETTINGS, episode, pool, schedule
-from coopera.graphs import STATE_TYPES, Services, build_study_graph
+from coopera.graphs import Services, build_study_graph
 from coopera.graphs.players.real_person import Interview
 from coopera.graphs.study import Waiting, waiting
 from coopera.models.households import household_file, household_of
@@ -42,6 +38,7 @@ from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
 from coopera.studies.own_files import home_files
+from coopera.studies.standing import THREAD, give_up_if_wrong, open_checkpoints, serializer, steps_done
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
@@ -49,7 +46,6 @@ QUESTION = "question.json"
 """File of a run that waits for a person: the question (`coopera.core.interview.Question`)."""
 
 _CHANGES = "changes: "
-_THREAD: RunnableConfig = {"configurable": {"thread_id": "study"}}
 
 
 def nobody(question: Question) -> Answer:
@@ -211,15 +207,16 @@ def _carry_on(
     on_event: Callable[[Event], None] | None,
     ask_person: Interview,
 ) -> dict[str, Any]:
-    with _checkpoints(run) as saver:
+    plans = plan_days(run.config)
+    with _checkpoints(run, plans) as saver:
         graph = build_study_graph(saver)
-        given: Any = None if graph.get_state(_THREAD).values else {"schedule": plan_days(run.config)}
+        given: Any = None if graph.get_state(THREAD).values else {"schedule": plans}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
-        if (question := waiting(graph, _THREAD)) is None:
-            question = _stream(graph, services, given, scored, on_event)
+        if (question := waiting(graph, THREAD)) is None:
+            question = _stream(run, graph, services, given, scored, on_event)
         while question is not None:
             given = question.answered(_ask(run, question.question, ask_person))
-            question = _stream(graph, services, given, scored, on_event)
+            question = _stream(run, graph, services, given, scored, on_event)
     summary = run.finish()
     if run.resumable:
         write_report(run)
@@ -227,14 +224,14 @@ def _carry_on(
 
 
 @contextmanager
-def _checkpoints(run: RunDir) -> Iterator[BaseCheckpointSaver[Any]]:
-    serde = JsonPlusSerializer(allowed_msgpack_modules=list(STATE_TYPES))
+def _checkpoints(run: RunDir, plans: Sequence[DayPlan]) -> Iterator[BaseCheckpointSaver[Any]]:
     if not run.resumable:
-        yield InMemorySaver(serde=serde)
+        yield InMemorySaver(serde=serializer())
         return
-    with closing(sqlite3.connect(run.root / "checkpoints.sqlite", check_same_thread=False)) as connection:
-        connection.execute("PRAGMA synchronous=NORMAL")  # what a power cut loses of it is done again
-        yield SqliteSaver(connection, serde=serde)
+    file = run.root / "checkpoints.sqlite"
+    give_up_if_wrong(file, plans, steps_done(run, plans))
+    with open_checkpoints(file) as saver:
+        yield saver
 
 
 def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:
@@ -247,26 +244,31 @@ def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:
 
 
 def _stream(
+    run: RunDir,
     graph: CompiledStateGraph[Any, Services, Any, Any],
     services: Services,
     given: Any,
     scored: list[Counts],
     on_event: Callable[[Event], None] | None,
 ) -> Waiting | None:
-    """Let the study go on until its end, or until a question to a real person, which is then returned."""
+    """Let the study go on until its end, or until a question to a real person, which is then returned.
+
+    Where the one who is told of events fails, the work is stopped before its services are closed.
+    """
     stream = graph.stream(
-        given, _THREAD, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
+        given, THREAD, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
     )
     now: dict[str, Any] = {"day": 0, "hour": None}
-    for _, mode, data in cast(Iterator[tuple[Any, str, dict[str, Any]]], stream):
-        if mode == "updates" and "__interrupt__" in data:
-            continue
-        if mode == "custom":
-            now = {"day": data["day"], "hour": data["hour"]}
-            if data["success"]:
-                scored.append(Counts.model_validate(data["success"]["predicate"]))
-        if on_event is not None:
-            nodes = [data["node"]] if mode == "custom" else list(data)
-            for node in nodes:
-                on_event({**now, "node": node, "success": pool(scored).f1})
-    return waiting(graph, _THREAD)
+    with closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events, run.stopped_by_failure():
+        for _, mode, data in events:
+            if mode == "updates" and "__interrupt__" in data:
+                continue
+            if mode == "custom":
+                now = {"day": data["day"], "hour": data["hour"]}
+                if data["success"]:
+                    scored.append(Counts.model_validate(data["success"]["predicate"]))
+            if on_event is not None:
+                nodes = [data["node"]] if mode == "custom" else list(data)
+                for node in nodes:
+                    on_event({**now, "node": node, "success": pool(scored).f1})
+    return waiting(graph, THREAD)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import sqlite3
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -250,3 +251,62 @@ def test_a_study_begins_with_the_home_as_it_was_built_whoever_used_it_before(mak
     home.movable["mug_1"] = (5, "study")
     final = run_study(make_services(home=home), n=1)
     assert final["worlds"]["toy"]["movable"]["mug_1"] == [5, "kitchen"]
+
+
+class Failing(ScriptedAsk):
+    """Fails where the robot is to describe the person, the first time."""
+
+    failed = False
+
+    def __call__(self, prompt: str, reply: type[Any], /, **given: Any) -> Any:
+        if prompt == "robot/traits" and not self.failed:
+            self.failed = True
+            raise OSError("the network is gone")
+        return super().__call__(prompt, reply, **given)
+
+
+def test_an_evening_that_broke_off_keeps_the_calls_that_were_made_before(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    services, whole = (
+        make_services(folder=tmp_path / "broken", ask=Failing(type2_answers())),
+        make_services(folder=tmp_path / "whole"),
+    )
+    for folder in ("broken", "whole"):
+        (tmp_path / folder).mkdir()
+    run_saved(whole, tmp_path / "whole")
+    with pytest.raises(OSError, match="network"):
+        run_saved(services, tmp_path / "broken")
+    services.ask.take_calls()  # as another process would have none of them
+    run_saved(services, tmp_path / "broken", go_on=True)
+    assert [call.prompt for call in services.recorder.evenings[0].calls].count("human/feedback_tasks") == 3  # type: ignore[attr-defined]
+    assert services.recorder.evenings == whole.recorder.evenings  # type: ignore[attr-defined]
+
+
+def test_what_stands_in_the_trace_is_taken_over_with_all_memories(make_services: MakeServices, tmp_path: Path) -> None:
+    first = make_services(folder=tmp_path / "first")
+    run_study(first)
+    ask = ScriptedAsk({})
+    again = replace(make_services(folder=tmp_path / "again", ask=ask), recorder=first.recorder)
+    run_study(again)
+    assert ask.asked == []
+    for owner in ("human", "history", "guesses"):
+        kept = [
+            [(r.text, r.hour) for stream in services.memories(owner, 0, MARA.id) for r in stream.records()]
+            for services in (first, again)
+        ]
+        assert kept[0] == kept[1] != []
+
+
+def test_an_hour_that_is_lived_again_knows_nothing_of_what_came_after_it(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    services = make_services(folder=tmp_path / "first")
+    run_study(services)
+    again = replace(
+        services, recorder=make_services(folder=tmp_path / "again").recorder, ask=ScriptedAsk(type2_answers())
+    )
+    run_study(again)
+    assert isinstance(again.ask, ScriptedAsk)
+    firsts = [v for v in again.ask.variables_of("robot/intentions") if v["day"] == 0]
+    assert all(not v["told"] and not [m for m in v["recalled_intentions"] if not m["guessed"]] for v in firsts)
