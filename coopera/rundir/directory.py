@@ -132,20 +132,20 @@ class RunDir:
 
     @classmethod
     def resume(cls, path: Path, budget: Budget | None = None) -> Self:
-        """Open a stopped, failed or killed run for writing; a budget replaces what it had.
+        """Open a run that has not finished for writing; a budget replaces what it had.
 
         Raises:
             ConfigError: If the folder holds no run.
-            RunError: If the run is finished, or another process is still writing it.
+            RunError: If the run is finished, another process is still writing it, or it kept nothing to go on from.
         """
         run = cls.open(path)
-        if run.info["schema"] < SCHEMA and run.state != "finished":
+        if run.state == "finished":
+            raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
+        if run.info["schema"] < SCHEMA:
             raise RunError(
                 f"{path / 'run.json'}: schema {run.info['schema']} was written by an older coopera, and this one reads "
                 f"such a run but cannot go on with it; use the version that began it."
             )
-        if run.state == "finished":
-            raise RunError(f"{path}: this run is finished, so there is nothing to resume.")
         if not run.resumable:
             raise RunError(f"{path}: this run kept nothing to go on from, as those of a benchmark; start it anew.")
         claim.refuse_second_writer(path, run.info)
@@ -314,10 +314,16 @@ class RunDir:
 
     def finish(self) -> dict[str, Any]:
         """Write metrics.csv and summary.json, record that the run is finished, and return the summary."""
+        summary = self.write_figures()
+        self._end("finished", "")
+        return summary
+
+    def write_figures(self) -> dict[str, Any]:
+        """Write metrics.csv and summary.json from the trace, and return the summary."""
         summary = self.summary()
+        self._rows = {(record.day, record.hour): metrics_rows(record) for record in self.hours()}
         self._write_metrics()
         write_atomic(self.root / "summary.json", canonical_json(summary))
-        self._end("finished", "")
         return summary
 
     def _end(self, state: str, why: str) -> None:

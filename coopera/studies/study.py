@@ -96,6 +96,8 @@ def resume_study(
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
+    A finished run is given what it lacks of its figures and its report, from its trace.
+
     Args:
         path: The run directory.
         on_event: Told of each node that ends.
@@ -103,9 +105,11 @@ def resume_study(
         budget: What the run may spend in all, if not what it was begun with.
 
     Raises:
-        RunError: If the run is finished or still being written, or its prompts, its household file or its file of
+        RunError: If the run is still being written, or its prompts, its household file or its file of
             changes have changed since.
     """
+    if (found := RunDir.open(path)).state == "finished":
+        return _completed(found)
     with RunDir.resume(path, budget) as run:
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
@@ -219,6 +223,15 @@ def _carry_on(
             question = _stream(run, graph, services, given, scored, on_event)
     summary = run.finish()
     if run.resumable:
+        write_report(run)
+    return summary
+
+
+def _completed(run: RunDir) -> dict[str, Any]:
+    """Write what a finished run lacks: it was killed before the end, or its files were lost."""
+    lost = [name for name in ("metrics.csv", "summary.json") if not (run.root / name).is_file()]
+    summary = run.write_figures() if lost else run.summary()
+    if run.resumable and not (run.root / "report.html").is_file():
         write_report(run)
     return summary
 

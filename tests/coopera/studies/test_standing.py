@@ -129,3 +129,17 @@ def test_an_altered_home_in_the_trace_is_refused(stopped: Path) -> None:
     file.write_text(json.dumps(record))
     with pytest.raises(RunError, match="day 0, 9 am, was altered"):
         resume_study(run)
+
+
+def test_a_finished_run_is_given_what_it_lacks_and_nothing_else_is_touched(whole: Path) -> None:
+    run = copied(whole, "lacks")
+    lost = ("report.html", "summary.json", "metrics.csv")
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    for name in lost:
+        (run / name).unlink()
+    resume_study(run)
+    assert {path: path.read_bytes() for path in before if path.name != "report.html"} == {
+        path: data for path, data in before.items() if path.name != "report.html"
+    }
+    assert (run / "report.html").is_file()
+    resume_study(run)
