@@ -21,7 +21,7 @@ import yaml
 
 from benchmarks.outside import is_name, read_text, run
 from coopera.core.errors import ConfigError
-from coopera.core.strict_yaml import StrictLoader
+from coopera.core.strict_yaml import load_yaml
 from coopera.memory.embeddings import bundled
 from coopera.models.learners.places import nearest, places
 
@@ -46,7 +46,7 @@ def read_scenarios(path: Path) -> list[Scenario]:
     """
     text = read_text(path)
     try:
-        found = yaml.load(text, StrictLoader)
+        found = load_yaml(text)
     except yaml.MarkedYAMLError as err:
         line = err.problem_mark.line + 1 if err.problem_mark else 0
         raise ConfigError(f"{path}: line {line}: is not YAML ({err.problem})") from err

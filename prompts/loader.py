@@ -32,6 +32,7 @@ from coopera.core.errors import PromptError
 from coopera.core.hour import Example
 from coopera.core.people import Frozen
 from coopera.core.protocols import Rendered, Role
+from coopera.core.strict_yaml import load_yaml
 from coopera.prompts.examples import examples
 from coopera.prompts.sandbox import Template, compile_template
 
@@ -244,7 +245,7 @@ def _read(name: str, path: Path) -> Prompt:
 
 def _front_matter(name: str, path: Path, front: str, text: str) -> FrontMatter:
     try:
-        head = FrontMatter.model_validate(yaml.safe_load(front))
+        head = FrontMatter.model_validate(load_yaml(front))
     except yaml.MarkedYAMLError as err:
         line = err.problem_mark.line + 2 if err.problem_mark else 1
         raise PromptError(f"{path}:{line}: the front matter is not YAML: {err.problem}") from err

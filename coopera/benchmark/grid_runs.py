@@ -16,6 +16,7 @@ from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.config.schema import AS_BEFORE, Config, load_config
 from coopera.core.errors import ConfigError, RunError
+from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
@@ -102,7 +103,7 @@ def claim_folder(bench: Benchmark) -> None:
     shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
     if path.is_file():
-        before, now = yaml.safe_load(path.read_text(encoding="utf-8")), yaml.safe_load(text)
+        before, now = load_yaml(path.read_text(encoding="utf-8")), load_yaml(text)
         for key in ("run", "shared"):
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
         before["shared"] = {**AS_BEFORE, **before["shared"]}

@@ -10,7 +10,7 @@ from typing import Any
 import yaml
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.strict_yaml import StrictLoader
+from coopera.core.strict_yaml import load_yaml
 
 
 def read_text(path: Path, what: str) -> str:
@@ -39,15 +39,10 @@ def read_yaml(path: Path, what: str) -> dict[str, Any]:
         ConfigError: If the file cannot be read or is no YAML mapping; names the file and the line.
     """
     try:
-        # a subclass of SafeLoader: builds plain data only
-        data = yaml.load(read_text(path, what), Loader=StrictLoader)
+        data = load_yaml(read_text(path, what))
     except yaml.MarkedYAMLError as err:
         line = f", line {err.problem_mark.line + 1}" if err.problem_mark else ""
         raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err
-    except yaml.YAMLError as err:
-        raise ConfigError(f"{path}: this is not valid YAML ({' '.join(str(err).split())}).") from err
-    except RecursionError:
-        raise ConfigError(f"{path}: this is nested too deeply for a {what}.") from None
     if data is None:
         return {}
     if not isinstance(data, dict):

@@ -12,7 +12,7 @@ from typing import Any
 import yaml
 
 from coopera.core.errors import ConfigError
-from coopera.core.strict_yaml import StrictLoader
+from coopera.core.strict_yaml import load_yaml
 from coopera.simulation.goals.reading import DEEPEST, read_goal
 from coopera.simulation.goals.tree import And, Eventually, Goal, Not, Or, Then, near
 
@@ -20,17 +20,6 @@ LARGEST = 200_000
 """Characters of a file."""
 _JOINS: dict[str, Callable[[tuple[Goal, ...]], Goal]] = {"all": And, "any": Or, "then": Then}
 _SAYS: dict[str, Callable[[Goal], Goal]] = {"not": Not, "eventually": Eventually}
-
-
-class _Loader(StrictLoader):
-    """Strict YAML in which nothing stands for something else."""
-
-    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
-        """Return the next node; raises ComposerError, with its line, where it is an alias."""
-        if self.check_event(yaml.events.AliasEvent):
-            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
-            raise yaml.composer.ComposerError(None, None, "aliases are not allowed", mark)
-        return super().compose_node(parent, index)
 
 
 def read_goals(path: Path) -> dict[str, Goal]:
@@ -50,11 +39,9 @@ def parse_goals(text: str, source: str) -> dict[str, Goal]:
     if len(text) > LARGEST:
         raise ConfigError(f"{source}: the file has {len(text)} characters; {LARGEST} is the most.")
     try:
-        data = yaml.load(text, _Loader)
+        data = load_yaml(text)
     except yaml.YAMLError as err:
         raise ConfigError(f"{source} is not valid YAML: {' '.join(str(err).split())}.") from err
-    except RecursionError as err:
-        raise ConfigError(f"{source} is nested too deeply.") from err
     goals = data.get("goals") if isinstance(data, Mapping) else None
     if not isinstance(goals, Mapping) or not goals or len(data) != 1:
         raise ConfigError(f"{source} must hold `goals:` with one or more goals by name, and nothing else.")

@@ -10,7 +10,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from coopera.core.errors import ConfigError
-from coopera.core.strict_yaml import StrictLoader
+from coopera.core.strict_yaml import load_yaml
 
 MOST_BYTES = 256 * 2**20
 """No file of geometry is larger."""
@@ -67,15 +67,10 @@ def read_yaml(path: Path, model: type[Model]) -> Model:
         ConfigError: If the file cannot be read or does not fit; names file and field.
     """
     try:
-        # a subclass of SafeLoader: builds plain data only
-        return model.model_validate(yaml.load(read_text(path), StrictLoader))
+        return model.model_validate(load_yaml(read_text(path)))
     except yaml.MarkedYAMLError as err:
         line = f", line {err.problem_mark.line + 1}" if err.problem_mark else ""
         raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err
-    except yaml.YAMLError as err:
-        raise ConfigError(f"{path}: this is not valid YAML ({' '.join(str(err).split())}).") from err
-    except RecursionError as err:
-        raise ConfigError(f"{path}: this is not valid YAML (it is nested too deeply).") from err
     except ValidationError as err:
         raise _does_not_fit(path, err) from err
 

@@ -15,6 +15,7 @@ from pydantic import Field, ValidationError
 
 from coopera.core.errors import ConfigError
 from coopera.core.people import Frozen
+from coopera.core.strict_yaml import load_yaml
 from coopera.simulation.motions.library import Hold, Library, Motion, Posture, load_library
 from coopera.simulation.motions.poses import clip
 
@@ -58,7 +59,7 @@ def _entries(folder: Path, names: set[str]) -> dict[str, Entry]:
     if not path.is_file():
         return {}
     try:
-        data: Any = yaml.safe_load(path.read_text(encoding="utf-8"))
+        data: Any = load_yaml(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"The motion list {path} cannot be read: {err}.") from err
     if not isinstance(data, dict):

@@ -18,6 +18,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, Va
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
+from coopera.core.strict_yaml import load_yaml
 from coopera.core.time_use import CATEGORIES, Category
 from coopera.models.offline.household.grammar import Template, cores, parse
 
@@ -29,7 +30,6 @@ FIRST, LAST = 9, 21
 """The hours of day that the activities' curves cover, both inclusive."""
 HOUR = 60  # minutes
 
-_Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
 _MOVED = (
     "where a motion can be done now stands in core/affordances.yaml, under motions, for everybody; take the field out "
     "(a motion that is not in there can be done anywhere)"
@@ -288,8 +288,8 @@ def load(path: Path = SHIPPED) -> Household:
         ConfigError: Naming the file, the activity and the field, and what was expected.
     """
     try:
-        data = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as err:
+        data = load_yaml(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
     if not isinstance(data, dict):
         found = "nothing" if data is None else f"a {type(data).__name__}"

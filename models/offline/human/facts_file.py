@@ -12,7 +12,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PrivateAttr, 
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
-from coopera.core.strict_yaml import StrictLoader
+from coopera.core.strict_yaml import load_yaml
 from coopera.models.offline.human.stated import Standing
 
 SHIPPED = Path(__file__).parent / "facts.yaml"
@@ -189,7 +189,7 @@ def load(path: Path = SHIPPED) -> FactsFile:
         ConfigError: Naming the file and the field, and what was expected.
     """
     try:
-        data = yaml.load(path.read_text(encoding="utf-8"), Loader=StrictLoader)
+        data = load_yaml(path.read_text(encoding="utf-8"))
         return FactsFile.model_validate(_with_tuples(data))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err

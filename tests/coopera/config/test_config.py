@@ -85,7 +85,7 @@ def test_run_folders_are_numbered_without_a_clock(tmp_path: Path) -> None:
         ("- 1\n- 2", "the study file must be a mapping of fields to values, not a list."),
         ("days: 1\ndays: 2", "study.yaml, line 2: this is not valid YAML ('days' stands twice)."),
         ("a: [1", "study.yaml, line 2: this is not valid YAML"),
-        ("a: " + "[" * 5000, "study.yaml: this is nested too deeply for a study file."),
+        ("a: " + "[" * 5000, "study.yaml, line 1: this is not valid YAML (it is nested more than 64 deep)."),
         ("1: 2", "field names must be words, not 1."),
         ("days: !!python/object/apply:os.getcwd []", "study.yaml, line 1: this is not valid YAML"),
     ],
