@@ -58,7 +58,7 @@ def _spec(role: Role, reply: str, *variables: str) -> AskSpec:
 
 
 ASKS: dict[str, AskSpec] = {
-    "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
+    "persona/profile": _spec("human", "ProfileReply", "name", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
     "persona/big_five_test": _spec("human", "BigFiveTestReply", "profile", "statements"),
     "human/intention": _spec(

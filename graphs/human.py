@@ -102,7 +102,7 @@ def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Find the objects and motions that fit the intention. Reads `intention`; writes `found`, and in type 2 `can`.
 
     The objects that the person wants, then the nearest ones (the fixed and, in type 1, the movable ones separately),
-    and the nearest motions, as many as `HumanContext.sizes` says; `can` is what can be done at the first kinds of furniture.
+    and the nearest motions, as many as `HumanContext.sizes` says; `can` is what can be done at the first furniture.
     """
     ctx, query, wants = runtime.context, state["intention"].text, state["intention"].wants
     shelves = Shelves(ctx)
@@ -216,7 +216,7 @@ def _at(state: HumanInput, ctx: HumanContext, node: str, draw: int = 0) -> Addre
 
 
 def _can(ctx: HumanContext, fixed: ObjectMap, ranked: Sequence[str]) -> dict[str, list[str]]:
-    """The first of some motions that can be done at the furniture found first; where nothing is said, it is left out."""
+    """The first of some motions that can be done at the furniture found first; what has none of them is left out."""
     can: dict[str, list[str]] = {}
     kinds = list(dict.fromkeys(map(plain, fixed)))[:_KINDS]
     for name, (number, _) in fixed.items():

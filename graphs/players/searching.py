@@ -19,8 +19,8 @@ _PLURAL = re.compile(r"(?<=\w\w)s\b")
 class Shelves:
     """All kinds of objects of a home, to be searched by what is wanted.
 
-    DEVIATES: the authors' code searches by the intention's sentence alone, which for "Brainstorm ideas for my job" finds
-    a wardrobe sooner than a desk; here the person says what they want, and the sentence fills up what is left.
+    DEVIATES: the authors' code searches by the intention's sentence alone, which for "Brainstorm ideas for my job"
+    finds a wardrobe sooner than a desk; here the person says what they want, and the sentence fills up what is left.
     """
 
     def __init__(self, ctx: HumanContext) -> None:
@@ -39,7 +39,8 @@ class Shelves:
         something of every want. The text counts as a want, too: it may name what it is about.
         """
         objects = self._objects[which]
-        meant = [[name for kind in self._meant(want) for name in self._names[kind]] for want in (*wants, text)]
+        said = filter(str.strip, (*wants, text))
+        meant = [[name for kind in self._meant(want) for name in self._names[kind]] for want in said]
         wanted = (name for turn in zip_longest(*meant) for name in turn if name)
         nearest = (name for kind, _ in self._search.top(text, len(self._search)) for name in self._names[kind])
         names = dict.fromkeys(name for name in chain(wanted, nearest) if name in objects)

@@ -1,4 +1,4 @@
-"""What keeps a simulated person's days from being alike: whose turn it is of the sides of their life, the week, the past.
+"""What keeps a simulated person's days from being alike: the side whose turn it is, the week, and earlier days.
 
 DEVIATES: the paper's prompts have the hour and the day of the week alone, so each morning of a language model's person
 begins in much the same way.
