@@ -120,6 +120,13 @@ def test_a_person_reads_of_their_home_once_room_by_room_and_without_ids(shipped:
     assert not any("(id" in line for line in lines)
 
 
+def test_the_home_of_an_intention_stays_short_however_much_stands_in_it(shipped: PromptLibrary) -> None:
+    few = examples("human/intention")[0]
+    fixed = {f"kind{chr(97 + n % 26)}{n}_1": [n, "hall"] for n in range(500)}
+    many = {**few, "fixed": fixed, "movable": fixed}
+    assert len(shipped.render("human/intention", many).text) < len(shipped.render("human/intention", few).text) + 2000
+
+
 def test_a_person_says_what_they_want_among_the_homes_own_things_only_where_tasks_move_them(
     shipped: PromptLibrary,
 ) -> None:
