@@ -40,7 +40,8 @@ def day_of(person: Persona, day: int, model: OfflineChatModel) -> list[str]:
             **{"person": person.id, "name": person.name, "profile": person.profile},
             **{"big_five": person.big_five.model_dump(), "rooms": ROOMS, "states": {}, "today": today},
             **{"time": now.label, "hour": hour, "weekday": now.weekday, "day": day},
-            **{"recalled_intentions": [], "recalled_tasks": []},
+            **{"recalled_intentions": [], "recalled_tasks": [], "changes": [], "may_go_on": False, "may_leave": False},
+            **{"fixed": {}, "movable": {}, "side": "", "rhythm": "", "earlier_days": ""},
         }
         seed = seed_at(0, person.id, day, hour)
         asked = {"prompt": "human/intention", "variables": variables, "seed": seed, "temperature": 0.7}

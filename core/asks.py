@@ -8,13 +8,18 @@ A prompt file may use any subset of the variables listed here, and no other. Val
   "weight"}`, the most telling first: for intentions those that looked like this hour, for tasks those of like
   intentions. `weight` from 0 to 1 is how much an hour counts. It is empty where a method does without;
 - `in_hand` is the thing in the person's hand, to be offered by nobody; None where that is not known or not to count;
-- `fixed` and `movable` are `{object name: [id, room]}`; `big_five` is `{trait: score}`;
+- `fixed` and `movable` are `{object name: [id, room]}`: all of the home where an intention is asked for (`movable` is
+  empty in type 2), else those that were found for it; `big_five` is `{trait: score}`;
 - a *task* is `{"id", "thought", "text", "act"}`, `text` being the act in words;
-- `can` is `{furniture: [captions of motions that can be done there]}`; what can be done anywhere is named at none;
+- `can` is `{furniture: [captions of motions that can be done there]}` for the kinds of furniture that were found first;
+  what can be done anywhere is named at none;
 - `states` is `{object: its states in words}`, such as "open" or "dirty", of all that is not as at first: for the person
   in their whole home, for the robot where it is and in what it saw;
 - `changes` are what is different in the person's life these days, `{"kind", "text", "strength", "more", "never",
   "work"}`, the last four as `coopera.graphs.players.changes` has them;
+- `side` is one side of the person's life in their own words, whose turn it is; `rhythm` says which day of the week it
+  is and what the profile and the changes say of such a day; `earlier_days` is what they did on earlier days in one
+  line, empty on the first day and where they remember today alone;
 - `may_go_on` and `may_leave` say whether an intention may go on for hours, and whether the person may leave the home;
 - `so_far` are the tasks, in words, of the hour that the intention goes on from; empty for a new one;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
@@ -36,6 +41,7 @@ from coopera.core.protocols import Role
 _MEMORY = ("recalled_intentions", "recalled_tasks")
 _PERSON = ("person", "name", "big_five", "profile")  # `person` is the id
 _TIME = ("time", "hour", "weekday", "day")
+_VARIETY = ("side", "rhythm", "earlier_days")
 _BELIEF = ("big_five", "profile")  # inferred by the robot; None before the first evening
 
 
@@ -52,7 +58,7 @@ def _spec(role: Role, reply: str, *variables: str) -> AskSpec:
 
 
 ASKS: dict[str, AskSpec] = {
-    "persona/profile": _spec("human", "ProfileReply", "profile_1", "profile_2", "conversation"),
+    "persona/profile": _spec("human", "ProfileReply", "name", "profile_1", "profile_2", "conversation"),
     "persona/big_five": _spec("human", "BigFiveReply", "profile"),
     "persona/big_five_test": _spec("human", "BigFiveTestReply", "profile", "statements"),
     "human/intention": _spec(
@@ -61,9 +67,13 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_PERSON,
         *_MEMORY,
-        *("rooms", "states", "today", "changes", "may_go_on", "may_leave"),
+        *("rooms", "fixed", "movable", "states", "today", "changes", "may_go_on", "may_leave", *_VARIETY),
     ),
-    "human/day": _spec("human", "DayReply", "weekday", "day", *_PERSON, "rooms", "hours", "changes", "may_leave"),
+    "human/day": _spec(
+        "human",
+        "DayReply",
+        *("weekday", "day", *_PERSON, "rooms", "fixed", "movable", "hours", "changes", "may_leave", *_VARIETY),
+    ),
     "human/tasks_type1": _spec(
         "human",
         "PickPlaceReply",

@@ -33,12 +33,14 @@ class Intention(Frozen):
         reasons: Why, where a model has said so.
         continues: Whether it goes on with what was begun in an earlier hour of the day.
         away: Whether the person is outside the home: no tasks, and the robot has nothing to see.
+        wants: The furniture and things that it is done with, in a few words each; empty where nobody has said so.
     """
 
     text: str
     reasons: Reasons = Reasons()
     continues: bool = False
     away: bool = False
+    wants: list[str] = Field([], exclude_if=is_empty)
 
 
 class Task(Frozen):

@@ -16,6 +16,7 @@ from coopera.core.people import BigFive, Frozen
 
 Sentence = Annotated[str, Field(min_length=1, max_length=300)]
 Reason = Annotated[str, Field(max_length=400)]
+Want = Annotated[str, Field(min_length=1, max_length=80)]
 
 
 class IntentionReply(Frozen):
@@ -29,6 +30,8 @@ class IntentionReply(Frozen):
     """Whether it goes on with what was begun in an earlier hour of the day."""
     away: bool = False
     """Whether it is done outside the home."""
+    wants: Annotated[list[Want], Field(max_length=12)] = []
+    """The furniture and the small things that it is done with, in a few plain words each."""
 
 
 class DayReply(Frozen):

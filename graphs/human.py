@@ -22,6 +22,7 @@ from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionR
 from coopera.graphs.players.changes import felt
 from coopera.graphs.players.checks import findings, repair
 from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
+from coopera.graphs.players.searching import Shelves
 from coopera.graphs.players.variables import as_tasks, known, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.recall import as_memory, recall_both
@@ -31,8 +32,8 @@ REFLECTION_REPLY: dict[int, type[PickPlaceReflectionReply | FreeMotionReflection
     2: FreeMotionReflectionReply,
 }
 
-_NAMED = 8
-"""As many motions are named at one piece of furniture: what a prompt can list for thirty of them."""
+_KINDS, _NAMED = 8, 8
+"""Of so many kinds of furniture it is said what can be done there, and so many motions: what a prompt can list."""
 
 
 def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInput, HumanState]:
@@ -100,16 +101,16 @@ def stays(state: HumanState) -> Literal["search", "__end__"]:
 def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     """Find the objects and motions that fit the intention. Reads `intention`; writes `found`, and in type 2 `can`.
 
-    The nearest objects (the fixed and, in type 1, the movable ones separately) and motions by cosine, as many as
-    `HumanContext.sizes` says; `can` is what can be done at each piece of furniture.
+    The objects that the person wants, then the nearest ones (the fixed and, in type 1, the movable ones separately),
+    and the nearest motions, as many as `HumanContext.sizes` says; `can` is what can be done at the first furniture.
     """
-    ctx, query = runtime.context, state["intention"].text
-    movable = _nearest(ctx, query, ctx.home.objects("movable")) if ctx.collab == 1 else {}
+    ctx, query, wants = runtime.context, state["intention"].text, state["intention"].wants
+    shelves = Shelves(ctx)
     ranked = ctx.search(ctx.home.motions).top(query, len(ctx.home.motions)) if ctx.collab == 2 else []
     motions = [caption for caption, _ in ranked]
     found = Found(
-        fixed=_nearest(ctx, query, ctx.home.objects("fixed")),
-        movable=movable,
+        fixed=shelves.offer("fixed", wants, query),
+        movable=shelves.offer("movable", wants, query) if ctx.collab == 1 else {},
         motions=motions[: ctx.sizes.motions],
     )
     return {"found": found, "can": _can(ctx, found.fixed, motions)}
@@ -214,18 +215,13 @@ def _at(state: HumanInput, ctx: HumanContext, node: str, draw: int = 0) -> Addre
     return Address(ctx.persona.id, state["clock"].day, state["clock"].hour, node, draw)
 
 
-def _nearest(ctx: HumanContext, query: str, objects: ObjectMap) -> ObjectMap:
-    by_text: dict[str, list[str]] = {}
-    for name in objects:
-        by_text.setdefault(plain(name), []).append(name)
-    ranked = [name for text, _ in ctx.search(list(by_text)).top(query, len(by_text)) for name in by_text[text]]
-    return {name: objects[name] for name in ranked[: ctx.sizes.objects]}
-
-
 def _can(ctx: HumanContext, fixed: ObjectMap, ranked: Sequence[str]) -> dict[str, list[str]]:
-    """The first of some motions that can be done at each piece of furniture; where nothing is said, it is left out."""
+    """The first of some motions that can be done at the furniture found first; what has none of them is left out."""
     can: dict[str, list[str]] = {}
+    kinds = list(dict.fromkeys(map(plain, fixed)))[:_KINDS]
     for name, (number, _) in fixed.items():
+        if plain(name) not in kinds:
+            continue
         there = set(affordances().motions_at(ctx.home.class_of(name)))
         fitting = (caption for caption in ranked if caption in there and _fits(ctx, caption, name, number))
         if named := list(islice(fitting, _NAMED)):

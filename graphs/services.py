@@ -151,6 +151,7 @@ class Services:
             living=self.living,
             sizes=self.sizes,
             agent=self.human_agent,
+            seed=self.seed,
         )
 
     def relative(self, path: Path) -> str:

@@ -136,6 +136,9 @@ _FULL: dict[str, Any] = {
         "desk_1": ["write by hand", "wipe the surface"],
     },
     "states": {"coffee_table_1": "dirty", "mug_1": "dirty, with tea in it"},
+    "side": "I stretch before bed because my back complains.",
+    "rhythm": "Wednesday, the third day of the week; you work at home from 9 am to 1 pm",
+    "earlier_days": "yesterday: Bake bread, Mark essays; 2 days ago: Clean the kitchen",
     "so_far": ["take the novel from the shelf at the bookshelf with the book in hand"],
     "changes": [
         {
@@ -192,6 +195,8 @@ _BARE: dict[str, Any] = {
     "states": {},
     "steps": [],
     "so_far": [],
+    "rhythm": "Monday, the first day of the week",
+    "earlier_days": "",
     "changes": [],
     "may_go_on": False,
     "may_leave": False,
@@ -250,6 +255,8 @@ def examples(name: str) -> list[Mapping[str, Any]]:
         cases[1] |= {"profile": None, "big_five": None}
     if "offers" in spec.variables or "first_task" in spec.variables:
         cases.append({**full, **_of_type(1)})
+    if "rhythm" in spec.variables:  # type 2, where things of any kind are brought
+        cases.append({**full, "movable": {}})
     if "seen" in spec.variables:
         cases.append({**full, "seen": _FULL["percept"]["caption"]})
     if name == "robot/traits":

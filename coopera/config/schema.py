@@ -220,6 +220,14 @@ class Config(Frozen):
             flag="--absence",
         ),
     ] = "none"
+    person_memory: Annotated[
+        Literal["today", "days"],
+        Setting(
+            "What the person knows of what they did: today's alone, as the paper has it, or in one line that of "
+            "earlier days too (days); the offline person does not read that line.",
+            flag="--person-memory",
+        ),
+    ] = "today"
     changes: Annotated[
         Text,
         Setting(

@@ -175,10 +175,13 @@ def _make(person: PersonId, row: ConversationRow, path: Path, maker: Maker, stop
         at = Address(person, 0, 0, prompt.partition("/")[2], draw)
         return maker.ask(prompt, reply, at=at, variables=variables)
 
+    own = _OWN_NAME.search(row.profile_1)
+    name = own.group(1) if own else str(rng_at(0, person, "name").choice(_NAMES))
     extended = ask(
         "persona/profile",
         ProfileReply,
         0,
+        name=name,
         profile_1=row.profile_1,
         profile_2=row.profile_2,
         conversation=row.conversation,
@@ -189,8 +192,6 @@ def _make(person: PersonId, row: ConversationRow, path: Path, maker: Maker, stop
         direct = ask("persona/big_five", BigFiveReply, draw, profile=extended).big_five
         answers = ask("persona/big_five_test", BigFiveTestReply, draw, profile=extended, statements=statements).answers
         trials.append(Trial(direct=direct, test=score(answers), answers=answers))
-    own = _OWN_NAME.search(row.profile_1)
-    name = own.group(1) if own else str(rng_at(0, person, "name").choice(_NAMES))
     return Persona(
         id=person,
         name=name,

@@ -152,6 +152,8 @@ def _add_human(tree: Tree, human: HumanHour) -> None:
         figures = f"{one.score:.3f} = recency {one.recency:.3f} x relevance {one.relevance:.3f}"
         recalled.add(f"{one.kind}: {escape(one.text)} [dim](score {figures})[/]")
     found = tree.add(f"found {len(human.found.fixed)} fixed, {len(human.found.movable)} movable objects")
+    if intention.wants:
+        found.add(escape("wanted: " + ", ".join(intention.wants)))
     found.add(escape("fixed: " + ", ".join(human.found.fixed)))
     found.add(escape("movable: " + ", ".join(human.found.movable)))
     if human.found.motions:

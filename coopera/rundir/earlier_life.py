@@ -18,7 +18,7 @@ from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
 
 _PLAN = ("setting", "schedule", "collab", "humans", "scenes", "days", "hours", "seed")
-_LIVED = ("person_model", "intentions", "absence", "changes", "base_url")
+_LIVED = ("person_model", "intentions", "absence", "person_memory", "changes", "base_url")
 
 
 @dataclass(frozen=True, slots=True)

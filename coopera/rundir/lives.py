@@ -167,6 +167,7 @@ class _Kind(NamedTuple):
     collaboration_type: int
     intentions: str
     absence: str
+    person_memory: str
     changes: str
 
     @classmethod
@@ -174,7 +175,7 @@ class _Kind(NamedTuple):
         """Of a run."""
         config = run.config
         model = str(run.info.get("models", {}).get("human", config.models.human))
-        return cls(model, config.collab, config.intentions, config.absence, config.changes)
+        return cls(model, config.collab, config.intentions, config.absence, config.person_memory, config.changes)
 
 
 def _same_kind(kinds: Mapping[Path, _Kind], path: Path) -> None:

@@ -185,6 +185,7 @@ def open_living(config: Config) -> Living:
     return Living(
         lasting=config.intentions == "lasting",
         absence=config.absence == "named",
+        remembers_days=config.person_memory == "days",
         changes=open_changes(config.changes, config.seed, known_activities(config)),
     )
 

@@ -14,9 +14,11 @@ class Living:
     Attributes:
         lasting: Whether an intention may go on for hours; else each hour has one of its own (PAPER §3.2).
         absence: Whether people are away from home at times; those hours have neither tasks nor a robot.
+        remembers_days: Whether people know what they did on earlier days; else only what they did today (PAPER §3.2).
         changes: What is different for a person on a day of theirs.
     """
 
     lasting: bool = False
     absence: bool = False
+    remembers_days: bool = False
     changes: Changes = no_changes

@@ -75,6 +75,8 @@ class HumanContext:
     living: Living = Living()
     agent: AgentId = HUMAN
     """Whose body in the home the person has."""
+    seed: int = 0
+    """What the run's draws derive from."""
 
     def changes(self, clock: Clock) -> Sequence[Change]:
         """What is different for the person on a day."""

@@ -20,7 +20,8 @@ from coopera.core.replies import (
 )
 from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
-from coopera.graphs.players.variables import as_tasks, known, living, motions_here, when, who
+from coopera.graphs.players.variables import all_of_the_home, as_tasks, known, living, motions_here, when, who
+from coopera.graphs.players.variety import variety
 from coopera.graphs.robots.method import Numbers
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
@@ -45,6 +46,7 @@ class Simulated:
             reasons=reasons,
             continues=reply.continues and ctx.living.lasting and bool(state["today"]),
             away=reply.away and ctx.living.absence,
+            wants=reply.wants,
         )
 
     def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
@@ -123,7 +125,7 @@ def _so_far(state: HumanState, ctx: HumanContext) -> list[str]:
 
 
 def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
-    clock = state["clock"]
+    clock, hours = state["clock"], state["hours"]
     return ctx.ask(
         "human/intention",
         IntentionReply,
@@ -131,7 +133,8 @@ def _of_the_hour(state: HumanState, ctx: HumanContext) -> IntentionReply:
         variables={
             **known(state, ctx),
             **living(ctx, clock),
-            "rooms": ctx.home.rooms,
+            **variety(ctx, clock, clock.day * len(hours) + hours.index(clock.hour)),
+            **all_of_the_home(ctx),
             "states": ctx.home.states(),
             "today": state["today"],
             "may_go_on": ctx.living.lasting and bool(state["today"]),
@@ -151,7 +154,8 @@ def _of_the_day(state: HumanState, ctx: HumanContext) -> IntentionReply:
             "weekday": dawn.weekday,
             "day": dawn.day,
             **who(ctx),
-            "rooms": ctx.home.rooms,
+            **variety(ctx, dawn, dawn.day),
+            **all_of_the_home(ctx),
             "hours": [hour_label(hour) for hour in hours],
             **living(ctx, dawn),
         },

@@ -41,11 +41,11 @@ class Logged:
     otherwise: Simulated = Simulated()
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
-        """Take the intention from the log, if it has one of this hour."""
+        """Take the intention from the log, if it has one of this hour; what is wanted stands in its tasks."""
         hour = self.logs(ctx.plan, state["clock"])
         if hour is None:
             return self.otherwise.intention(state, ctx)
-        return Intention(text=hour.intention, continues=hour.continues, away=hour.away)
+        return Intention(text=hour.intention, continues=hour.continues, away=hour.away, wants=hour.tasks)
 
     def tasks(self, state: HumanState, ctx: HumanContext) -> Decomposed:
         """Take the tasks from the log, if it has any of this hour."""

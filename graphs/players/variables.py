@@ -33,6 +33,12 @@ def living(ctx: HumanContext, clock: Clock) -> dict[str, Any]:
     return {"changes": as_variables_of_today(ctx.changes(clock), clock.day), "may_leave": ctx.living.absence}
 
 
+def all_of_the_home(ctx: HumanContext) -> dict[str, Any]:
+    """The rooms and all that is in them; of things only where tasks may move them, in type 1."""
+    things = ctx.home.objects("movable") if ctx.collab == 1 else {}
+    return {"rooms": ctx.home.rooms, "fixed": ctx.home.objects("fixed"), "movable": things}
+
+
 def known(state: HumanState, ctx: HumanContext) -> dict[str, Any]:
     """The time, the person and what they recall."""
     return {**when(state["clock"]), **who(ctx), **as_variables(state["recalled"], state["clock"])}

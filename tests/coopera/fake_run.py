@@ -125,7 +125,7 @@ def _human(hour: int, rng: np.random.Generator, collab: int) -> HumanHour:
     changes = ["put the pen on the desk -> put the mug on the desk"]
     return HumanHour(
         recalled=recalled,
-        intention=Intention(text=text, reasons=why),
+        intention=Intention(text=text, reasons=why, wants=things[:1]),
         found=found,
         tasks=tasks,
         reflections=[

@@ -47,7 +47,6 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
         return Services(
             ask=ask,
             method=METHODS[method],
-            people={MARA.id: MARA},
             home=lambda scene: home,
             stream=stream,
             embeddings=embeddings,
@@ -58,7 +57,7 @@ def make_services(tmp_path: Path) -> Iterator[MakeServices]:
             seed=0,
             frames=frames,
             person=PERSON_MODELS[person],
-            **{"player": Simulated(), "life": LivedNow(), **changed},
+            **{"player": Simulated(), "life": LivedNow(), "people": {MARA.id: MARA}, **changed},
         )
 
     yield make

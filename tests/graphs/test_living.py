@@ -26,7 +26,8 @@ def saying(by_time: dict[str, dict[str, Any]], **more: Answer) -> ScriptedAsk:
     answers = type2_answers()
 
     def intention(variables: dict[str, Any]) -> dict[str, Any]:
-        return by_time.get(variables["time"], {"intention": f"Cook a meal at {variables['time']}"})
+        cook = {"intention": f"Cook a meal at {variables['time']}", "wants": ["stove", "theremin"]}
+        return by_time.get(variables["time"], cook)
 
     return ScriptedAsk({**answers, "human/intention": intention, **more})
 
@@ -152,7 +153,7 @@ def test_what_is_different_stands_in_the_trace_and_in_the_persons_own_question(m
 
 
 @pytest.mark.parametrize("collab", [1, 2])
-def test_no_question_to_a_robot_or_a_judge_says_what_is_different_in_the_persons_life(
+def test_no_question_to_a_robot_or_a_judge_says_what_is_different_in_the_persons_life_or_what_they_want(
     make_services: MakeServices, collab: Collab
 ) -> None:
     tasks = [placing("book_1", "desk_1", 4, 1), placing("mug_1", "desk_1", 5, 1), placing("mug_2", "sofa_1", 6, 2)]
@@ -170,7 +171,8 @@ def test_no_question_to_a_robot_or_a_judge_says_what_is_different_in_the_persons
     assert {prompt.split("/")[0] for prompt, _ in others} == {"robot", "judge"}
     for prompt, variables in others:
         assert "flu" not in str(variables), prompt
-        assert not {"changes", "may_leave", "may_go_on"} & set(variables), prompt
+        assert "theremin" not in str(variables), prompt
+        assert not {"changes", "may_leave", "may_go_on", "side", "rhythm", "earlier_days"} & set(variables), prompt
 
 
 def test_a_robot_does_the_same_whatever_is_different_in_the_life_of_a_person_who_does_the_same(

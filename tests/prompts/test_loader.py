@@ -103,10 +103,37 @@ def test_the_robot_is_asked_about_the_pictures_only_where_there_is_no_percept(sh
 
 
 def test_a_person_reads_what_can_be_done_at_which_furniture(shipped: PromptLibrary) -> None:
-    for name in ("human/tasks_type2", "human/reflect_scene_type2"):
-        lines = shipped.render(name, examples(name)[0]).text.splitlines()
-        assert "- armchair_1 (id 2) in the living room: sit and read, put on headphones" in lines
-        assert "- coffee_table_1 (id 3) in the living room" in lines  # nothing is said of it
+    full = examples("human/tasks_type2")[0]
+    twice = {**full, "can": {**full["can"], "armchair_2": ["sit and read", "take a nap"]}}
+    lines = shipped.render("human/tasks_type2", twice).text.splitlines()
+    assert "- armchair: sit and read, put on headphones, take a nap" in lines
+    assert not any(line.startswith("- coffee table:") for line in lines)  # nothing is said of it
+
+
+@pytest.mark.parametrize("name", ["human/intention", "human/day", "human/tasks_type1", "human/tasks_type2"])
+def test_a_person_reads_of_their_home_once_room_by_room_and_without_ids(shipped: PromptLibrary, name: str) -> None:
+    full = examples(name)[0]
+    lines = shipped.render(name, full).text.splitlines()
+    plainly = name in ("human/intention", "human/day")
+    furniture = "armchair, bookshelf, coffee table" if plainly else "armchair_1, bookshelf_1, coffee_table_1"
+    assert lines.count(f"- living room: {furniture}") == 1
+    assert not any("(id" in line for line in lines)
+
+
+def test_the_home_of_an_intention_stays_short_however_much_stands_in_it(shipped: PromptLibrary) -> None:
+    few = examples("human/intention")[0]
+    fixed = {f"kind{chr(97 + n % 26)}{n}_1": [n, "hall"] for n in range(500)}
+    many = {**few, "fixed": fixed, "movable": fixed}
+    assert len(shipped.render("human/intention", many).text) < len(shipped.render("human/intention", few).text) + 2000
+
+
+def test_a_person_says_what_they_want_among_the_homes_own_things_only_where_tasks_move_them(
+    shipped: PromptLibrary,
+) -> None:
+    moved, brought = (shipped.render("human/intention", examples("human/intention")[n]).text for n in (0, 2))
+    assert "The small things in it: blanket, book, mug, teapot." in moved
+    assert "small things in it" not in brought
+    assert "they are brought to you" in brought
 
 
 def test_people_and_robots_read_how_things_are_where_that_is_not_as_usual(shipped: PromptLibrary) -> None:
@@ -255,6 +282,26 @@ def test_harmless_jinja_is_allowed(tmp_path: Path) -> None:
     overlay(tmp_path, HEAD + body)
     text = PromptLibrary(tmp_path).render(GUESSES, {"guesses": ["nap and read"]}).text
     assert text == "01 2 NAP AN nap ~ many {{ x }}"
+
+
+def test_a_home_is_printed_by_room_and_by_kind(tmp_path: Path) -> None:
+    head = HEAD.replace("[guesses]", "[can, fixed]").replace(GUESSES, "human/tasks_type2")
+    head = head.replace("VerdictsReply", "FreeMotionReply")
+    body = (
+        "{% for room, names in (fixed | by_room).items() %}{{ room }}: {{ names | join(', ') }}; {% endfor %}"
+        "{{ fixed | kinds | join(', ') }}; "
+        "{% for kind, motions in (can | by_kind).items() %}{{ kind }}: {{ motions | join(', ') }}. {% endfor %}\n"
+    )
+    overlay(tmp_path, head + body, "human/tasks_type2")
+    fixed = {"wing_chair_2": [5, "study"], "stove_1": [1, "kitchen"], "wing_chair_1": [2, "study"]}
+    can = {"wing_chair_2": ["sit", "nap"], "stove_1": ["stir"], "wing_chair_1": ["sit", "read"]}
+    text = PromptLibrary(tmp_path).render("human/tasks_type2", {"fixed": fixed, "can": can}).text
+    rooms, can_do = "kitchen: stove_1; study: wing_chair_2, wing_chair_1", "wing chair: sit, nap, read. stove: stir."
+    assert text == f"{rooms}; wing chair, stove; {can_do}"
+
+
+def test_a_filter_for_homes_refuses_what_is_no_home(tmp_path: Path) -> None:
+    assert ":10: " in refusal(tmp_path, HEAD + "{{ guesses | by_room }}\n")
 
 
 def test_a_value_that_may_be_missing_must_be_guarded(tmp_path: Path) -> None:

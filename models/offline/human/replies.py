@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
 from coopera.core.affordances import affordances
 from coopera.core.clock import WEEKDAYS, hour_label
+from coopera.core.naming import plain
 from coopera.core.people import Frozen
 from coopera.core.randomness import rng_at
 from coopera.core.replies import DayReply, IntentionReply
@@ -23,6 +25,7 @@ from coopera.models.offline.human.person import PrivateLife
 from coopera.models.offline.human.routine import Choice, Done, Moment, Why, choose
 
 NOON = 12
+WANTS = 12
 DIRTY = 0.5  # logits for what makes something clean that is dirty
 
 
@@ -73,6 +76,7 @@ class Human:
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
             continues=choice.continues,
             away=activity.away,
+            wants=_wants(life.own(activity), variables),
         )
 
     def _day(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> DayReply:
@@ -89,7 +93,8 @@ class Human:
             text = clip(_anew(life, activity, rng, hour, so_far), 300)
             planned.append((hour, text))
             why = self._why(life, activity, choice, variables["changes"])
-            replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away))
+            wants = _wants(life.own(activity), variables)
+            replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away, wants=wants))
         return DayReply(intentions=replies)
 
     def _moment(self, variables: Mapping[str, Any], hour: int, today: Sequence[Memory], *, lasting: bool) -> Moment:
@@ -168,6 +173,21 @@ def _out_of_time(text: str, hour: int) -> bool:
 def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random.Generator:
     """Draw anew in another home, as a language model does that reads of other rooms; the person stays the same."""
     return rng_at(int(rng.integers(2**62)), *rooms)
+
+
+def _wants(activity: Activity, variables: Mapping[str, Any]) -> list[str]:
+    """Name what an activity is done with, the most usual first: of furniture and movable things what the home has.
+
+    Without movable things (type 2) any things are wanted, since they are brought.
+    """
+    if activity.away:
+        return []
+    here = {class_of(name) for name in (*variables["fixed"], *variables["movable"])}
+    if variables["movable"]:
+        named = [cls for cls in chain.from_iterable(activity.places) if cls in here]
+    else:
+        named = [*(cls for cls in activity.fixed if cls in here), *activity.thing_names]
+    return list(dict.fromkeys(map(plain, named)))[:WANTS]
 
 
 def _tasks_before(recalled: Sequence[Any]) -> str:

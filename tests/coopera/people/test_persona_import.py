@@ -43,7 +43,7 @@ class FakeAsk:
         if prompt == "persona/profile" and reply is ProfileReply:
             if "FAIL" in variables["profile_1"]:
                 raise ModelOutputError(prompt, "…", "it is no JSON")
-            assert set(variables) == {"profile_1", "profile_2", "conversation"}
+            assert set(variables) == {"name", "profile_1", "profile_2", "conversation"}
             return reply.model_validate({"profile": f"Extended: {variables['profile_1']}"})
         assert variables["profile"].startswith("Extended: ")
         if prompt == "persona/big_five" and reply is BigFiveReply:

@@ -23,6 +23,7 @@ def test_an_hour_shows_everything_that_was_thought_done_and_judged(small_run: Ru
     assert "day 0, 10 am · amara in maple" in text
     assert f"intention: {record.human.intention.text}" in text
     assert "who they are: It suits how I am." in text
+    assert f"wanted: {record.human.intention.wants[0]}" in text
     for task in record.human.tasks:
         assert f"{task.id} {task.act.describe()}" in text
     assert "reflect_profile: 1 of 2 fine" in text

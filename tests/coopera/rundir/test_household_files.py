@@ -129,3 +129,5 @@ def test_a_life_is_met_again_only_by_people_who_live_as_they_did(tmp_path: Path)
     with pytest.raises(ConfigError, match="has absence named, where this run has none"):
         open_earlier_life(met)
     assert open_earlier_life(met.model_copy(update={"absence": "named"})) is not None
+    with pytest.raises(ConfigError, match="has person_memory today, where this run has days"):
+        open_earlier_life(met.model_copy(update={"absence": "named", "person_memory": "days"}))

@@ -61,6 +61,9 @@ _NOTHING: dict[str, Any] = {
     "may_leave": False,
     "told": [],
     "in_hand": None,
+    "side": "I love to bake.",
+    "rhythm": "Monday, the first day of the week",
+    "earlier_days": "",
 }
 
 
@@ -121,7 +124,8 @@ def memory(text: str, day: int, hour: int, now: Clock) -> dict[str, Any]:
 def intend(who: dict[str, Any], hour: int, *, seed: int = 0, day: int = 0, **changed: Any) -> Any:
     """human/intention with nothing recalled, unless `changed` says otherwise."""
     temperature = changed.pop("temperature", 0.7)
-    given = {"recalled_intentions": [], "recalled_tasks": [], "rooms": ROOMS, "states": {}, "today": [], **changed}
+    nothing = {"recalled_intentions": [], "recalled_tasks": [], "states": {}, "today": []}
+    given = {**nothing, "rooms": ROOMS, "fixed": FIXED, "movable": {}, **changed}
     return ask("human/intention", seed=seed, temperature=temperature, **when(day, hour), **who, **given)
 
 

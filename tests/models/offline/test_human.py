@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from coopera.core.clock import Clock
 from coopera.evaluation.people.divergence import jensen_shannon
+from coopera.core.naming import plain
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.offline.household.statements import statements
-from tests.models.offline.questions import ROOMS, activity, ask, intend, live, memory, person
+from tests.models.offline.questions import FIXED, MOVABLE, ROOMS, activity, ask, intend, live, memory, person
 
 PEOPLE = [
     person("mara", "I love to bake cookies. I love talking with my family and friends.", extroversion=4.5),
@@ -40,7 +41,9 @@ def _days() -> list[list[str]]:
 
 def test_a_day_planned_at_once_has_an_intention_for_each_hour_and_none_twice_within_three() -> None:
     labels = [Clock(day=0, hour=hour).label for hour in range(9, 22)]
-    reply = ask("human/day", weekday="Monday", day=0, **PEOPLE[0], rooms=ROOMS, hours=labels, seed=3)
+    reply = ask(
+        "human/day", weekday="Monday", day=0, **PEOPLE[0], rooms=ROOMS, fixed=FIXED, movable={}, hours=labels, seed=3
+    )
     plan = [activity(one.intention) for one in reply.intentions]
     assert len(plan) == 13
     assert all(len(set(plan[i : i + 3])) == 3 for i in range(11))
@@ -206,3 +209,22 @@ def test_nobody_speaks_of_the_morning_in_the_evening_or_of_tonight_at_noon() -> 
     said = [(hour, text) for life in _lives() for day in life for hour, text in enumerate(day, start=9)]
     assert not [text for hour, text in said if hour >= 14 and "morning" in text]
     assert not [text for hour, text in said if hour < 15 and re.search("tonight|evening", text)]
+
+
+def test_an_intention_says_what_it_is_done_with_and_of_furniture_only_what_the_home_has() -> None:
+    fixed = {name: place for name, place in FIXED.items() if not name.startswith("sofa")}
+    for hour in range(9, 22):
+        brought = intend(PEOPLE[0], hour, seed=hour, fixed=fixed)
+        done = shipped().activities[shipped().index[activity(brought.intention)]]
+        assert 1 <= len(brought.wants) <= 12
+        assert set(brought.wants) <= {plain(cls) for cls in done.fixed} - {"sofa"} | set(done.thing_names)
+        moved = intend(PEOPLE[0], hour, seed=hour, fixed=fixed, movable=MOVABLE)
+        assert moved.intention == brought.intention
+        assert set(moved.wants) <= {plain(name) for name in (*fixed, *MOVABLE)}
+
+
+def test_who_goes_out_wants_nothing_of_the_home() -> None:
+    worker = person(profile="I work in an office in town.")
+    replies = [intend(worker, 10, seed=seed, may_leave=True, may_go_on=True) for seed in range(8)]
+    assert any(reply.away for reply in replies)
+    assert all(bool(reply.wants) != reply.away for reply in replies)

@@ -26,7 +26,7 @@ User 1: I am glad to hear that. I'm always happy to help you. I like to go to [p
 
 
 def _profile(one: str, conversation: str = CONVERSATION) -> str:
-    asked = {"profile_1": one, "profile_2": "I am old.\nI sail.", "conversation": conversation}
+    asked = {"name": "Mara", "profile_1": one, "profile_2": "I am old.\nI sail.", "conversation": conversation}
     return str(ask("persona/profile", **asked).profile)
 
 
@@ -63,7 +63,7 @@ def test_what_the_person_dislikes_is_not_filled_in() -> None:
 
 
 def test_two_people_with_the_same_notes_need_not_have_the_same_life() -> None:
-    asked = {"profile_1": "I have two dogs.", "profile_2": "", "conversation": ""}
+    asked = {"name": "Mara", "profile_1": "I have two dogs.", "profile_2": "", "conversation": ""}
     lives = {str(ask("persona/profile", seed=seed, **asked).profile) for seed in range(5)}
     assert len(lives) == 5
 

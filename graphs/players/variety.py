@@ -1,0 +1,83 @@
+"""What keeps a simulated person's days from being alike: the side whose turn it is, the week, and earlier days.
+
+DEVIATES: the paper's prompts have the hour and the day of the week alone, so each morning of a language model's person
+begins in much the same way.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from coopera.core.clock import WEEKDAYS, Clock, hour_label
+from coopera.core.people import Persona
+from coopera.core.randomness import rng_at
+from coopera.graphs.players.changes import Change
+from coopera.graphs.players.player import HumanContext
+
+_SENTENCE_END = re.compile(r"(?<=[.!?])\s+")
+_FREE = WEEKDAYS[5:]
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
+_OF_FREE_DAYS = re.compile(r"\bweek-?ends?\b", re.IGNORECASE)
+_OF_WORKDAYS = re.compile(r"\b(?:week-?days?|work(?:ing)?[ -]?days?|(?:during|in) the week)\b", re.IGNORECASE)
+_SAID = 2  # sentences about a day of the week
+_EARLIER = 24  # intentions of earlier days: two days' worth, or more where days are alike
+
+
+def variety(ctx: HumanContext, clock: Clock, turn: int) -> dict[str, Any]:
+    """The variables `side`, `rhythm` and `earlier_days`; `turn` counts the person's hours, or their days, from 0."""
+    profile = ctx.model.profile(ctx.persona)
+    return {
+        "side": side(profile, ctx.seed, ctx.persona, turn),
+        "rhythm": rhythm(profile, clock, ctx.changes(clock)),
+        "earlier_days": earlier_days(ctx, clock) if ctx.living.remembers_days else "",
+    }
+
+
+def side(profile: str, seed: int, persona: Persona, turn: int) -> str:
+    """The side of a life whose turn it is: a sentence of the profile, each once in a round, in an order drawn anew."""
+    sides = list(dict.fromkeys(_SENTENCE_END.split(" ".join(profile.split()))))
+    lap, place = divmod(turn, len(sides))
+    order = rng_at(seed, persona.id, lap, "side").permutation(len(sides))
+    return sides[int(order[place])]
+
+
+def rhythm(profile: str, clock: Clock, changes: Sequence[Change]) -> str:
+    """What day it is in the week, and what profile and changes say of such a day; nothing is made up."""
+    day, place = clock.weekday, clock.day % 7
+    said = [one for one in _SENTENCE_END.split(" ".join(profile.split())) if _speaks_of(day, one)][:_SAID]
+    parts = [f"{day}, the {_ORDINALS[place]} day of the week" + (", the weekend" if day in _FREE else "")]
+    parts += [f'you say: "{sentence}"' for sentence in said]
+    parts += [_work(change, place) for change in changes if change.work is not None]
+    return "; ".join(parts)
+
+
+def earlier_days(ctx: HumanContext, clock: Clock) -> str:
+    """What was done on earlier days in one line, the newest day first; what was done often stands with its last day."""
+    dawn = clock.day * 24
+    days: dict[int, list[str]] = {}
+    known: set[str] = set()
+    for record in sorted(ctx.memories.intentions.records(), key=lambda one: -one.hour):
+        if record.hour < dawn and record.text not in known and len(known) < _EARLIER:
+            known.add(record.text)
+            days.setdefault(clock.day - record.hour // 24, []).append(record.text)
+    return "; ".join(f"{_ago(day)}: {', '.join(reversed(texts))}" for day, texts in days.items())
+
+
+def _speaks_of(day: str, sentence: str) -> bool:
+    kind = _OF_FREE_DAYS if day in _FREE else _OF_WORKDAYS
+    return bool(kind.search(sentence) or re.search(rf"\b{day}s?\b", sentence))
+
+
+def _work(change: Change, weekday: int) -> str:
+    """The hours of work that came with a change, as they are on a day of the week (Monday is 0)."""
+    work = change.work
+    if work is None or work.at == "nowhere" or weekday not in work.days:
+        return "you do not work on this day"
+    where = "at home" if work.at == "home" else "outside the home"
+    return f"you work {where} from {hour_label(work.start)} to {hour_label(work.end % 24)}"
+
+
+def _ago(days: int) -> str:
+    return "yesterday" if days == 1 else f"{days} days ago"
