@@ -7,7 +7,8 @@ or run on and on. What is allowed is listed; everything else is refused when the
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -18,6 +19,7 @@ from jinja2.meta import find_undeclared_variables
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from coopera.core.errors import PromptError
+from coopera.core.naming import plain
 
 MAX_RANGE = 100
 MAX_NUMBER = 1000
@@ -28,6 +30,7 @@ _FILTERS = frozenset(
     ("abs", "capitalize", "count", "d", "default", "dictsort", "first", "float", "int", "items", "join", "last")
     + ("length", "list", "lower", "map", "max", "min", "reject", "rejectattr", "reverse", "round", "select")
     + ("selectattr", "sort", "string", "sum", "title", "tojson", "trim", "truncate", "unique", "upper", "wordcount")
+    + ("by_room", "kinds")
 )
 _METHODS = frozenset(
     ("capitalize", "endswith", "get", "items", "keys", "lower", "startswith", "strip", "title", "upper", "values")
@@ -115,8 +118,23 @@ def _environment() -> ImmutableSandboxedEnvironment:
         undefined=StrictUndefined, finalize=_sayable, autoescape=False, trim_blocks=True, lstrip_blocks=True
     )
     environment.globals = {"range": _short_range}
-    environment.filters = {name: known for name, known in environment.filters.items() if name in _FILTERS}
+    known = {**environment.filters, "by_room": _by_room, "kinds": _kinds}
+    environment.filters = {name: function for name, function in known.items() if name in _FILTERS}
     return environment
+
+
+def _by_room(objects: Mapping[str, tuple[int, str]]) -> dict[str, list[str]]:
+    """Group `{object: [id, room]}` as `{room: [objects]}`, rooms sorted, objects in the given order."""
+    rooms: dict[str, list[str]] = {}
+    for name, (_, room) in objects.items():
+        rooms.setdefault(room, []).append(name)
+    return dict(sorted(rooms.items()))
+
+
+def _kinds(names: Iterable[str]) -> list[str]:
+    """What objects are, as words, without their numbers and each kind once: "chair (4)" for four of them."""
+    counts = Counter(plain(name) for name in names)
+    return [f"{kind} ({count})" if count > 1 else kind for kind, count in counts.items()]
 
 
 def _sayable(value: object) -> object:
