@@ -53,7 +53,8 @@ class Task(Frozen):
 class Recalled(Frozen):
     """One retrieved memory: score = recency x relevance (PAPER §3.2).
 
-    `source`, where a robot recalls: told by the person in an evening, seen today, or guessed today and confirmed by nobody.
+    `source`, where a robot recalls: told by the person in an evening; seen today; or guessed today, which nobody has
+    confirmed.
     """
 
     kind: CandidateKind

@@ -81,7 +81,7 @@ class Robot:
         chance /= chance.sum()
         return IntentionsReply(
             seen=_seen(variables),
-            intentions=[self._imagined(int(i), known, strange, hour, variables, float(chance[i])) for i in best]
+            intentions=[self._imagined(int(i), known, strange, hour, variables, float(chance[i])) for i in best],
         )
 
     def _counted(
