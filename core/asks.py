@@ -2,8 +2,8 @@
 
 A prompt file may use any subset of the variables listed here, and no other. Values are plain JSON data:
 
-- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first; a robot's recalled ones also have
-  `guessed`, whether it only thought so today and nobody has confirmed it;
+- a *memory* is `{"when": "day 1, 9 am", "hours_ago": 3, "text": "..."}`, best first; a robot's also have `source`:
+  "told" by the person of an earlier day, "seen" today, or only "guessed" today, which nobody has confirmed;
 - `told` are hours of earlier days that the person told a robot of, `{"when", "hours_ago", "intention", "tasks",
   "weight"}`, the most telling first: for intentions those that looked like this hour, for tasks those of like
   intentions. `weight` from 0 to 1 is how much an hour counts. It is empty where a method does without;
@@ -27,8 +27,8 @@ A prompt file may use any subset of the variables listed here, and no other. Val
   tasks have `text` and `thought`;
 - in the classifiers' instruction `big_five` is a text, `intentions` and `tasks` are texts, and `place` is the
   candidate's place in the robot's list, from 1, or None;
-- `seen` is the observation in words, for a robot without an intention (`intention` then holds the same text); None for
-  a robot with an intention;
+- `seen` is the first task as the robot saw it, in words, which is over by now; None where it has no words for it;
+- `direct` says whether the robot goes straight from what it saw, without an intention; `intention` is then what it saw;
 - `percept` is a `Percept` as data with its `caption`, or None where the model looks at the pictures.
 """
 
@@ -123,7 +123,7 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_BELIEF,
         *_MEMORY,
-        *("told", "intention", "fixed", "movable", "states", "first_task", "seen", "n_tasks"),
+        *("told", "intention", "fixed", "movable", "states", "first_task", "direct", "n_tasks"),
     ),
     "robot/tasks_type2": _spec(
         "robot",
@@ -131,7 +131,7 @@ ASKS: dict[str, AskSpec] = {
         *_TIME,
         *_BELIEF,
         *_MEMORY,
-        *("told", "in_hand", "intention", "fixed", "states", "seen", "n_tasks"),
+        *("told", "in_hand", "intention", "fixed", "states", "seen", "direct", "n_tasks"),
     ),
     "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),

@@ -53,7 +53,11 @@ class Task(Frozen):
 
 
 class Recalled(Frozen):
-    """One retrieved memory: score = recency x relevance (PAPER §3.2). `source`: told, or guessed today."""
+    """One retrieved memory: score = recency x relevance (PAPER §3.2).
+
+    `source`, where a robot recalls: told by the person in an evening; seen today; or guessed today, which nobody has
+    confirmed.
+    """
 
     kind: CandidateKind
     text: str
@@ -61,7 +65,7 @@ class Recalled(Frozen):
     relevance: float
     recency: float
     score: float
-    source: Literal["told", "guessed"] | None = Field(None, exclude_if=is_none)
+    source: Literal["told", "seen", "guessed"] | None = Field(None, exclude_if=is_none)
 
 
 class Found(Frozen):
@@ -172,6 +176,8 @@ class RobotHour(Frozen):
     """All that the robot graph did in an hour."""
 
     observation: Observation
+    seen: str = Field("", exclude_if=is_empty)
+    """What its language model says it saw, before it guessed; a robot that looks at pictures recalls by this."""
     recalled: list[Recalled] = []
     intentions: list[IntentionCandidate]
     tasks: list[TaskCandidate]

@@ -124,8 +124,10 @@ class ImaginedIntention(Frozen):
 
 
 class IntentionsReply(Frozen):
-    """robot/intentions: possible intentions, most likely first."""
+    """robot/intentions: what was seen, then possible intentions, most likely first."""
 
+    seen: Annotated[str, Field(max_length=300)] = ""
+    """What can be seen of the first task, in words. It comes first, so that what is guessed rests on it."""
     intentions: Annotated[list[ImaginedIntention], Field(min_length=1, max_length=8)]
 
 

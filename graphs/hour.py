@@ -38,6 +38,7 @@ from coopera.graphs.robot import (
 )
 from coopera.graphs.robots.identity import identify, sight
 from coopera.graphs.robots.robot_view import HomeView, RobotView, robots_door
+from coopera.graphs.robots.sight import agreeing
 from coopera.graphs.robots.traits import guesses, revise
 from coopera.graphs.services import Services
 from coopera.simulation.state.snapshots import digest
@@ -190,7 +191,7 @@ def robot_view(
     """What the robot may know of an hour with a person, or with the one that it takes them for."""
     return RobotView(
         clock=clock,
-        observation=seen,
+        observation=agreeing(seen),
         pictures=tuple(services.recorder.root / frame for frame in seen.frames),
         person=person,
         belief=belief,

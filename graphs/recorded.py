@@ -42,7 +42,7 @@ def remember_guess(services: Services, plan: DayPlan, clock: Clock, robot: Robot
     memories = services.memories("guesses", plan.episode, robot.with_whom or plan.person)
     memories.forget_from(clock.now)
     for guess in guesses([(clock.hour, robot)], plan.episode_day * 24):
-        memories.add(guess.intention, guess.tasks, guess.now)
+        memories.add(guess.intention, guess.tasks, guess.now, seen=guess.seen)
 
 
 def remember_day(services: Services, plan: DayPlan, hours: Sequence[HourRecord]) -> None:

@@ -44,8 +44,9 @@ from coopera.graphs.robots.proposing import (
     superset_of,
     with_evidence,
 )
-from coopera.graphs.robots.recall import as_variables, best, recall_both, recall_weeks
+from coopera.graphs.robots.recall import as_variables, recall_hours, recall_weeks
 from coopera.graphs.robots.robot_view import RobotView
+from coopera.graphs.robots.sight import as_percept, in_words
 from coopera.graphs.robots.told import ToldHour, as_told, held, likeness, told_hours
 from coopera.graphs.robots.verdicts import judge
 
@@ -94,8 +95,9 @@ class RobotState(RobotInput, total=False):
     """Working state of the robot's hour; a key is absent until its node has run."""
 
     true_intention: str  # the true intention, of an oracle alone
-    recalled: list[Recalled]  # by observe
-    told: list[ToldHour]  # by observe: what was told of earlier days, oldest first
+    recalled: list[Recalled]  # by observe; again by imagine_intentions, of a robot that looks at pictures
+    told: list[ToldHour]  # likewise: what was told of earlier days, oldest first
+    seen: str  # by imagine_intentions: what the robot's model says it saw
     intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
     imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
     tasks: list[TaskCandidate]  # by classify_tasks; in the order of their intentions, without repeats
@@ -104,8 +106,9 @@ class RobotState(RobotInput, total=False):
 
 
 class TaskRequest(TypedDict):
-    """What one imagine_tasks gets: an accepted intention, and what was recalled."""
+    """What one imagine_tasks gets: an accepted intention, what was seen, and what was recalled."""
 
+    seen: str
     recalled: list[Recalled]
     told: list[ToldHour]
     intention: IntentionCandidate
@@ -145,6 +148,7 @@ def robot_hour(state: RobotState, seen: Observation) -> RobotHour:
     """The finished state as it stands in the trace, with what the robot saw."""
     return RobotHour(
         observation=seen,
+        seen=state.get("seen", ""),
         recalled=state["recalled"],
         intentions=state["intentions"],
         tasks=state["tasks"],
@@ -167,24 +171,17 @@ def propose(state: RobotInput, runtime: Runtime[OwnRobotContext]) -> dict[str, A
 def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]:
     """Recall what the robot knows that resembles what it sees. Writes `recalled` and `told`.
 
-    Earlier days come from the person's accounts, today from the robot's own guesses.
+    Earlier days come from the person's accounts, today from the robot's own guesses. A robot that looks at the pictures
+    has not yet done so, and goes by the time alone.
     """
-    view, clock = runtime.context.view, runtime.context.view.clock
-    method = runtime.context.method
-    if not method.context:
-        return {"recalled": [], "told": []}
-    query = f"{clock.label}, {clock.weekday}. {_sight(view.observation)}"
-    told_of = told_hours(view) if method.told or method.evidence else []
-    if method.remembers == "days":
-        return {"recalled": recall_weeks(view, query), "told": told_of}
-    dawn = clock.day * 24
-    told = recall_both(view.history, query, clock, since=None)
-    guessed = recall_both(view.guesses, query, clock, since=dawn)
-    return {"recalled": best([*told, *guessed]), "told": told_of}
+    return _recall(runtime.context)
 
 
 def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Propose what the person may be up to. Reads `recalled`; writes `intentions`.
+    """Say what is seen, and propose what the person may be up to. Reads `recalled`; writes `intentions` and `seen`.
+
+    A robot that looked at the pictures now recalls by what it saw in them, for all that comes after: it writes
+    `recalled` and `told` again.
 
     Raises:
         ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
@@ -194,10 +191,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
     if ctx.method.intentions == "given":
         return {"intentions": [IntentionCandidate(text=state["true_intention"])]}
     if ctx.method.intentions == "skipped":
-        return {"intentions": [IntentionCandidate(text=_sight(seen) or "what the pictures show")]}
-    percept = None
-    if seen.percept:
-        percept = {**seen.percept.model_dump(), "states": seen.percept.states, "caption": seen.percept.caption()}
+        return {"intentions": [IntentionCandidate(text=in_words(seen) or "what the pictures show")]}
     count = ctx.method.n_intentions or Numbers.ROBOT_INTENTIONS[view.collab]
     reply = view.ask(
         "robot/intentions",
@@ -207,16 +201,17 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         variables={
             **when(clock),
             **_belief(ctx),
-            **as_variables(state["recalled"], clock, marked=True),
+            **as_variables(state["recalled"], clock),
             "told": as_told(most_telling(ctx.method, state["told"]), clock),
             "rooms": view.home.rooms,
-            "percept": percept,
+            "percept": as_percept(seen),
             "first_task": seen.first_task,
             "n_intentions": count,
         },
     )
     replies = reply.intentions[:count]
-    evidence = evidence_of(ctx.method, view, state["told"], replies)
+    again = _recall(ctx, reply.seen) if in_words(seen, reply.seen) != in_words(seen) else {}
+    evidence = evidence_of(ctx.method, view, again.get("told", state["told"]), replies)
     candidates = {
         item.intention: IntentionCandidate(
             text=item.intention,
@@ -230,7 +225,7 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         )
         for item, known in reversed(list(zip(replies, evidence, strict=True)))
     }
-    return {"intentions": list(reversed(candidates.values()))}
+    return {"intentions": list(reversed(candidates.values())), "seen": reply.seen, **again}
 
 
 def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
@@ -257,12 +252,18 @@ def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> di
     return {"intentions": judged, "fallbacks": fallbacks}
 
 
-def one_per_accepted(state: RobotState) -> list[Send]:
+def one_per_accepted(state: RobotState, runtime: Runtime[RobotContext]) -> list[Send]:
     """Fan out: one imagine_tasks per accepted intention."""
     return [
         Send(
             "imagine_tasks",
-            TaskRequest(recalled=state["recalled"], told=state["told"], intention=intention, rank=rank),
+            TaskRequest(
+                seen=in_words(runtime.context.view.observation, state.get("seen", "")),
+                recalled=state["recalled"],
+                told=state["told"],
+                intention=intention,
+                rank=rank,
+            ),
         )
         for rank, intention in enumerate(state["intentions"])
         if intention.accepted
@@ -279,7 +280,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     in_hand = held(view.observation) if ctx.method.skips_held else None
     weights = weights_for(state["told"], likeness(view, state["told"], intention.text))
     count = Numbers.DIRECT_TASKS if direct else how_many(ctx.method, view, state["told"], weights)
-    extra: dict[str, Any] = {"in_hand": in_hand.thing if in_hand else None}
+    extra: dict[str, Any] = {"in_hand": in_hand.thing if in_hand else None, "seen": state["seen"] or None}
     if view.collab == 1:
         extra = {"movable": home.objects("movable"), "first_task": view.observation.first_task}
     try:
@@ -291,11 +292,11 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
             variables={
                 **when(view.clock),
                 **_belief(ctx),
-                **as_variables(state["recalled"], view.clock, marked=True),
+                **as_variables(state["recalled"], view.clock),
                 **extra,
                 "told": as_told(like_hours(ctx.method, state["told"], weights), view.clock, without=in_hand),
                 "intention": intention.text,
-                "seen": intention.text if direct else None,
+                "direct": direct,
                 "fixed": home.objects("fixed"),
                 "states": view.states,
                 "n_tasks": count,
@@ -344,6 +345,18 @@ def act(state: RobotState, runtime: Runtime[Context]) -> dict[str, Any]:
     return {"outcomes": [runtime.context.home.perform(runtime.context.agent, task.act) for task in accepted]}
 
 
+def _recall(ctx: RobotContext, saw: str = "") -> dict[str, Any]:
+    """`recalled` and `told`, by the time and by what is seen; `saw` is what was seen in the pictures, in words."""
+    view, method = ctx.view, ctx.method
+    if not method.context:
+        return {"recalled": [], "told": []}
+    query = f"{view.clock.label}, {view.clock.weekday}. {in_words(view.observation, saw)}"
+    return {
+        "recalled": recall_weeks(view, query) if method.remembers == "days" else recall_hours(view, query),
+        "told": told_hours(view, saw) if method.told or method.evidence else [],
+    }
+
+
 def _belief(ctx: RobotContext) -> dict[str, Any]:
     """The inferred traits as prompts read them; nothing where the method goes without."""
     known = ctx.view.belief if ctx.method.traits else Belief()
@@ -352,10 +365,6 @@ def _belief(ctx: RobotContext) -> dict[str, Any]:
 
 def _known(state: RobotState, view: RobotView) -> Known:
     return Known(view.person, view.clock, view.belief, state["recalled"], state["intentions"])
-
-
-def _sight(seen: Observation) -> str:
-    return seen.first_task or (seen.percept.caption() if seen.percept else "")
 
 
 def _at(view: RobotView, node: str, draw: int = 0) -> Address:

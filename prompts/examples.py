@@ -85,12 +85,12 @@ _FULL: dict[str, Any] = {
     "statements": [item.says for item in ITEMS],
     "rooms": ["bathroom", "bedroom", "kitchen", "living room", "study"],
     "today": [
-        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast", "guessed": False},
-        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "guessed": False},
+        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast"},
+        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room"},
     ],
     "recalled_intentions": [
-        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "guessed": False},
-        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast", "guessed": False},
+        {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room"},
+        {"when": "9 am", "hours_ago": 5, "text": "Start the day slowly with breakfast"},
     ],
     "told": [
         {
@@ -107,13 +107,11 @@ _FULL: dict[str, Any] = {
             "when": "1 pm",
             "hours_ago": 1,
             "text": "wipe the top at the coffee table with the sponge in hand",
-            "guessed": False,
         },
         {
             "when": "9 am",
             "hours_ago": 5,
             "text": "sit and eat at the dining table with the bowl in hand",
-            "guessed": False,
         },
     ],
     "intention": "Relax with some quiet reading",
@@ -174,11 +172,12 @@ _FULL: dict[str, Any] = {
     },
     "first_task": None,
     "seen": None,
+    "direct": False,
     "n_intentions": 5,
     "intentions": [
-        {"when": "9 am", "hours_ago": 12, "text": "Start the day slowly with breakfast", "guessed": False},
-        {"when": "2 pm", "hours_ago": 7, "text": "Relax with some quiet reading", "guessed": False},
-        {"when": "9 pm", "hours_ago": 0, "text": "Get ready for the night", "guessed": False},
+        {"when": "9 am", "hours_ago": 12, "text": "Start the day slowly with breakfast"},
+        {"when": "2 pm", "hours_ago": 7, "text": "Relax with some quiet reading"},
+        {"when": "9 pm", "hours_ago": 0, "text": "Get ready for the night"},
     ],
 }
 _BARE: dict[str, Any] = {
@@ -216,6 +215,24 @@ _INSTRUCTION: dict[str, Any] = {
     "place": 1,
 }
 _ROBOT_PROFILE = "Likes calm, indoor pastimes. Keeps the rooms in order. Reads in the afternoon."
+_ROBOTS_INTENTIONS = [
+    {"when": "day 2, 2 pm", "hours_ago": 24, "text": "Read for pleasure", "source": "told"},
+    {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "source": "guessed"},
+]
+
+
+def _robots_tasks(collab: int) -> list[dict[str, Any]]:
+    """What a robot recalls: told, offered today without knowing whether it was right, and in type 1 seen."""
+    if collab == 2:
+        return [
+            {"when": "day 2, 2 pm", "hours_ago": 24, "text": _TEXTS_2[1], "source": "told"},
+            {"when": "1 pm", "hours_ago": 1, "text": "bring the sponge", "source": "guessed"},
+        ]
+    return [
+        {"when": "day 2, 2 pm", "hours_ago": 24, "text": _TEXTS_1[1], "source": "told"},
+        {"when": "1 pm", "hours_ago": 1, "text": "put the cushion on the sofa", "source": "seen"},
+        {"when": "1 pm", "hours_ago": 1, "text": "put the blanket on the sofa", "source": "guessed"},
+    ]
 
 
 def _of_type(collab: int) -> dict[str, Any]:
@@ -231,12 +248,32 @@ def _of_type(collab: int) -> dict[str, Any]:
         "tasks": _TASKS[1],
         "offers": offers,
         "recalled_tasks": [
-            {"when": "1 pm", "hours_ago": 1, "text": "put the cushion on the sofa", "guessed": False},
-            {"when": "9 am", "hours_ago": 5, "text": "put the bowl on the dining table", "guessed": False},
+            {"when": "1 pm", "hours_ago": 1, "text": "put the cushion on the sofa"},
+            {"when": "9 am", "hours_ago": 5, "text": "put the bowl on the dining table"},
         ],
         "first_task": _TEXTS_1[0],
         "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 3 tasks, not 2."],
     }
+
+
+def _as_robot(collab: int) -> dict[str, Any]:
+    seen = _TEXTS_1[0] if collab == 1 else _FULL["percept"]["caption"]
+    return {
+        "profile": _ROBOT_PROFILE,
+        "recalled_intentions": _ROBOTS_INTENTIONS,
+        "recalled_tasks": _robots_tasks(collab),
+        "seen": seen,
+    }
+
+
+def _evening(full: Mapping[str, Any]) -> dict[str, Any]:
+    """A day as the person tells of it."""
+    told = {"source": "told"}
+    intentions = [memory | told for memory in _FULL["intentions"]]
+    return {**full, "intentions": intentions, "tasks": [m | told for m in _FULL["recalled_tasks"]], "evening": True}
+
+
+_GUESSED_DAY = {"intentions": _ROBOTS_INTENTIONS[1:], "tasks": _robots_tasks(1)[1:], "evening": False}
 
 
 def examples(name: str) -> list[Mapping[str, Any]]:
@@ -248,19 +285,21 @@ def examples(name: str) -> list[Mapping[str, Any]]:
     if name == INSTRUCTION:
         return [_INSTRUCTION, _INSTRUCTION | {**dict.fromkeys(("intention", "profile", "big_five"), ""), **_UNKNOWN}]
     spec = PROMPTS[name]
-    full = {**_FULL, **_of_type(1 if name.endswith("type1") else 2)}
+    collab = 1 if name.endswith("type1") else 2
+    full = {**_FULL, **_of_type(collab)}
+    if spec.role == "robot":
+        full |= _as_robot(collab)
     cases = [full, {**full, **_BARE}]
     if spec.role == "robot":
-        full["profile"] = _ROBOT_PROFILE
         cases[1] |= {"profile": None, "big_five": None}
     if "offers" in spec.variables or "first_task" in spec.variables:
-        cases.append({**full, **_of_type(1)})
+        cases.append({**full, **_of_type(1), **(_as_robot(1) if spec.role == "robot" else {})})
     if "rhythm" in spec.variables:  # type 2, where things of any kind are brought
         cases.append({**full, "movable": {}})
-    if "seen" in spec.variables:
-        cases.append({**full, "seen": _FULL["percept"]["caption"]})
+    if "direct" in spec.variables:
+        cases.append({**full, "told": [], "direct": True, "intention": full["seen"]})
     if name == "robot/traits":
-        cases = [{**case, "tasks": _FULL["recalled_tasks"], "evening": case is full} for case in cases]
+        cases = [_evening(full), {**_evening(full), "profile": None}, {**full, **_GUESSED_DAY}]
     elif "offers" in spec.variables:  # the person's remaining tasks only, and none at all where there was but one
         cases = [{**case, "tasks": case["tasks"][1:]} for case in cases] + [{**full, "tasks": []}]
     return [{variable: case[variable] for variable in sorted(spec.variables)} for case in cases]

@@ -184,8 +184,11 @@ def _add_robot(tree: Tree, robot: RobotHour, verdicts: Mapping[str, bool | None]
     observed = tree.add(f"observed {len(seen.frames)} pictures: {escape(what)}")
     if seen.first_task:
         observed.add(escape(f"was told the first task: {seen.first_task}"))
+    if robot.seen:
+        observed.add(escape(f"said it saw: {robot.seen}"))
     for one in robot.recalled:
-        observed.add(f"recalled {one.kind}: {escape(one.text)} [dim](score {one.score:.3f})[/]")
+        source = f"{one.source} " if one.source else ""
+        observed.add(f"recalled {source}{one.kind}: {escape(one.text)} [dim](score {one.score:.3f})[/]")
     for candidate in robot.intentions:
         said = _verdict(candidate.probability, candidate.accepted)
         right = _RIGHT[verdicts[candidate.text]] if candidate.text in verdicts else ""

@@ -10,6 +10,7 @@ from coopera.core.clock import Clock
 from coopera.core.hour import Observation
 from coopera.core.people import PersonId
 from coopera.graphs.robots.robot_view import Memories
+from coopera.graphs.robots.sight import in_words
 
 NEAREST = 10
 """Memories of each person that a sight is compared with."""
@@ -27,7 +28,7 @@ class Sight(NamedTuple):
 
 def sight(clock: Clock, seen: Observation) -> Sight:
     """The part of an observation to compare with people's accounts: the first task, or the percept's sentence."""
-    return Sight(clock, seen.first_task or (seen.percept.caption() if seen.percept else ""))
+    return Sight(clock, in_words(seen))
 
 
 def identify(sights: Sequence[Sight], known: Mapping[PersonId, Memories]) -> dict[PersonId, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
@@ -21,16 +21,33 @@ _AT_ANY_HOUR = {NARROW: 0.15, WIDE: 0.4}  # what an hour counts that is at quite
 _FREE_DAYS = ("Saturday", "Sunday")
 _ALL = 10**6
 
+Source: TypeAlias = Literal["told", "seen", "guessed"]
 
-def recall_both(memories: Memories | ReadMemories, query: str, now: Clock, *, since: int | None) -> list[Recalled]:
-    """The top intentions, then the top tasks, best first (PAPER §4.1: three and five)."""
+
+def recall_both(
+    memories: Memories | ReadMemories, query: str, now: Clock, *, since: int | None, source: Source | None = None
+) -> list[Recalled]:
+    """The top intentions, then the top tasks, best first (PAPER §4.1: three and five).
+
+    `source` is what a robot's memories come from, where a record does not say otherwise; a person's have none.
+    """
     return [
-        *_top(memories.intentions, "intention", query, now, Numbers.RECALL_INTENTIONS, since),
-        *_top(memories.tasks, "task", query, now, Numbers.RECALL_TASKS, since),
+        *_top(memories.intentions, "intention", query, now, Numbers.RECALL_INTENTIONS, since, source),
+        *_top(memories.tasks, "task", query, now, Numbers.RECALL_TASKS, since, source),
     ]
 
 
-def best(recalled: Iterable[Recalled]) -> list[Recalled]:
+def recall_hours(view: RobotView, query: str) -> list[Recalled]:
+    """What the paper's robot recalls: of what was told on earlier days and of today, merged (PAPER §4.1)."""
+    told = recall_both(view.history, query, view.clock, since=None, source="told")
+    return _best([*told, *_today(view, query)])
+
+
+def _today(view: RobotView, query: str) -> list[Recalled]:
+    return recall_both(view.guesses, query, view.clock, since=view.clock.day * 24, source="guessed")
+
+
+def _best(recalled: Iterable[Recalled]) -> list[Recalled]:
     """Merge recalls of several stores: again three intentions and five tasks, best and then newest first."""
     ranked = sorted(recalled, key=lambda memory: (-memory.score, -memory.hour, memory.text))
     intentions = [memory for memory in ranked if memory.kind == "intention"]
@@ -45,15 +62,13 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
     intention and every task of these days is scored. DEVIATES: by the paper's decay of 0.95 an hour, yesterday counts
     0.29 and nothing older is ever recalled; the paper describes that decay for one day.
     """
-    now = view.clock
-    dawn = now.day * 24
-    guessed = recall_both(view.guesses, query, now, since=dawn)
+    now, today = view.clock, _today(view, query)
     kept: list[Recalled] = []
     streams: dict[CandidateKind, Readable] = {"intention": view.history.intentions, "task": view.history.tasks}
     for kind, stream in streams.items():
         most = Numbers.RECALL_WEEKS[kind]
-        own = [_from(memory, "guessed") for memory in guessed if memory.kind == kind]
-        told = [_from(memory, "told") for memory in _told(stream, kind, query, now, most)]
+        own = [memory for memory in today if memory.kind == kind]
+        told = _told(stream, kind, query, now, most)
         kept += sorted([*told[: most - min(len(own), most // 2)], *own[: most // 2]], key=_rank)
     return kept
 
@@ -65,7 +80,15 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
         recency = weight(now, one.hour)
         score = one.relevance * recency
         weighed.append(
-            Recalled(kind=kind, text=one.text, hour=one.hour, relevance=one.relevance, recency=recency, score=score)
+            Recalled(
+                kind=kind,
+                text=one.text,
+                hour=one.hour,
+                relevance=one.relevance,
+                recency=recency,
+                score=score,
+                source="told",
+            )
         )
     once = {memory.text: memory for memory in sorted(weighed, key=_rank, reverse=True)}  # the best one of each text
     return sorted(once.values(), key=_rank)[:most]
@@ -85,41 +108,41 @@ def _rank(memory: Recalled) -> tuple[float, int, str]:
     return (-memory.score, -memory.hour, memory.text)
 
 
-def _from(memory: Recalled, source: Literal["told", "guessed"]) -> Recalled:
-    return memory.model_copy(update={"source": source})
-
-
-def as_variables(recalled: Iterable[Recalled], now: Clock, *, marked: bool = False) -> dict[str, list[dict[str, Any]]]:
-    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`.
-
-    Args:
-        recalled: Best first.
-        now: The hour of the recall.
-        marked: Whether each says if it is a guess that nobody has confirmed: a robot's do.
-    """
+def as_variables(recalled: Iterable[Recalled], now: Clock) -> dict[str, list[dict[str, Any]]]:
+    """The variables `recalled_intentions` and `recalled_tasks` of `coopera.core.asks`, best first as they are given."""
     memories = list(recalled)
-
-    def mark(memory: Recalled) -> dict[str, bool]:
-        return {"guessed": memory.source == "guessed"} if marked else {}
-
     return {
-        f"recalled_{kind}s": [as_memory(m.text, m.hour, now) | mark(m) for m in memories if m.kind == kind]
+        f"recalled_{kind}s": [as_memory(m.text, m.hour, now, m.source) for m in memories if m.kind == kind]
         for kind in ("intention", "task")
     }
 
 
-def as_memory(text: str, hour: int, now: Clock) -> dict[str, Any]:
-    """One memory as prompts read it; `hour` is a global hour index."""
+def as_memory(text: str, hour: int, now: Clock, source: Source | None = None) -> dict[str, Any]:
+    """One memory as prompts read it; `hour` is a global hour index, and `source` is a robot's."""
     day, hour_of_day = divmod(hour, 24)
     label = hour_label(hour_of_day)
     when = label if day == now.day else f"day {day + 1}, {label}"
-    return {"when": when, "hours_ago": now.now - hour, "text": text}
+    return {"when": when, "hours_ago": now.now - hour, "text": text, **({"source": source} if source else {})}
 
 
 def _top(
-    stream: MemoryStream | Readable, kind: CandidateKind, query: str, now: Clock, k: int, since: int | None
+    stream: MemoryStream | Readable,
+    kind: CandidateKind,
+    query: str,
+    now: Clock,
+    k: int,
+    since: int | None,
+    source: Source | None,
 ) -> list[Recalled]:
     return [
-        Recalled(kind=kind, text=r.text, hour=r.hour, relevance=r.relevance, recency=r.recency, score=r.score)
+        Recalled(
+            kind=kind,
+            text=r.text,
+            hour=r.hour,
+            relevance=r.relevance,
+            recency=r.recency,
+            score=r.score,
+            source=r.metadata.get("source", source),
+        )
         for r in stream.recall(query, now.now, k, since=since)
     ]

@@ -147,9 +147,11 @@ class Memories(NamedTuple):
         self.intentions.forget_from(now)
         self.tasks.forget_from(now)
 
-    def add(self, intention: str, tasks: Sequence[str], now: int) -> None:
-        """Append one hour."""
-        self.extend([(now, intention, tasks)])
+    def add(self, intention: str, tasks: Sequence[str], now: int, *, seen: Sequence[str] = ()) -> None:
+        """Append one hour; tasks that a robot has `seen` are marked as such, and come first."""
+        self.intentions.extend([Record(intention, now, {})])
+        known = [Record(task, now, {"source": "seen"}) for task in seen]
+        self.tasks.extend([*known, *(Record(task, now, {}) for task in tasks)])
 
     def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
         """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""

@@ -8,6 +8,7 @@ DEVIATES: the paper weighs memories by hours alone and keeps intentions and task
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -53,15 +54,19 @@ class ToldHour:
         return self.near * self.looks
 
 
-def told_hours(view: RobotView) -> list[ToldHour]:
-    """Join what was told of the last `DAYS` days before today, oldest first."""
+def told_hours(view: RobotView, saw: str = "") -> list[ToldHour]:
+    """Join what was told of the last `DAYS` days before today, oldest first.
+
+    `saw` is what a robot that looks at pictures says it saw; how well an hour fits goes by that where nothing else is
+    known of this one.
+    """
     clock = view.clock
     dawn, since = clock.day * 24, (clock.day - DAYS) * 24
     tasks: dict[int, list[str]] = defaultdict(list)
     for record in view.history.tasks.records(since=since):
         tasks[record.hour].append(record.text)
     said = {record.hour: record.text for record in view.history.intentions.records(since=since)}
-    return [_told(view, now, text, tasks[now]) for now, text in said.items() if now < dawn]
+    return [_told(view, saw, now, text, tasks[now]) for now, text in said.items() if now < dawn]
 
 
 def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[float]:
@@ -126,19 +131,28 @@ def shares(
     return found
 
 
-def _told(view: RobotView, now: int, intention: str, tasks: Sequence[str]) -> ToldHour:
+def _told(view: RobotView, saw: str, now: int, intention: str, tasks: Sequence[str]) -> ToldHour:
     uses = tuple(use for text in tasks if (use := use_of(text)) is not None)
     near, wide = (weight_of(view.clock, now, width) for width in (NARROW, WIDE))
-    return ToldHour(now, intention, tuple(tasks), uses, near, _looks(view.observation, uses), wide)
+    return ToldHour(now, intention, tuple(tasks), uses, near, _looks(view.observation, saw, uses), wide)
 
 
-def _looks(seen: Observation, uses: Sequence[Use]) -> float:
+def _looks(seen: Observation, saw: str, uses: Sequence[Use]) -> float:
     """How well a told hour fits what is seen now: by the thing in hand, else by the furniture."""
     if not uses:
         return OTHER_PLACE
     if (now := held(seen)) is not None:
         return SAME_FIRST if same(uses[0], now) else SAME_ANY if any(same(use, now) for use in uses) else OTHER_THING
     near = [plain(name) for name in seen.percept.near] if seen.percept else []
-    if not near:
-        return SAME_FIRST
-    return SAME_PLACE if uses[0].place in near else OTHER_PLACE
+    if near:
+        return SAME_PLACE if uses[0].place in near else OTHER_PLACE
+    return _mentioned(saw, uses) if saw else SAME_FIRST
+
+
+def _mentioned(saw: str, uses: Sequence[Use]) -> float:
+    """The same by words: which of the hour's things is named in them, else whether its first place is."""
+    words = f" {' '.join(re.findall(r'[a-z0-9]+', saw.lower()))} "
+    named = [f" {use.thing.lower()} " in words for use in uses]
+    if any(named):
+        return SAME_FIRST if named[0] else SAME_ANY
+    return SAME_PLACE if f" {(uses[0].place or '?').lower()} " in words else OTHER_PLACE

@@ -7,7 +7,7 @@ rests on the robot's own guesses of the hours before. The evening starts again f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from coopera.core.clock import Clock
 from coopera.core.hour import HourRecord, RobotHour
@@ -15,15 +15,21 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Ask
 from coopera.core.randomness import Address
 from coopera.core.replies import TraitsReply
-from coopera.graphs.robots.recall import as_memory
+from coopera.graphs.robots.recall import Source, as_memory
 
 
 class Past(NamedTuple):
-    """An hour as the robot knows it: from an account, or from its own guesses."""
+    """An hour as the robot knows it: from an account, or from its own guesses beside the task that it has `seen`."""
 
     now: int
     intention: str
     tasks: list[str]
+    seen: Sequence[str] = ()
+
+    def done(self, now: Clock, source: Source) -> list[dict[str, Any]]:
+        """The tasks as prompts read them: the seen one first, the others from that source."""
+        seen = [as_memory(task, self.now, now, "seen") for task in self.seen]
+        return [*seen, *(as_memory(task, self.now, now, source) for task in self.tasks)]
 
 
 def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
@@ -47,7 +53,7 @@ def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
             guess = max(accepted, key=lambda candidate: candidate.probability or 0.0)
             seen = [robot.observation.first_task] if robot.observation.first_task else []
             tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
-            past.append(Past(dawn + hour, guess.text, [*seen, *tasks]))
+            past.append(Past(dawn + hour, guess.text, tasks, seen))
     return past
 
 
@@ -70,13 +76,14 @@ def revise(
     Raises:
         ModelOutputError: If the reply cannot be read.
     """
+    source: Source = "told" if evening else "guessed"
     reply = ask(
         "robot/traits",
         TraitsReply,
         at=at,
         variables={
-            "intentions": [as_memory(one.intention, one.now, clock) for one in past],
-            "tasks": [as_memory(task, one.now, clock) for one in past for task in one.tasks],
+            "intentions": [as_memory(one.intention, one.now, clock, source) for one in past],
+            "tasks": [task for one in past for task in one.done(clock, source)],
             "profile": before.profile,
             "evening": evening,
         },

@@ -59,8 +59,8 @@ def test_a_robot_without_intentions_is_told_to_go_on_from_what_it_saw(
     for method in ("intention_agnostic", "ours"):
         _, ask = live(make_services, method, tmp_path / method)
         asked = ask.variables_of("robot/tasks_type2")
-        assert {v["seen"] is None for v in asked} == {method == "ours"}
-        assert all(v["seen"] in (None, v["intention"]) for v in asked)
+        assert {v["direct"] for v in asked} == {method == "intention_agnostic"}
+        assert all((v["seen"] == v["intention"]) is v["direct"] for v in asked)
 
 
 def test_direct_prompting_proposes_one_intention(make_services: MakeServices, tmp_path: Path) -> None:

@@ -302,6 +302,30 @@ def test_a_home_is_printed_by_room_and_by_kind(tmp_path: Path) -> None:
 
 def test_a_filter_for_homes_refuses_what_is_no_home(tmp_path: Path) -> None:
     assert ":10: " in refusal(tmp_path, HEAD + "{{ guesses | by_room }}\n")
+def test_a_home_is_described_by_rooms_once_and_without_ids(shipped: PromptLibrary) -> None:
+    names = shipped.render("robot/tasks_type1", examples("robot/tasks_type1")[0]).text
+    assert "- living room: armchair_1, bookshelf_1, coffee_table_1\n- study: desk_1" in names
+    assert "- kitchen: mug_1, teapot_1\n" in names
+    assert "(id " not in names
+    kitchen = {"stove_1": [1, "kitchen"], "dining_chair_2": [2, "kitchen"], "dining_chair_1": [3, "kitchen"]}
+    fixed = {"sofa_1": [4, "living room"], **kitchen}
+    kinds = shipped.render("robot/tasks_type2", {**examples("robot/tasks_type2")[0], "fixed": fixed}).text
+    assert "- kitchen: stove, dining chair\n- living room: sofa\n" in kinds
+
+
+def test_what_differs_between_the_guesses_of_an_hour_stands_behind_what_does_not(shipped: PromptLibrary) -> None:
+    for name in ("robot/tasks_type1", "robot/tasks_type2"):
+        first = examples(name)[0]
+        texts = [shipped.render(name, {**first, **other}).text for other in ({}, {"intention": "Dust", "told": []})]
+        same = next(n for n, (a, b) in enumerate(zip(*texts, strict=False)) if a != b)
+        assert texts[0][:same].endswith("Your guess of what the person is up to: "), name
+
+
+def test_a_robot_without_a_belief_does_not_say_that_it_was_told_nothing(shipped: PromptLibrary) -> None:
+    for name in ("robot/intentions", "robot/tasks_type1", "robot/tasks_type2"):
+        text = shipped.render(name, {**examples(name)[0], "profile": None, "big_five": None}).text
+        assert "You have no picture of the person yet." in text
+        assert "know nothing" not in text.replace("Leave empty what you know nothing about.", "")
 
 
 def test_a_value_that_may_be_missing_must_be_guarded(tmp_path: Path) -> None:

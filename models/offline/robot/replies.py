@@ -80,7 +80,8 @@ class Robot:
         chance = np.exp(logits - logits.max())
         chance /= chance.sum()
         return IntentionsReply(
-            intentions=[self._imagined(int(i), known, strange, hour, variables, float(chance[i])) for i in best]
+            seen=_seen(variables),
+            intentions=[self._imagined(int(i), known, strange, hour, variables, float(chance[i])) for i in best],
         )
 
     def _counted(
@@ -256,6 +257,13 @@ def _of_past(index: int, known: Sequence[Known], hour: int) -> str:
 def _of_tasks(recalled: Sequence[Any]) -> str:
     tasks = memories(recalled, 24)
     return f"A remembered task: {tasks[0].text}." if tasks else "No earlier task is known."
+
+
+def _seen(variables: Mapping[str, Any]) -> str:
+    """What it was told of the first task, as a sentence: the task itself, else the percept's caption."""
+    first_task, percept = variables["first_task"], variables["percept"]
+    said = f"The person's first task was: {first_task}." if first_task else percept["caption"] if percept else ""
+    return clip(said, 300)
 
 
 def _of_sight(activity: Activity | None, variables: Mapping[str, Any]) -> str:

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coopera.core.clock import Clock
-from coopera.evaluation.people.divergence import jensen_shannon
 from coopera.core.naming import plain
+from coopera.evaluation.people.divergence import jensen_shannon
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.offline.household.statements import statements
 from tests.models.offline.questions import FIXED, MOVABLE, ROOMS, activity, ask, intend, live, memory, person
