@@ -22,7 +22,7 @@ from pydantic import PrivateAttr
 from coopera.core.errors import ModelCallError, ModelOutputError, RunError
 from coopera.core.protocols import Rendered, Role
 from coopera.core.randomness import Address, seed_at
-from coopera.core.replies import FreeMotionReply, VerdictsReply
+from coopera.core.replies import FreeMotionReflectionReply, FreeMotionReply, VerdictsReply
 from coopera.models.backends import Backend, Request
 from coopera.models.cache import ReplyCache
 from coopera.models.door import SEEDS, Door
@@ -339,6 +339,15 @@ def test_calls_of_parallel_draws_come_out_in_the_order_of_the_draws() -> None:
     assert [c.node for c in calls] == ["propose", "decompose"] + ["imagine_tasks"] * 8
     assert [c.messages[0]["content"].split("\n")[0] for c in calls[2:]] == [f"draw {n}" for n in range(8)]
     assert door.take_calls() == []
+
+
+def test_calls_of_parallel_nodes_come_out_in_the_order_of_the_prompts() -> None:
+    door, _ = door_to(*['{"reviews": []}'] * 4)
+    later = AT._replace(hour=AT.hour + 1)
+    for node, at in (("scene", AT), ("scene", later), ("profile", later), ("profile", AT)):
+        prompt = f"human/reflect_{node}_type2"
+        door(prompt, FreeMotionReflectionReply, at=at._replace(node=node), variables={"say": "Look."})
+    assert [c.node for c in door.take_calls()] == ["profile", "scene", "profile", "scene"]
 
 
 @pytest.fixture
