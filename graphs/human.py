@@ -156,7 +156,7 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
     The model is told what code found wrong.
     """
     ctx, found = runtime.context, state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state)
+    things = {"movable": found.movable, "now_at": _now_at(state, ctx)} if ctx.collab == 1 else motions_here(state)
     reply = ctx.ask(
         f"human/reflect_scene_type{ctx.collab}",
         REFLECTION_REPLY[ctx.collab],
@@ -215,6 +215,14 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 def _wrong_with(tasks: Sequence[Task], ctx: HumanContext) -> list[str]:
     return findings(tasks, ctx.home, ctx.agent, Numbers.HUMAN_TASKS[ctx.collab])
+
+
+def _now_at(state: HumanState, ctx: HumanContext) -> dict[str, str]:
+    """Where the things of the drafted tasks are; what is not in the home is left out."""
+    places = {
+        task.act.object: ctx.home.place_of(task.act.object) for task in state["tasks"] if task.act.kind == "pick_place"
+    }
+    return {thing: place for thing, place in places.items() if place}
 
 
 def _rounds(state: HumanState) -> int:

@@ -136,6 +136,7 @@ _FULL: dict[str, Any] = {
         "desk_1": ["write by hand", "wipe the surface"],
     },
     "states": {"coffee_table_1": "dirty", "mug_1": "dirty, with tea in it"},
+    "now_at": {"book_2": "on desk_1", "blanket_1": "inside wardrobe_1", "teapot_1": "on kitchen_counter_1"},
     "so_far": ["take the novel from the shelf at the bookshelf with the book in hand"],
     "changes": [
         {

@@ -7,7 +7,7 @@ or run on and on. What is allowed is listed; everything else is refused when the
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -18,6 +18,7 @@ from jinja2.meta import find_undeclared_variables
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from coopera.core.errors import PromptError
+from coopera.core.household import plain
 
 MAX_RANGE = 100
 MAX_NUMBER = 1000
@@ -87,6 +88,31 @@ class Template:
         return "".join(pieces).strip()
 
 
+def by_room(objects: Mapping[str, Sequence[Any]]) -> dict[str, list[str]]:
+    """Turn `{name: [id, room]}` into `{room: [names]}`: rooms sorted, the names of each in the given order."""
+    rooms: dict[str, list[str]] = {}
+    for name, (_, room) in objects.items():
+        rooms.setdefault(room, []).append(name)
+    return dict(sorted(rooms.items()))
+
+
+def kinds(names: Iterable[str]) -> list[str]:
+    """Name each kind once, in words: "dining chair" for "dining_chair_1" and "dining_chair_2"."""
+    return list(dict.fromkeys(map(plain, names)))
+
+
+def by_kind(lists: Mapping[str, Iterable[str]]) -> dict[str, list[str]]:
+    """Turn `{name: [texts]}` into `{kind in words: [texts]}`, what is said of several of a kind once."""
+    merged: dict[str, dict[str, None]] = {}
+    for name, texts in lists.items():
+        merged.setdefault(plain(name), {}).update(dict.fromkeys(texts))
+    return {kind: list(texts) for kind, texts in merged.items()}
+
+
+_OURS: dict[str, Any] = {"by_kind": by_kind, "by_room": by_room, "kinds": kinds}
+"""Filters of our own, beside Jinja's: they print a home in few words."""
+
+
 @functools.lru_cache(maxsize=256)
 def compile_template(file: str, body: str, first_line: int) -> Template:
     """Parse and check a template whose first line is line `first_line` (from 1) of its file.
@@ -115,7 +141,7 @@ def _environment() -> ImmutableSandboxedEnvironment:
         undefined=StrictUndefined, finalize=_sayable, autoescape=False, trim_blocks=True, lstrip_blocks=True
     )
     environment.globals = {"range": _short_range}
-    environment.filters = {name: known for name, known in environment.filters.items() if name in _FILTERS}
+    environment.filters = {name: known for name, known in environment.filters.items() if name in _FILTERS} | _OURS
     return environment
 
 
@@ -161,8 +187,9 @@ def _problem(node: nodes.Node, depth: int) -> str | None:
     if isinstance(node, nodes.Call):
         return _problem_of_call(node.node)
     if isinstance(node, nodes.Filter):
-        if node.name not in _FILTERS:
-            return f'there is no filter "{node.name}" for prompts: use one of {", ".join(sorted(_FILTERS))}'
+        if node.name not in _FILTERS | set(_OURS):
+            known = ", ".join(sorted(_FILTERS | set(_OURS)))
+            return f'there is no filter "{node.name}" for prompts: use one of {known}'
         given = [*node.args, *(keyword.value for keyword in node.kwargs)]
         if not all(isinstance(value, nodes.Const) for value in given):
             return f'what the filter "{node.name}" is given must be written out, not computed'

@@ -32,7 +32,7 @@ from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing
-from coopera.simulation.state.looks import states_in_sight, things_in_sight
+from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
 
@@ -253,6 +253,14 @@ class World:
     def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
         return self.layout.room_at(*self.state.agent(agent).place).name
+
+    def place_of(self, thing: str) -> str:
+        """Where a movable thing is now: "on desk_1", "inside fridge_1", "with human" or "on the floor".
+
+        Empty for what is not in the home.
+        """
+        known = self.state.find(self.layout, thing)
+        return place_in_words(self.state, known) if known is not None and not known.fixed else ""
 
     def things_on(self, room: str) -> dict[str, str]:
         """The movable things of a room that can be seen: {thing: what it is on or inside, who has it, or "floor"}."""

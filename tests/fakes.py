@@ -93,6 +93,9 @@ class FakeHome:
     def room_of(self, agent: AgentId) -> str:
         return "kitchen"
 
+    def place_of(self, thing: str) -> str:
+        return "on the floor" if thing in self.movable else ""
+
     def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         self.performed.append((agent, act, record))
         if act.describe() in self.broken:

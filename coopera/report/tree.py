@@ -172,6 +172,8 @@ def _add_reflections(tree: Tree, human: HumanHour) -> None:
                 branch.add(f"task {number} {'fine' if verdict.ok else 'not fine'}: {escape(verdict.comment)}")
         for change in reflection.changes:
             branch.add(f"[yellow]changed[/] {escape(change)}")
+        for change in reflection.overruled:
+            branch.add(f"[dim]overruled {escape(change)}[/]")
     for repair in human.repairs:
         tree.add(f"[yellow]mended by code[/] {escape(repair)}")
 

@@ -103,10 +103,17 @@ def test_the_robot_is_asked_about_the_pictures_only_where_there_is_no_percept(sh
 
 
 def test_a_person_reads_what_can_be_done_at_which_furniture(shipped: PromptLibrary) -> None:
-    for name in ("human/tasks_type2", "human/reflect_scene_type2"):
-        lines = shipped.render(name, examples(name)[0]).text.splitlines()
-        assert "- armchair_1 (id 2) in the living room: sit and read, put on headphones" in lines
-        assert "- coffee_table_1 (id 3) in the living room" in lines  # nothing is said of it
+    lines = shipped.render("human/tasks_type2", examples("human/tasks_type2")[0]).text.splitlines()
+    assert "- armchair_1 (id 2) in the living room: sit and read, put on headphones" in lines
+    assert "- coffee_table_1 (id 3) in the living room" in lines  # nothing is said of it
+    lines = shipped.render("human/reflect_scene_type2", examples("human/reflect_scene_type2")[0]).text.splitlines()
+    assert "- living room: armchair_1, bookshelf_1, coffee_table_1" in lines
+    assert "- armchair: sit and read, put on headphones" in lines
+
+
+def test_who_checks_the_scene_reads_where_the_drafted_things_are(shipped: PromptLibrary) -> None:
+    text = shipped.render("human/reflect_scene_type1", examples("human/reflect_scene_type1")[0]).text
+    assert "14.1 put the book on the coffee table (book_2, now on desk_1; to coffee_table_1)." in text
 
 
 def test_people_and_robots_read_how_things_are_where_that_is_not_as_usual(shipped: PromptLibrary) -> None:

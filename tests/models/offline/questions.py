@@ -59,6 +59,7 @@ _NOTHING: dict[str, Any] = {
     "changes": [],
     "may_go_on": False,
     "may_leave": False,
+    "now_at": {},
     "told": [],
     "in_hand": None,
 }
