@@ -16,7 +16,8 @@ from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, P
 from coopera.simulation.acts import primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.first_places import first_states
-from coopera.simulation.acts.fitting import check_hands_over, check_moves, misfit
+from coopera.simulation.acts.fitting import check_hands_over, check_moves
+from coopera.simulation.acts.meaning import misfit
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
@@ -184,7 +185,8 @@ class World:
         if plan.meant is None:
             return done
         near = None if self._ground.rank is None else round(plan.meant.likeness, 3)
-        return done.model_copy(update={"motion": plan.meant.caption, "cosine": near})
+        said = {"motion": plan.meant.caption, "cosine": near, "asked": plan.meant.asked, "neutral": plan.meant.neutral}
+        return done.model_copy(update=said)
 
     def misfit(self, agent: AgentId, act: Act) -> str:
         """What stands against an act whatever the moment, as a sentence that says what would do; empty if it fits.
