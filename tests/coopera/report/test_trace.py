@@ -37,7 +37,7 @@ def test_an_hour_shows_everything_that_was_thought_done_and_judged(small_run: Ru
     assert "evening" not in text
 
 
-def test_a_motion_in_other_words_is_shown_with_its_clip_what_was_compared_and_how_near_it_was(
+def test_a_motion_in_other_words_is_shown_with_its_clip_and_what_was_compared(
     small_run: RunDir,
 ) -> None:
     record = small_run.read_day(0)[1]
