@@ -22,7 +22,7 @@ from pydantic import PrivateAttr
 from coopera.core.errors import ModelCallError, ModelOutputError, RunError
 from coopera.core.protocols import Rendered, Role
 from coopera.core.randomness import Address, seed_at
-from coopera.core.replies import FreeMotionReflectionReply, FreeMotionReply, VerdictsReply
+from coopera.core.replies import FreeMotionReply, VerdictsReply
 from coopera.models.backends import Backend, Request
 from coopera.models.cache import ReplyCache
 from coopera.models.door import SEEDS, Door
@@ -339,28 +339,6 @@ def test_calls_of_parallel_draws_come_out_in_the_order_of_the_draws() -> None:
     assert [c.node for c in calls] == ["propose", "decompose"] + ["imagine_tasks"] * 8
     assert [c.messages[0]["content"].split("\n")[0] for c in calls[2:]] == [f"draw {n}" for n in range(8)]
     assert door.take_calls() == []
-
-
-def test_a_reflection_reviews_each_task_once_and_names_objects_of_the_prompt_in_what_it_changes() -> None:
-    act = {"target_id": 2, "target": "sofa_9", "in_hand": "book", "motion": "sit and read"}
-    change = {"reason": "no stove", "yes": False, "task": {"thought": "I sit.", "act": act}}
-    stays = {"reason": "fine", "yes": True, "task": None}
-    right = {**change, "task": {**change["task"], "act": {**act, "target": "sofa_2"}}}  # type: ignore[dict-item]
-    door, model = door_to(*(json.dumps({"reviews": some}) for some in ([stays], [stays, change], [stays, right])))
-    variables = {"say": "Look.", "fixed": {"sofa_2": [2, "study"]}, "tasks": [{}, {}]}
-    reply = door("judge/tasks", FreeMotionReflectionReply, at=AT, variables=variables)
-    assert [review.task is None for review in reply.reviews] == [True, False]
-    assert "reviews: there must be 2 of them, not 1" in model.asked[1][-1].text
-    assert 'reviews.1.task.act.target: there is no "sofa_9"' in model.asked[2][-1].text
-
-
-def test_calls_of_parallel_nodes_come_out_in_the_order_of_the_prompts() -> None:
-    door, _ = door_to(*['{"reviews": []}'] * 4)
-    later = AT._replace(hour=AT.hour + 1)
-    for node, at in (("scene", AT), ("scene", later), ("profile", later), ("profile", AT)):
-        prompt = f"human/reflect_{node}_type2"
-        door(prompt, FreeMotionReflectionReply, at=at._replace(node=node), variables={"say": "Look."})
-    assert [c.node for c in door.take_calls()] == ["profile", "scene", "profile", "scene"]
 
 
 @pytest.fixture
