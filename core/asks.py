@@ -21,6 +21,7 @@ A prompt file may use any subset of the variables listed here, and no other. Val
   is and what the profile and the changes say of such a day; `earlier_days` is what they did on earlier days in one
   line, empty on the first day and where they remember today alone;
 - `may_go_on` and `may_leave` say whether an intention may go on for hours, and whether the person may leave the home;
+- `now_at` is `{thing: where it is now}`, such as "on desk_1", of the things that the drafted tasks are about;
 - `so_far` are the tasks, in words, of the hour that the intention goes on from; empty for a new one;
 - `steps` are a real person's own words for the tasks, empty for a simulated one;
 - `guesses` and `offers` are the robot's candidates, as persons and judges are asked about them: intentions are texts,
@@ -101,7 +102,7 @@ ASKS: dict[str, AskSpec] = {
         "PickPlaceReflectionReply",
         *_TIME,
         *_PERSON,
-        *("intention", "fixed", "movable", "states", "tasks", "n_tasks", "findings"),
+        *("intention", "fixed", "movable", "states", "now_at", "tasks", "n_tasks", "findings"),
     ),
     "human/reflect_scene_type2": _spec(
         "human",

@@ -102,11 +102,15 @@ class TaskVerdict(Frozen):
 
 
 class Reflection(Frozen):
-    """One round of reflection: verdicts by task, and what it changed (before -> after)."""
+    """One round of reflection: verdicts by task, and what it changed (before -> after).
+
+    `overruled` are changes that were not made, since the other reflection changed the same task, or there were enough.
+    """
 
     node: Literal["reflect_profile", "reflect_scene"]
     verdicts: list[TaskVerdict]
     changes: list[str]
+    overruled: list[str] = Field([], exclude_if=is_empty)
 
 
 class HumanHour(Frozen):

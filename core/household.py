@@ -109,6 +109,10 @@ class Outcome(Frozen):
     """The motion that was played for a free-form task, by its caption."""
     cosine: float | None = Field(None, exclude_if=is_none)
     """How near that motion is to what was asked for; None where words were compared, not meanings."""
+    asked: str = Field("", exclude_if=is_empty)
+    """What was compared with the motions, in words; empty where the task named a motion by its caption."""
+    neutral: bool = Field(False, exclude_if=is_empty)
+    """Whether no motion that fits came near enough, so that a neutral one was played in its stead."""
     fetched: tuple[str, ...] = Field((), exclude_if=is_empty)
     """What the agent fetched for it before, by name."""
     opened: tuple[str, ...] = Field((), exclude_if=is_empty)

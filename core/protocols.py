@@ -121,6 +121,13 @@ class Home(Protocol):
         """The room in which an agent is."""
         ...
 
+    def place_of(self, thing: str) -> str:
+        """Where a movable thing is now, in words: "on desk_1", "inside fridge_1", "with human" or "on the floor".
+
+        Empty for what is not in the home.
+        """
+        ...
+
     def percept(self, rng: np.random.Generator) -> Percept:
         """What a perception module reports of the recording, with its errors drawn from `rng`."""
         ...

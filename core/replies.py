@@ -17,6 +17,7 @@ from coopera.core.people import BigFive, Frozen
 Sentence = Annotated[str, Field(min_length=1, max_length=300)]
 Reason = Annotated[str, Field(max_length=400)]
 Want = Annotated[str, Field(min_length=1, max_length=80)]
+Remark = Annotated[str, Field(max_length=200)]
 
 
 class IntentionReply(Frozen):
@@ -90,16 +91,41 @@ class VerdictReply(Frozen):
     reason: Reason = ""
 
 
-class PickPlaceReflectionReply(PickPlaceReply):
-    """human/reflect_*_type1: a verdict per given task, and the tasks as they should be."""
+class _Review(Frozen):
+    """Second thoughts on one drafted task: why, the verdict, and only then the task as it should be.
 
-    verdicts: Annotated[list[VerdictReply], Field(min_length=1, max_length=8)]
+    A model that is held to a schema writes its fields in this order.
+    """
+
+    reason: Remark = ""
+    yes: bool
+    """Whether it stays as it was drafted; what is given as `task` then counts for nothing."""
 
 
-class FreeMotionReflectionReply(FreeMotionReply):
-    """human/reflect_*_type2: a verdict per given task, and the tasks as they should be."""
+class PickPlaceReview(_Review):
+    """`task`: with a no, what it becomes; None where it goes."""
 
-    verdicts: Annotated[list[VerdictReply], Field(min_length=1, max_length=8)]
+    task: PickPlaceDraft | None = None
+
+
+class FreeMotionReview(_Review):
+    """`task`: with a no, what it becomes; None where it goes."""
+
+    task: FreeMotionDraft | None = None
+
+
+class PickPlaceReflectionReply(Frozen):
+    """human/reflect_*_type1: a review of each given task, in the given order, and tasks that are missing."""
+
+    reviews: Annotated[list[PickPlaceReview], Field(max_length=8)]
+    add: Annotated[list[PickPlaceDraft], Field(max_length=8)] = []
+
+
+class FreeMotionReflectionReply(Frozen):
+    """human/reflect_*_type2: a review of each given task, in the given order, and tasks that are missing."""
+
+    reviews: Annotated[list[FreeMotionReview], Field(max_length=8)]
+    add: Annotated[list[FreeMotionDraft], Field(max_length=8)] = []
 
 
 def _probability(value: Any) -> float | None:

@@ -1,11 +1,11 @@
-"""The person's hour as a state machine: recall, propose, search, decompose, reflect twice, mend (PAPER §3.2).
+"""The person's hour as a state machine (PAPER §3.2): recall, propose, search, decompose, reflect twice, merge, mend.
 
 Who decides in `propose` and `decompose` is the context's player: a language model, a log, or a real person.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import islice
 from typing import Any, Literal
 
@@ -14,14 +14,14 @@ from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
 
 from coopera.core.affordances import affordances
-from coopera.core.clock import Clock
-from coopera.core.hour import Found, HumanHour, Reasons, Reflection, Task, TaskVerdict
+from coopera.core.hour import Found, HumanHour, Task
 from coopera.core.household import FreeMotion, ObjectMap, plain
 from coopera.core.randomness import Address
 from coopera.core.replies import FreeMotionReflectionReply, PickPlaceReflectionReply
 from coopera.graphs.players.changes import felt
-from coopera.graphs.players.checks import findings, repair
-from coopera.graphs.players.player import Draft, HumanContext, HumanInput, HumanState
+from coopera.graphs.players.checks import findings, obstacle, repair
+from coopera.graphs.players.player import HumanContext, HumanInput, HumanState
+from coopera.graphs.players.reflecting import Node, Opinion, agreed, as_task, numbered, opinion
 from coopera.graphs.players.searching import Shelves
 from coopera.graphs.players.variables import as_tasks, known, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
@@ -39,18 +39,20 @@ _KINDS, _NAMED = 8, 8
 def build_human_graph() -> CompiledStateGraph[HumanState, HumanContext, HumanInput, HumanState]:
     """Compile the person's graph; invoke it with a `HumanInput` and a `HumanContext`.
 
-    Reflection 2 comes again while code finds something wrong, at most `Numbers.SCENE_ROUNDS` times in all.
+    The two reflections read the same draft at the same time, and `merge` makes one list of tasks of them. Reflection 2
+    comes again while code finds something wrong, at most `Numbers.SCENE_ROUNDS` times in all.
     """
     graph = StateGraph(HumanState, context_schema=HumanContext, input_schema=HumanInput)
-    for node in (recall, propose, search, decompose, reflect_profile, reflect_scene, mend):
+    for node in (recall, propose, search, decompose, reflect_profile, reflect_scene, merge, mend):
         graph.add_node(node)
     graph.add_edge(START, "recall")
     graph.add_edge("recall", "propose")
     graph.add_conditional_edges("propose", stays, ["search", END])
     graph.add_edge("search", "decompose")
-    graph.add_conditional_edges("decompose", reflects, ["reflect_profile", "mend"])
-    graph.add_edge("reflect_profile", "reflect_scene")
-    graph.add_conditional_edges("reflect_scene", once_more, ["reflect_scene", "mend"])
+    graph.add_conditional_edges("decompose", reflects, ["reflect_profile", "reflect_scene", "mend"])
+    graph.add_edge("reflect_profile", "merge")
+    graph.add_edge("reflect_scene", "merge")
+    graph.add_conditional_edges("merge", once_more, ["reflect_scene", "mend"])
     graph.add_edge("mend", END)
     return graph.compile(checkpointer=False, name="human")
 
@@ -117,14 +119,21 @@ def search(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
 
 
 def decompose(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks` and `stated`."""
+    """Break the intention into tasks. Reads `intention`, `found`, `recalled`; writes `tasks`, `stated` and `wrong`."""
     ctx = runtime.context
     drafts, stated = ctx.player.tasks(state, ctx)
-    return {"tasks": number(drafts, state["clock"]), "stated": stated}
+    tasks = numbered([as_task(draft) for draft in drafts], state["clock"])
+    return {"tasks": tasks, "stated": stated, "wrong": _wrong_with(tasks, ctx)}
+
+
+def reflects(state: HumanState, runtime: Runtime[HumanContext]) -> list[str]:
+    """Reflect, unless the person model does without, or a real person has said what the tasks are."""
+    reflected = runtime.context.model.reflection and not state["stated"]
+    return ["reflect_profile", "reflect_scene"] if reflected else ["mend"]
 
 
 def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """First reflection: does each task fit the person and the day so far? Reads and revises `tasks`."""
+    """First reflection: does each task fit the person and the day so far? Reads `tasks`; writes `profile_says`."""
     ctx, found = runtime.context, state["found"]
     things = {"movable": found.movable} if ctx.collab == 1 else {}
     reply = ctx.ask(
@@ -139,22 +148,16 @@ def reflect_profile(state: HumanState, runtime: Runtime[HumanContext]) -> dict[s
             "tasks": as_tasks(state["tasks"]),
         },
     )
-    return _revised(state, reply, "reflect_profile")
-
-
-def reflects(state: HumanState, runtime: Runtime[HumanContext]) -> Literal["reflect_profile", "mend"]:
-    """Reflect, unless the person model does without, or a real person has said what the tasks are."""
-    return "reflect_profile" if runtime.context.model.reflection and not state["stated"] else "mend"
+    return {"profile_says": opinion(reply, state["tasks"])}
 
 
 def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
-    """Second reflection: do the objects exist and the rules hold? Reads and revises `tasks`; writes `wrong`.
+    """Second reflection: do the objects exist and the rules hold? Reads `tasks`, `wrong`; writes `scene_says`.
 
     The model is told what code found wrong.
     """
     ctx, found = runtime.context, state["found"]
-    things = {"movable": found.movable} if ctx.collab == 1 else motions_here(state)
-    count = Numbers.HUMAN_TASKS[ctx.collab]
+    things = {"movable": found.movable, "now_at": _now_at(state, ctx)} if ctx.collab == 1 else motions_here(state)
     reply = ctx.ask(
         f"human/reflect_scene_type{ctx.collab}",
         REFLECTION_REPLY[ctx.collab],
@@ -167,12 +170,29 @@ def reflect_scene(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str
             "fixed": found.fixed,
             "states": ctx.home.states(),
             "tasks": as_tasks(state["tasks"]),
-            "n_tasks": count,
-            "findings": findings(state["tasks"], ctx.home, ctx.agent, count),
+            "n_tasks": Numbers.HUMAN_TASKS[ctx.collab],
+            "findings": state["wrong"],
         },
     )
-    revised = _revised(state, reply, "reflect_scene")
-    return {**revised, "wrong": findings(revised["tasks"], ctx.home, ctx.agent, count)}
+    return {"scene_says": opinion(reply, state["tasks"])}
+
+
+def merge(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
+    """Make one list of what the reflections of this round say of `tasks`.
+
+    Reads `profile_says` (in the first round) and `scene_says`; revises `tasks`; writes `reflections` and `wrong`.
+    """
+    ctx = runtime.context
+    opinions: dict[Node, Opinion] = {} if _rounds(state) else {"reflect_profile": state["profile_says"]}
+    opinions["reflect_scene"] = state["scene_says"]
+    tasks, reflections = agreed(
+        state["tasks"],
+        opinions,
+        state["clock"],
+        Numbers.HUMAN_TASKS[ctx.collab],
+        lambda task: obstacle(task.act, ctx.home, ctx.agent),
+    )
+    return {"tasks": tasks, "reflections": reflections, "wrong": _wrong_with(tasks, ctx)}
 
 
 def once_more(state: HumanState) -> Literal["reflect_scene", "mend"]:
@@ -194,17 +214,16 @@ def mend(state: HumanState, runtime: Runtime[HumanContext]) -> dict[str, Any]:
     return {"tasks": tasks, "repairs": repairs}
 
 
-def number(drafts: Sequence[Draft], clock: Clock) -> list[Task]:
-    """Turn drafts into tasks with ids "<hour>.<n>"."""
-    return [
-        Task(
-            id=f"{clock.hour}.{n}",
-            thought=draft.thought,
-            reasons=Reasons(human=draft.reason_human, intentions=draft.reason_intentions, tasks=draft.reason_tasks),
-            act=draft.act,
-        )
-        for n, draft in enumerate(drafts, start=1)
-    ]
+def _wrong_with(tasks: Sequence[Task], ctx: HumanContext) -> list[str]:
+    return findings(tasks, ctx.home, ctx.agent, Numbers.HUMAN_TASKS[ctx.collab])
+
+
+def _now_at(state: HumanState, ctx: HumanContext) -> dict[str, str]:
+    """Where the things of the drafted tasks are; what is not in the home is left out."""
+    places = {
+        task.act.object: ctx.home.place_of(task.act.object) for task in state["tasks"] if task.act.kind == "pick_place"
+    }
+    return {thing: place for thing, place in places.items() if place}
 
 
 def _rounds(state: HumanState) -> int:
@@ -234,29 +253,3 @@ def _fits(ctx: HumanContext, caption: str, name: str, number: int) -> bool:
     needed = affordances().names(affordances().of(caption).needs)
     in_hand = plain(needed[0]) if needed else "thing"
     return not ctx.home.misfit(ctx.agent, FreeMotion(target_id=number, target=name, in_hand=in_hand, motion=caption))
-
-
-def _with_reasons(task: Task, said: Mapping[str, Reasons]) -> Task:
-    """A task that a reflection left as it was keeps those of its reasons that the reflection does not give anew."""
-    before = said.get(task.act.describe(), Reasons())
-    given = {field: text for field, text in task.reasons.model_dump().items() if text}
-    return task.model_copy(update={"reasons": before.model_copy(update=given)})
-
-
-def _revised(
-    state: HumanState,
-    reply: PickPlaceReflectionReply | FreeMotionReflectionReply,
-    node: Literal["reflect_profile", "reflect_scene"],
-) -> dict[str, Any]:
-    before = state["tasks"]
-    said = {task.act.describe(): task.reasons for task in before}
-    after = [_with_reasons(task, said) for task in number(reply.tasks, state["clock"])]
-    texts = [task.act.describe() for task in before]
-    changes = [
-        f"{new.id}: {old or 'nothing'} -> {new.act.describe()}"
-        for old, new in zip([*texts, *[""] * len(after)], after, strict=False)
-        if old != new.act.describe()
-    ]
-    changes += [f"{old.id}: {old.act.describe()} -> dropped" for old in before[len(after) :]]
-    verdicts = [TaskVerdict(ok=v.yes, comment=v.reason) for v in reply.verdicts]
-    return {"tasks": after, "reflections": [Reflection(node=node, verdicts=verdicts, changes=changes)]}

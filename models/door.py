@@ -17,6 +17,7 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
+from coopera.core.asks import ASKS
 from coopera.core.errors import ModelCallError, ModelOutputError, RunError
 from coopera.core.hour import ModelCall
 from coopera.core.protocols import Prompts, Rendered, Reply, Role
@@ -183,15 +184,21 @@ class Door:
     def take_calls(self) -> list[ModelCall]:
         """Return the calls made since the last time, and forget them.
 
-        Nodes come in the order of their first calls. Within a node calls come in the order of their draws, since
-        parallel calls end in any order.
+        Parallel calls end in any order. So calls come by hour and person, and then in the order in which
+        `coopera.core.asks` lists the prompts. Within a node they come in the order of their draws.
         """
         with self._lock:
             calls, self._calls = self._calls, []
-        first: dict[tuple[object, ...], int] = {}
+        place = {prompt: n for n, prompt in enumerate(ASKS)}
+        first: dict[Address, int] = {}
         for n, (at, _) in enumerate(calls):
-            first.setdefault(at[:4], n)
-        return [call for at, call in sorted(calls, key=lambda entry: (first[entry[0][:4]], entry[0].draw))]
+            first.setdefault(at._replace(draw=0), n)
+
+        def turn(entry: tuple[Address, ModelCall]) -> tuple[object, ...]:
+            at, call = entry
+            return at.day, at.hour, at.person, place.get(call.prompt, len(place)), first[at._replace(draw=0)], at.draw
+
+        return [call for _, call in sorted(calls, key=turn)]
 
     def close(self) -> None:
         """Close the cache file, if there is one."""

@@ -21,6 +21,7 @@ _OBJECTS = {
 """By type and field: the variable of the prompt (an `ObjectMap`) that says which objects there are."""
 _COUNTS = {
     "verdicts": ("offers", "guesses", "tasks"),
+    "reviews": ("tasks",),
     "tasks": ("n_tasks",),
     "intentions": ("n_intentions",),
 }
@@ -74,8 +75,7 @@ def strays(value: Any, schema: Mapping[str, Any], place: str = "") -> list[str]:
 
 
 def _strays(value: Any, schema: Mapping[str, Any], definitions: Mapping[str, Any], place: str) -> Iterator[str]:
-    if "$ref" in schema:
-        schema = definitions[schema["$ref"].rpartition("/")[2]]
+    schema = _meant(schema, definitions, value is None)
     if "enum" in schema and value not in schema["enum"]:
         known = json.dumps(schema["enum"][:_SHOWN], ensure_ascii=False)
         yield f"{place}: there is no {json.dumps(value, ensure_ascii=False)}, but for example {known}"
@@ -89,6 +89,14 @@ def _strays(value: Any, schema: Mapping[str, Any], definitions: Mapping[str, Any
         for name, part in schema.get("properties", {}).items():
             if name in value:
                 yield from _strays(value[name], part, definitions, f"{place}.{name}" if place else name)
+
+
+def _meant(schema: Mapping[str, Any], definitions: Mapping[str, Any], is_null: bool) -> Mapping[str, Any]:
+    """The schema that a valid value is held to: of something or null the one that it is, and what a reference names."""
+    for option in schema.get("anyOf", ()):
+        if (option.get("type") == "null") == is_null:
+            return _meant(option, definitions, is_null)
+    return definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
 
 
 def _only(properties: dict[str, Any], field: str, objects: Mapping[str, Any]) -> None:

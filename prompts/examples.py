@@ -137,6 +137,7 @@ _FULL: dict[str, Any] = {
     "side": "I stretch before bed because my back complains.",
     "rhythm": "Wednesday, the third day of the week; you work at home from 9 am to 1 pm",
     "earlier_days": "yesterday: Bake bread, Mark essays; 2 days ago: Clean the kitchen",
+    "now_at": {"book_2": "on desk_1", "blanket_1": "inside wardrobe_1", "teapot_1": "on kitchen_counter_1"},
     "so_far": ["take the novel from the shelf at the bookshelf with the book in hand"],
     "changes": [
         {

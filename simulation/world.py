@@ -16,7 +16,8 @@ from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, P
 from coopera.simulation.acts import primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.first_places import first_states
-from coopera.simulation.acts.fitting import check_hands_over, check_moves, misfit
+from coopera.simulation.acts.fitting import check_hands_over, check_moves
+from coopera.simulation.acts.meaning import misfit
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
@@ -32,7 +33,7 @@ from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing
-from coopera.simulation.state.looks import states_in_sight, things_in_sight
+from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
 
@@ -184,7 +185,8 @@ class World:
         if plan.meant is None:
             return done
         near = None if self._ground.rank is None else round(plan.meant.likeness, 3)
-        return done.model_copy(update={"motion": plan.meant.caption, "cosine": near})
+        said = {"motion": plan.meant.caption, "cosine": near, "asked": plan.meant.asked, "neutral": plan.meant.neutral}
+        return done.model_copy(update=said)
 
     def misfit(self, agent: AgentId, act: Act) -> str:
         """What stands against an act whatever the moment, as a sentence that says what would do; empty if it fits.
@@ -253,6 +255,14 @@ class World:
     def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
         return self.layout.room_at(*self.state.agent(agent).place).name
+
+    def place_of(self, thing: str) -> str:
+        """Where a movable thing is now: "on desk_1", "inside fridge_1", "with human" or "on the floor".
+
+        Empty for what is not in the home.
+        """
+        known = self.state.find(self.layout, thing)
+        return place_in_words(self.state, known) if known is not None and not known.fixed else ""
 
     def things_on(self, room: str) -> dict[str, str]:
         """The movable things of a room that can be seen: {thing: what it is on or inside, who has it, or "floor"}."""

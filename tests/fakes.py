@@ -93,6 +93,9 @@ class FakeHome:
     def room_of(self, agent: AgentId) -> str:
         return "kitchen"
 
+    def place_of(self, thing: str) -> str:
+        return "on the floor" if thing in self.movable else ""
+
     def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         self.performed.append((agent, act, record))
         if act.describe() in self.broken:
@@ -159,8 +162,10 @@ class ScriptedAsk:
 
     def take_calls(self) -> list[ModelCall]:
         made, self._calls = self._calls, []
-        nodes = list(dict.fromkeys(at.node for at, _ in made))
-        made.sort(key=lambda pair: (nodes.index(pair[0].node), pair[0].draw))  # parallel nodes end in any order
+        prompts = list(ASKS)  # parallel calls end in any order
+        made.sort(
+            key=lambda pair: (pair[0].hour, prompts.index(pair[1].prompt), pair[0].draw)
+        )  # parallel ones end anyhow
         return [call for _, call in made]
 
     def variables_of(self, prompt: str) -> list[dict[str, Any]]:
@@ -180,12 +185,18 @@ def moving(target: str, thing: str, motion: str, target_id: int = 0) -> dict[str
     return {"thought": f"I {motion}.", "act": act}
 
 
+def reviewed(*tasks: dict[str, Any] | None, drop: Sequence[int] = (), add: Sequence[Any] = ()) -> dict[str, Any]:
+    """A reflection as a model would write it: None for a task that stays, else what it becomes; `drop` goes."""
+    reviews = [{"reason": "so", "yes": task is None and n not in drop, "task": task} for n, task in enumerate(tasks)]
+    return {"reviews": reviews, "add": list(add)}
+
+
 STIR = [moving("stove_1", thing, f"stir a pot {thing}", 3) for thing in ("spoon", "ladle", "whisk", "fork", "spatula")]
 
 
 def type2_answers() -> dict[str, Answer]:
     """A person who cooks each hour with five things, and a robot that imagines three lives for them."""
-    agree = {"verdicts": [{"yes": True, "reason": "fine"}] * 5, "tasks": STIR}
+    agree = {"reviews": [{"reason": "fine", "yes": True}] * 5}
     offers = {"Cook a meal": ["spoon", "whisk"], "Read quietly": ["novel"], "Tidy the home": ["broom", "spoon"]}
     return {
         "human/intention": lambda v: {"intention": "Cook a meal", "reason_human": f"It is {v['time']}."},

@@ -31,7 +31,11 @@ def made_up(schema: Mapping[str, Any], key: str, definitions: Mapping[str, Any] 
     number = int(hashlib.sha256(key.encode()).hexdigest()[:12], 16)
     if "enum" in schema:
         return schema["enum"][number % len(schema["enum"])]
+    if "anyOf" in schema:
+        return made_up(schema["anyOf"][number % len(schema["anyOf"])], key, known)
     kind = schema["type"]
+    if kind == "null":
+        return None
     if kind == "object":
         return {name: made_up(part, f"{key}.{name}", known) for name, part in schema["properties"].items()}
     if kind == "array":

@@ -174,6 +174,8 @@ def _add_reflections(tree: Tree, human: HumanHour) -> None:
                 branch.add(f"task {number} {'fine' if verdict.ok else 'not fine'}: {escape(verdict.comment)}")
         for change in reflection.changes:
             branch.add(f"[yellow]changed[/] {escape(change)}")
+        for change in reflection.overruled:
+            branch.add(f"[dim]overruled {escape(change)}[/]")
     for repair in human.repairs:
         tree.add(f"[yellow]mended by code[/] {escape(repair)}")
 
@@ -226,9 +228,9 @@ def _add_outcomes(tree: Tree, title: str, outcomes: Sequence[Outcome]) -> None:
 def _took(outcome: Outcome) -> str:
     """What an act took besides the way: the motion that stood for the words, what was fetched and what was opened."""
     said = []
-    if outcome.motion is not None and outcome.motion not in outcome.act.describe():
-        near = "" if outcome.cosine is None else f" (cosine {outcome.cosine:.2f})"
-        said.append(f"as {outcome.motion}{near}")
+    if outcome.motion is not None and outcome.asked:
+        near = "" if outcome.cosine is None else f" (cosine {outcome.cosine:.2f} with {outcome.asked!r})"
+        said.append(f"as {outcome.motion}{', which is neutral: no motion comes near' if outcome.neutral else ''}{near}")
     said += [f"fetched {', '.join(outcome.fetched)}"] if outcome.fetched else []
     said += [f"opened {', '.join(outcome.opened)}"] if outcome.opened else []
     return "".join(f"; {one}" for one in said)

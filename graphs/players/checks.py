@@ -26,7 +26,7 @@ def findings(tasks: Sequence[Task], home: Home, agent: AgentId, count: int) -> l
         if (text := task.act.describe()) in seen:
             found.append(f"Task {task.id} repeats an earlier task: {text}.")
         seen.add(text)
-        if wrong := _wrong(task.act, home, agent):
+        if wrong := obstacle(task.act, home, agent):
             found.append(f"Task {task.id}: {wrong}")
     return found
 
@@ -48,7 +48,7 @@ def repair(
     kept: list[Task] = []
     said: list[str] = []
     for task in tasks:
-        wrong = _wrong(task.act, home, agent)
+        wrong = obstacle(task.act, home, agent)
         act = _mended(task.act, home, agent, search) if wrong else task.act
         if act is None:
             said.append(f"Task {task.id} was dropped: {wrong}")
@@ -65,7 +65,8 @@ def repair(
     return kept, said
 
 
-def _wrong(act: Act, home: Home, agent: AgentId) -> str:
+def obstacle(act: Act, home: Home, agent: AgentId) -> str:
+    """What stands against an act of an agent, as a sentence; empty where it can be tried."""
     if isinstance(act, FreeMotion) and _is_nothing(act.in_hand):
         return f'The thing in hand cannot be "{act.in_hand}".'
     return home.misfit(agent, act)

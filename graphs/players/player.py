@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias
+from typing import Annotated, Any, NamedTuple, Protocol
 
 from langchain_core.embeddings import Embeddings
 from typing_extensions import TypedDict
@@ -25,15 +25,13 @@ from coopera.core.hour import (
 from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Circumstance, Persona
 from coopera.core.protocols import Ask, Home
-from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
 from coopera.graphs.players.changes import Change
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.players.reflecting import Draft, Opinion
 from coopera.graphs.robots.robot_view import Memories
 from coopera.memory import Search
-
-Draft: TypeAlias = PickPlaceDraft | FreeMotionDraft
 
 
 class HumanInput(TypedDict):
@@ -52,10 +50,12 @@ class HumanState(HumanInput, total=False):
     circumstances: list[Circumstance]  # by propose: what is different that day
     found: Found  # by search
     can: dict[str, list[str]]  # by search; {furniture: what can be done there, the nearest to the intention first}
-    tasks: list[Task]  # by decompose, then revised by the reflections
+    tasks: list[Task]  # by decompose, then revised by merge
     stated: bool  # by decompose: a real person has said what the tasks are
-    reflections: Annotated[list[Reflection], operator.add]  # by the reflections, in order
-    wrong: list[str]  # by reflect_scene: what code still finds wrong after it
+    wrong: list[str]  # by decompose and merge: what code finds wrong with the tasks
+    profile_says: Opinion  # by reflect_profile
+    scene_says: Opinion  # by reflect_scene
+    reflections: Annotated[list[Reflection], operator.add]  # by merge, in order
     repairs: list[str]  # by mend
 
 

@@ -18,8 +18,9 @@ from coopera.core.replies import (
     PickPlaceReply,
     VerdictsReply,
 )
-from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
+from coopera.graphs.players.reflecting import Draft
 from coopera.graphs.players.variables import all_of_the_home, as_tasks, known, living, motions_here, when, who
 from coopera.graphs.players.variety import variety
 from coopera.graphs.robots.method import Numbers

@@ -11,7 +11,7 @@ from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
 from coopera.core.household import Collab
 from coopera.core.interview import Question
-from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
+from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import (
     Interview,
     Verdict,
@@ -23,6 +23,7 @@ from coopera.graphs.players.real_person import (
     read_steps,
     read_verdicts,
 )
+from coopera.graphs.players.reflecting import Draft
 from coopera.graphs.players.simulated import Simulated, ask_for_tasks
 from coopera.graphs.robots.method import Numbers
 

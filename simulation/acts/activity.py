@@ -10,7 +10,8 @@ from coopera.core.affordances import affordances
 from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.simulation.acts import effects
 from coopera.simulation.acts.equipment import Workplace, bring_tool, gather, take_in_hand, undress
-from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, in_hand_is, motion_meant
+from coopera.simulation.acts.fitting import check_in_hand, check_place, check_tools, in_hand_is
+from coopera.simulation.acts.meaning import motion_meant
 from coopera.simulation.acts.plans import (
     Dress,
     Ground,
@@ -56,7 +57,7 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
         UnableError: With the reason why it cannot be done; where it does not fit, with what would.
     """
     target = ground.fixed(act.target, act.target_id)
-    meant = motion_meant(ground, act.motion, target)
+    meant = motion_meant(ground, state, act, target)
     motion, done = ground.motions[meant.caption], affordances().of(meant.caption)
     check_place(ground, motion, target)
     check_in_hand(ground, state, act)

@@ -1,4 +1,4 @@
-"""What fits: which motion a text means at a piece of furniture, what can be done there and with what, what goes where.
+"""What fits: what can be done at a piece of furniture and with what, and what goes where.
 
 Only what never changes while people and robots move about is asked here. A refusal names what would do.
 """
@@ -6,43 +6,17 @@ Only what never changes while people and robots move about is asked here. A refu
 from __future__ import annotations
 
 from coopera.core.affordances import Classes, Relation, affordances
-from coopera.core.household import Act, AgentId, FreeMotion, HandOver, PickPlace, plain
+from coopera.core.household import AgentId, FreeMotion, plain
 from coopera.core.naming import ends_with
 from coopera.simulation.acts.plans import Ground, UnableError
 from coopera.simulation.acts.resting import bed_for, seat_for
 from coopera.simulation.homes.catalogue import interiors
 from coopera.simulation.homes.scene import SceneObject
-from coopera.simulation.motions.library import Meant, Motion
+from coopera.simulation.motions.library import Motion
 from coopera.simulation.state.home_state import HomeState
 
-LEAST = 0.3
-"""From this cosine on a text means a motion; of nonsense MiniLM's nearest caption has at most 0.28 (measured)."""
-_NEAR_ENOUGH, _LESS = 0.4, 0.25
-"""A motion that fits the furniture is meant rather than a likelier one that does not, if it is this near, and at most
-this much less near."""
 _NAMED = 4
 _WORDS = 120
-
-
-def misfit(ground: Ground, state: HomeState, agent: AgentId, act: Act) -> str:
-    """What stands against an act whatever the moment, as a sentence; empty where it can be tried."""
-    try:
-        if isinstance(act, PickPlace):
-            thing = ground.movable(state, act.object, act.object_id)
-            receptacle = ground.receptacle(state, act.receptacle, act.receptacle_id)
-            check_receptacle(ground, thing, receptacle, act.relation if receptacle.fixed else "inside")
-        elif isinstance(act, HandOver):
-            check_hands_over(ground, state, agent, act.object)
-        else:
-            check_moves(ground, agent)
-            target = ground.fixed(act.target, act.target_id)
-            meant = motion_meant(ground, act.motion, target)
-            check_place(ground, ground.motions[meant.caption], target)
-            check_in_hand(ground, state, act)
-            check_tools(ground, state, act, meant.caption)
-    except UnableError as unable:
-        return unable.sentence
-    return ""
 
 
 def check_hands_over(ground: Ground, state: HomeState, agent: AgentId, name: str) -> None:
@@ -69,25 +43,6 @@ def check_moves(ground: Ground, agent: AgentId) -> None:
         raise UnableError("only the person moves freely")
 
 
-def motion_meant(ground: Ground, text: str, target: SceneObject) -> Meant:
-    """The motion that a text means at a piece of furniture: the nearest one, or a nearly as near one that fits it.
-
-    Raises:
-        UnableError: If none is near enough; names the nearest.
-    """
-    ranked = ground.motions.ranked(text, ground.rank)
-    if ranked[0].likeness < (LEAST if ground.rank is not None else 1e-9):
-        near = "; ".join(meant.caption for meant in ranked[:_NAMED])
-        raise UnableError(f"nobody here knows how to {text!r}; known motions are: {near} and others")
-    best = ranked[0]
-    for meant in ranked:
-        if meant.likeness < max(_NEAR_ENOUGH, best.likeness - _LESS):
-            break
-        if affordances().suits(meant.caption, target.cls):
-            return meant
-    return best
-
-
 def check_place(ground: Ground, motion: Motion, target: SceneObject) -> None:
     """A motion can be done at a piece of furniture: by the affordances, and as there is a seat or a place to lie.
 
@@ -98,7 +53,7 @@ def check_place(ground: Ground, motion: Motion, target: SceneObject) -> None:
         raise UnableError(
             f"nobody can {motion.caption} at the {plain(target.name)}; {_instead(ground, motion, target)}"
         )
-    if not _bears(ground, motion, target):
+    if not bears(ground, motion, target):
         how = "sit" if motion.posture == "sit" else "lie"
         raise UnableError(
             f"there is nothing to {how} on at the {plain(target.name)} to {motion.caption}; "
@@ -197,7 +152,7 @@ def check_receptacle(ground: Ground, thing: SceneObject, receptacle: SceneObject
         raise UnableError(f"the {plain(thing.name)} is too large to go inside the {plain(receptacle.name)}")
 
 
-def _bears(ground: Ground, motion: Motion, target: SceneObject) -> bool:
+def bears(ground: Ground, motion: Motion, target: SceneObject) -> bool:
     """Whether there is something to sit or lie on for a motion at a piece of furniture."""
     if motion.posture == "sit":
         standing = not affordances().of(motion.caption).seated
@@ -210,7 +165,7 @@ def _bears(ground: Ground, motion: Motion, target: SceneObject) -> bool:
 def _instead(ground: Ground, motion: Motion, target: SceneObject) -> str:
     """Which furniture of the home would do for a motion, that of the same room first."""
     known = affordances()
-    fits = [one for one in ground.scene.fixed if known.suits(motion.caption, one.cls) and _bears(ground, motion, one)]
+    fits = [one for one in ground.scene.fixed if known.suits(motion.caption, one.cls) and bears(ground, motion, one)]
     fits.sort(key=lambda one: (one.room != target.room, one.name))
     if fits:
         return f"{' or '.join(one.name for one in fits[:_NAMED])} would do"

@@ -85,10 +85,15 @@ class Motion(Frozen):
 
 
 class Meant(NamedTuple):
-    """A motion that a text may mean: its caption, and how alike the two are (a cosine, or the share of words)."""
+    """A motion that a text may mean: its caption, and how alike the two are (a cosine, or the share of words).
+
+    `asked` is what was compared, where it was no caption. `neutral`: nothing came near, and this stands for it.
+    """
 
     caption: str
     likeness: float
+    asked: str = ""
+    neutral: bool = False
 
 
 Rank: TypeAlias = Callable[[str], Sequence[tuple[str, float]]]

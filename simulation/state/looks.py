@@ -40,3 +40,13 @@ def _whereabouts(state: HomeState, thing: SceneObject) -> str:
     where = state.thing(thing)
     inside = f"inside {where.inside}" if where.inside is not None else None
     return state.bearer(thing.name) or where.on or inside or "floor"
+
+
+def place_in_words(state: HomeState, thing: SceneObject) -> str:
+    """Where a thing is: on or inside what, with whom, or on the floor."""
+    where, bearer = state.thing(thing), state.bearer(thing.name)
+    if bearer is not None:
+        return f"with {bearer}"
+    if where.inside is not None:
+        return f"inside {where.inside}"
+    return f"on {where.on or 'the floor'}"

@@ -20,6 +20,7 @@ from coopera.core.replies import REPLIES
 from coopera.graphs import build_human_graph
 from coopera.graphs.human import human_hour
 from coopera.graphs.players.checks import findings
+from coopera.graphs.robots.method import Numbers
 from coopera.models.parsing import BadReplyError, read_reply
 from tests.fakes import MARA, FakeHome, moving, placing
 from tests.graphs.conftest import MakeServices
@@ -30,12 +31,19 @@ NAMES = st.sampled_from(["stove_1", "desk_1", "sofa", "mug_2", "book_1", "none",
 NUMBERS = st.integers(-5, 99)
 PLACING = st.builds(placing, NAMES, NAMES, NUMBERS, NUMBERS)
 MOVING = st.builds(moving, NAMES, NAMES, NAMES, NUMBERS)
+
+
+def reviews(kind: Any) -> Any:
+    said = st.fixed_dictionaries({"yes": st.booleans()}, optional={"task": st.none() | kind})
+    return st.fixed_dictionaries({"reviews": st.lists(said, max_size=9)}, optional={"add": st.lists(kind, max_size=3)})
+
+
 OBJECTS: Any = st.fixed_dictionaries(
     {},
     optional={
         "intention": st.sampled_from(["Cook", "", "Read"]),
         "tasks": st.lists(PLACING, max_size=9) | st.lists(MOVING, max_size=9) | st.none(),
-        "verdicts": st.lists(st.fixed_dictionaries({"yes": st.booleans()}), min_size=1, max_size=3),
+        "reviews": st.lists(st.fixed_dictionaries({"yes": st.booleans()}), min_size=1, max_size=3),
     },
 )
 
@@ -44,22 +52,28 @@ NINE: Any = {"clock": Clock(day=0, hour=9), "hours": [9]}
 
 
 class AnyAsk:
-    """Reads each drawn reply as the door does; one that cannot be read is the door's error."""
+    """Reads each drawn reply as the door does; one that cannot be read is the door's error.
 
-    def __init__(self, draw: Any) -> None:
-        self._draw = draw
+    All are drawn beforehand, since the reflections ask in threads.
+    """
+
+    def __init__(self, draw: Any, collab: int) -> None:
+        kind = PLACING if collab == 1 else MOVING
+        fitting = {
+            "human/intention": st.just({"intention": "Cook"}),
+            f"human/tasks_type{collab}": st.lists(kind, min_size=1, max_size=8).map(lambda tasks: {"tasks": tasks}),
+            f"human/reflect_profile_type{collab}": reviews(kind),
+            f"human/reflect_scene_type{collab}": reviews(kind),
+        }
+        rounds = range(Numbers.SCENE_ROUNDS)
+        self._drawn = {
+            prompt: [draw(st.one_of(good, good, good, OBJECTS, st.text())) for _ in rounds]
+            for prompt, good in fitting.items()
+        }
 
     def __call__(self, prompt: str, reply: type[Any], /, *, at: Address, variables: Any, images: Any = ()) -> Any:
         assert REPLIES[ASKS[prompt].reply] is reply
-        kind = PLACING if prompt.endswith("type1") else MOVING
-        fitting = st.lists(kind, min_size=1, max_size=8).map(
-            lambda tasks: {"tasks": tasks, "verdicts": [{"yes": True}]}
-        )
-        if prompt == "human/intention":
-            fitting = st.just({"intention": "Cook"})
-        drawn = self._draw(st.one_of(fitting, fitting, fitting, OBJECTS, st.text()))
-        if isinstance(drawn, dict) and "verdicts" in drawn and "verdicts" not in reply.model_fields:
-            drawn = {key: value for key, value in drawn.items() if key != "verdicts"}
+        drawn = self._drawn[prompt][at.draw]
         text = drawn if isinstance(drawn, str) else json.dumps(drawn)
         try:
             return read_reply(text, reply)
@@ -84,7 +98,7 @@ def test_tasks_that_leave_can_be_tried_or_the_hour_fails_with_a_reason(
     @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
     @given(st.data())
     def live(data: Any) -> None:
-        ctx = make_services(ask=AnyAsk(data.draw), home=home).human(plan)
+        ctx = make_services(ask=AnyAsk(data.draw, collab), home=home).human(plan)
         try:
             hour = human_hour(graph.invoke(NINE, context=ctx))
         except ModelOutputError:  # the hour's graph records it as failed, with the reason

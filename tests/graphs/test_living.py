@@ -14,7 +14,7 @@ from coopera.core.people import PersonId
 from coopera.graphs import Services, build_day_graph, first_day
 from coopera.graphs.players.changes import Change
 from coopera.graphs.players.living import Living
-from tests.fakes import MARA, Answer, FakeHome, ScriptedAsk, placing, type2_answers
+from tests.fakes import MARA, Answer, FakeHome, ScriptedAsk, placing, reviewed, type2_answers
 from tests.graphs.conftest import MakeServices
 
 AWAY_AT_TEN = {"10 am": {"intention": "Go to work", "away": True}}
@@ -127,7 +127,6 @@ def test_the_first_hour_of_a_day_cannot_go_on(make_services: MakeServices) -> No
 
 def test_who_goes_on_is_told_the_tasks_of_the_hour_before_and_of_no_other(make_services: MakeServices) -> None:
     ask = saying({"11 am": {"intention": "Go on cooking", "continues": True}})
-    ask.answers = {**ask.answers, "human/reflect_scene_type2": ask.answers["human/reflect_profile_type2"]}
     [_, ten, _] = live(make_services(ask=ask, living=Living(lasting=True)))
     assert ten.human is not None
     nine, at_ten, eleven = ask.variables_of("human/tasks_type2")
@@ -157,13 +156,12 @@ def test_no_question_to_a_robot_or_a_judge_says_what_is_different_in_the_persons
     make_services: MakeServices, collab: Collab
 ) -> None:
     tasks = [placing("book_1", "desk_1", 4, 1), placing("mug_1", "desk_1", 5, 1), placing("mug_2", "sofa_1", 6, 2)]
-    verdicts = {"verdicts": [{"yes": True}] * 3, "tasks": tasks}
     ask = saying({})
     ask.answers = {
         **ask.answers,
         "human/tasks_type1": lambda v: {"tasks": tasks},
-        "human/reflect_profile_type1": lambda v: verdicts,
-        "human/reflect_scene_type1": lambda v: verdicts,
+        "human/reflect_profile_type1": lambda v: reviewed(),
+        "human/reflect_scene_type1": lambda v: reviewed(),
         "robot/tasks_type1": lambda v: {"tasks": tasks[1:2]},
     }
     live(make_services(ask=ask, living=Living(changes=lambda person, day: [FLU])), collab=collab)

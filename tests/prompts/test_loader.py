@@ -136,6 +136,17 @@ def test_a_person_says_what_they_want_among_the_homes_own_things_only_where_task
     assert "they are brought to you" in brought
 
 
+def test_who_checks_the_scene_reads_the_home_by_room_and_what_can_be_done(shipped: PromptLibrary) -> None:
+    lines = shipped.render("human/reflect_scene_type2", examples("human/reflect_scene_type2")[0]).text.splitlines()
+    assert "- living room: armchair_1, bookshelf_1, coffee_table_1" in lines
+    assert "- armchair: sit and read, put on headphones" in lines
+
+
+def test_who_checks_the_scene_reads_where_the_drafted_things_are(shipped: PromptLibrary) -> None:
+    text = shipped.render("human/reflect_scene_type1", examples("human/reflect_scene_type1")[0]).text
+    assert "14.1 put the book on the coffee table (book_2, now on desk_1; to coffee_table_1)." in text
+
+
 def test_people_and_robots_read_how_things_are_where_that_is_not_as_usual(shipped: PromptLibrary) -> None:
     told = [name for name, spec in PROMPTS.items() if "states" in spec.variables]
     assert "robot/tasks_type2" in told
@@ -302,6 +313,8 @@ def test_a_home_is_printed_by_room_and_by_kind(tmp_path: Path) -> None:
 
 def test_a_filter_for_homes_refuses_what_is_no_home(tmp_path: Path) -> None:
     assert ":10: " in refusal(tmp_path, HEAD + "{{ guesses | by_room }}\n")
+
+
 def test_a_home_is_described_by_rooms_once_and_without_ids(shipped: PromptLibrary) -> None:
     names = shipped.render("robot/tasks_type1", examples("robot/tasks_type1")[0]).text
     assert "- living room: armchair_1, bookshelf_1, coffee_table_1\n- study: desk_1" in names

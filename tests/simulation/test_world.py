@@ -56,6 +56,14 @@ def test_the_class_of_a_strange_name_is_the_name(home) -> None:
     assert home.class_of("grandmother's harp") == "grandmother's harp"
 
 
+def test_it_is_known_where_a_thing_is(home) -> None:
+    assert home.perform("human", put("mug_1", "coffee_table_1")).ok
+    assert home.place_of("mug_1") == "on coffee_table_1"
+    assert home.pick("human", "mug_1").ok
+    assert home.place_of("mug_1") == "with human"
+    assert home.place_of("sofa_1") == home.place_of("unicorn_1") == ""
+
+
 @pytest.mark.parametrize("agent", ["human", "robot"])
 def test_a_thing_is_carried_to_another_room_and_stays_there(home, agent) -> None:
     assert not home.on("book", "dining_table")

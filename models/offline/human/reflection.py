@@ -6,7 +6,7 @@ Each check is a real one; a task that fails it gets a "no" with the reason and i
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
@@ -17,9 +17,10 @@ from coopera.core.household import FreeMotion, PickPlace, plain
 from coopera.core.replies import (
     FreeMotionDraft,
     FreeMotionReflectionReply,
+    FreeMotionReview,
     PickPlaceDraft,
     PickPlaceReflectionReply,
-    VerdictReply,
+    PickPlaceReview,
 )
 from coopera.models.offline.household.knowledge import Activity
 from coopera.models.offline.household.placing import (
@@ -44,6 +45,7 @@ MONOTONE = 3  # one motion may be made this often in an hour, if the activity ha
 MOST = 8  # tasks that a reply may hold
 
 A = TypeVar("A", PickPlace, FreeMotion)
+D = TypeVar("D", PickPlaceDraft, FreeMotionDraft)
 
 
 @dataclass(slots=True)
@@ -76,7 +78,8 @@ def profile_type1(
             item.problems.append("this is not how I go about it")
     _replace(items, spare)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
-    return _placing_reply(items, _why(person, activity, variables, before))
+    problems = [item.problems for item in items]
+    return _placing_reply(variables, items, problems, _why(person, activity, variables, before))
 
 
 def profile_type2(
@@ -106,9 +109,9 @@ def profile_type2(
     _vary_motions(items, activity, favourites)
     for item in items:
         _to_a_fitting_place(item, options)
-    verdicts = _in_order(items, activity)
+    problems = _in_order(items, activity)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
-    return _moving_reply(items, _why(person, activity, variables, before), verdicts)
+    return _moving_reply(variables, items, problems, _why(person, activity, variables, before))
 
 
 def scene_type1(
@@ -133,19 +136,20 @@ def scene_type1(
     wanting = len(mended) < sum(bool(item.problems) for item in items) or len(items) < count
     spare = _usual_placements(sense, activity, fixed, touchable(person, variables["movable"])) if wanting else []
     _replace([item for item in items if item not in mended], spare, beside=items)
-    verdicts = [_verdict(item) for item in items]
+    problems = [item.problems for item in items]
     del items[count:]
     for place in spare:
         if len(items) < count and place.act().describe() not in [item.act.describe() for item in items]:
             items.append(_Item("", f"One more: I {place.act().describe()}.", place.act()))
-    return _placing_reply(items, _plainly(variables), verdicts)
+    return _placing_reply(variables, items, problems, _why(person, activity, variables, []))
 
 
 def scene_type2(
     sense: CommonSense, life: PrivateLife | None, variables: Mapping[str, Any], _rng: np.random.Generator
 ) -> FreeMotionReflectionReply:
     """Answer human/reflect_scene_type2: do the targets exist, is the count right, are the findings obeyed?"""
-    activity = known(life).own(sense.recognise(variables["intention"]).activity)
+    person = known(life)
+    activity = person.own(sense.recognise(variables["intention"]).activity)
     count = int(variables["n_tasks"])
     fixed, items = Surroundings(variables["fixed"]), _motions(variables["tasks"])
     for item in items:
@@ -161,7 +165,7 @@ def scene_type2(
             _other_thing(items, item, activity, things)
     for item in items:
         _to_a_fitting_place(item, options)
-    verdicts = [_verdict(item) for item in items]
+    problems = [item.problems for item in items]
     del items[count:]
     for thing in things:
         if len(items) < count and options and thing not in [item.act.in_hand for item in items]:
@@ -171,7 +175,7 @@ def scene_type2(
             _to_a_fitting_place(more, options)
             more.thought = f"One more: I {more.act.describe()}."
             items.append(more)
-    return _moving_reply(items, _plainly(variables), verdicts)
+    return _moving_reply(variables, items, problems, _why(person, activity, variables, []))
 
 
 MENDED = "(mended)"
@@ -286,8 +290,8 @@ def _move(item: _Item[FreeMotion], spot: Piece) -> None:
     item.act = item.act.model_copy(update={"target": spot.name, "target_id": spot.id})
 
 
-def _in_order(items: list[_Item[FreeMotion]], activity: Activity) -> list[VerdictReply]:
-    """Put the tasks in the order in which their things come into play; return the verdicts in the old order."""
+def _in_order(items: list[_Item[FreeMotion]], activity: Activity) -> list[list[str]]:
+    """Put the tasks in the order in which their things come into play; return the problems in the old order."""
     place = {thing: i for i, thing in enumerate(activity.thing_names)}
     latest = -1
     for item in items:
@@ -295,9 +299,9 @@ def _in_order(items: list[_Item[FreeMotion]], activity: Activity) -> list[Verdic
         if turn < latest:
             item.problems.append(f"the {item.act.in_hand} is needed earlier")
         latest = max(latest, turn)
-    verdicts = [_verdict(item) for item in items]
+    problems = [item.problems for item in items]
     items.sort(key=lambda item: place.get(item.act.in_hand, len(place)))
-    return verdicts
+    return problems
 
 
 def _classes(act: PickPlace) -> tuple[str, str]:
@@ -311,40 +315,50 @@ def _why(person: PrivateLife, activity: Activity, variables: Mapping[str, Any], 
     return lambda done, thing: reasons(person, activity, variables, before, done, thing)
 
 
-def _plainly(variables: Mapping[str, Any]) -> Why:
-    """Reasons of one who checks the scene and is not told who the person is."""
-
-    def why(done: Sequence[PickPlace | FreeMotion], _thing: str) -> Reasons:
-        before = f"It goes on from the task before: {done[-1].describe()}." if done else "It is the first thing to do."
-        part = f'It is part of "{variables["intention"]}".'
-        return Reasons(reason_human="", reason_intentions=clip(part, 400), reason_tasks=clip(before, 400))
-
-    return why
-
-
-def _verdict(item: _Item[A]) -> VerdictReply:
-    return VerdictReply(yes=not item.problems, reason=clip("; ".join(item.problems) or "It fits as it is.", 400))
-
-
 def _placing_reply(
-    items: Sequence[_Item[PickPlace]], why: Why, verdicts: Sequence[VerdictReply] | None = None
+    variables: Mapping[str, Any], items: Sequence[_Item[PickPlace]], problems: Sequence[Sequence[str]], why: Why
 ) -> PickPlaceReflectionReply:
     acts = [item.act for item in items]
-    tasks = [
+    drafts = [
         PickPlaceDraft(thought=clip(item.thought, 300), act=item.act, **why(acts[:i], plain(item.act.object)))
         for i, item in enumerate(items)
     ]
-    said = [_verdict(item) for item in items] if verdicts is None else list(verdicts)
-    return PickPlaceReflectionReply(tasks=tasks, verdicts=said)
+    given = [item.act for item in _placements(variables["tasks"])]
+    said = _reviewed(given, drafts, problems)
+    return PickPlaceReflectionReply(
+        reviews=[PickPlaceReview(reason=reason, yes=yes, task=task) for reason, yes, task in said],
+        add=drafts[len(given) :],
+    )
 
 
 def _moving_reply(
-    items: Sequence[_Item[FreeMotion]], why: Why, verdicts: Sequence[VerdictReply] | None = None
+    variables: Mapping[str, Any], items: Sequence[_Item[FreeMotion]], problems: Sequence[Sequence[str]], why: Why
 ) -> FreeMotionReflectionReply:
     acts = [item.act for item in items]
-    tasks = [
+    drafts = [
         FreeMotionDraft(thought=clip(item.thought, 300), act=item.act, **why(acts[:i], item.act.in_hand))
         for i, item in enumerate(items)
     ]
-    said = [_verdict(item) for item in items] if verdicts is None else list(verdicts)
-    return FreeMotionReflectionReply(tasks=tasks, verdicts=said)
+    given = [item.act for item in _motions(variables["tasks"])]
+    said = _reviewed(given, drafts, problems)
+    return FreeMotionReflectionReply(
+        reviews=[FreeMotionReview(reason=reason, yes=yes, task=task) for reason, yes, task in said],
+        add=drafts[len(given) :],
+    )
+
+
+def _reviewed(
+    given: Sequence[PickPlace | FreeMotion], drafts: Sequence[D], problems: Sequence[Sequence[str]]
+) -> Iterator[tuple[str, bool, D | None]]:
+    """For each given task the reason, the verdict, and the draft in its place; None if it stays, or if it goes.
+
+    A task for which there is nothing better stays in spite of its problems: it is given back as it was.
+    """
+    for n, (act, wrong) in enumerate(zip(given, problems, strict=True)):
+        draft = drafts[n] if n < len(drafts) else None
+        if draft is None:
+            yield "There are tasks enough without it.", False, None
+        elif wrong or draft.act != act:
+            yield clip("; ".join(wrong) or "Another task comes before it.", 200), False, draft
+        else:
+            yield "It fits as it is.", True, None

@@ -7,7 +7,8 @@ import pytest
 from rich.console import Console
 
 from coopera.core.errors import ConfigError
-from coopera.report.tree import evening_tree, print_json, print_trees
+from coopera.core.household import HUMAN, FreeMotion, Outcome
+from coopera.report.tree import evening_tree, hour_tree, print_json, print_trees
 from coopera.rundir.directory import RunDir
 
 
@@ -35,6 +36,28 @@ def test_an_hour_shows_everything_that_was_thought_done_and_judged(small_run: Ru
     assert f"(tp {counts.tp}, fp {counts.fp}, fn {counts.fn}, tn {counts.tn}, unscored {counts.unscored})" in text
     assert "robot/intentions · offline routine model" in text
     assert "evening" not in text
+
+
+def test_a_motion_in_other_words_is_shown_with_its_clip_and_what_was_compared(
+    small_run: RunDir,
+) -> None:
+    record = small_run.read_day(0)[1]
+    act = FreeMotion(target_id=2, target="rug_1", in_hand="whistle", motion="march briskly")
+    meant = Outcome(agent=HUMAN, act=act, ok=True, motion="run on the spot", cosine=0.41, asked="march with whistle")
+    none = meant.model_copy(update={"motion": "stand and wait", "cosine": 0.2, "neutral": True})
+    overruled = record.human.reflections[0].model_copy(update={"overruled": ["10.1: dance -> dropped"]})
+    shown_hour = record.model_copy(
+        update={
+            "robot": record.robot.model_copy(update={"outcomes": [meant, none]}),
+            "human": record.human.model_copy(update={"reflections": [overruled]}),
+        }
+    )
+    console = Console(width=4000, record=True, file=io.StringIO())
+    console.print(hour_tree(shown_hour))
+    text = console.export_text()
+    assert "as run on the spot (cosine 0.41 with 'march with whistle')" in text
+    assert "as stand and wait, which is neutral: no motion comes near (cosine 0.20 with 'march with whistle')" in text
+    assert "overruled 10.1: dance -> dropped" in text
 
 
 def test_a_failed_hour_says_why_and_shows_the_faults(small_run: RunDir) -> None:

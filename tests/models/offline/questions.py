@@ -15,7 +15,7 @@ from langchain_core.messages import HumanMessage
 from coopera.core.asks import ASKS
 from coopera.core.big_five_test import ITEMS
 from coopera.core.clock import Clock
-from coopera.core.household import Percept
+from coopera.core.household import FreeMotion, Percept, PickPlace
 from coopera.core.replies import REPLIES
 from coopera.models.offline.chat import OfflineChatModel
 from coopera.models.offline.household.knowledge import shipped
@@ -60,6 +60,7 @@ _NOTHING: dict[str, Any] = {
     "changes": [],
     "may_go_on": False,
     "may_leave": False,
+    "now_at": {},
     "told": [],
     "in_hand": None,
     "side": "I love to bake.",
@@ -139,6 +140,14 @@ def live(who: dict[str, Any], day: int = 0, seed: int = 0, rooms: Sequence[str] 
         reply = intend(who, hour, seed=1000 * seed + 100 * day + hour, day=day, today=today, rooms=list(rooms))
         lived.append(reply.intention)
     return lived
+
+
+def left_by(reply: Any, tasks: Sequence[Any]) -> list[Any]:
+    """The acts that a reflection leaves of some tasks as prompts have them, by the rule of `coopera.core.replies`."""
+    after = [task["act"] if said.yes else said.task for task, said in zip(tasks, reply.reviews, strict=True)]
+    kind: Any = PickPlace if "object" in tasks[0]["act"] else FreeMotion
+    kept = [kind.model_validate(one) if isinstance(one, dict) else one.act for one in after if one is not None]
+    return [*kept, *(draft.act for draft in reply.add)]
 
 
 def as_tasks(drafts: Sequence[Any], hour: int = 10) -> list[dict[str, Any]]:

@@ -17,7 +17,19 @@ from coopera.models.offline.household.reading import class_of
 from coopera.models.offline.human.persona import shipped_aspects
 from coopera.models.offline.human.verdicts import serves_from
 from tests.models.offline.lives import lived, of_hours, share, somebody
-from tests.models.offline.questions import FIXED, MOVABLE, activity, as_tasks, ask, intend, live, memory, person, when
+from tests.models.offline.questions import (
+    FIXED,
+    MOVABLE,
+    activity,
+    as_tasks,
+    ask,
+    intend,
+    left_by,
+    live,
+    memory,
+    person,
+    when,
+)
 
 WHEELCHAIR = "I use a wheelchair since an accident. I love music and sports. I like to dance and to run."
 VEGAN = "I am a vegan. I love to cook and bake for my friends."
@@ -46,13 +58,13 @@ def _acts(who: dict[str, Any], text: str, day: int, hour: int, collab: int) -> l
     count = 3 if collab == 1 else 5
     seed = 100 * day + hour
     drafts = ask(f"human/tasks_type{collab}", seed=seed, **now, **nothing, **home, n_tasks=count).tasks
-    first = ask(f"human/reflect_profile_type{collab}", seed=seed, **now, **nothing, **things, tasks=as_tasks(drafts))
-    again = as_tasks(first.tasks)
-    found = [f"Task {again[0]['id']}: it does not go."]
+    tasks = as_tasks(drafts)
+    found = [f"Task {tasks[0]['id']}: it does not go."]
+    first = ask(f"human/reflect_profile_type{collab}", seed=seed, **now, **nothing, **things, tasks=tasks)
     scene = ask(
-        f"human/reflect_scene_type{collab}", seed=seed, **now, **home, tasks=again, n_tasks=count, findings=found
+        f"human/reflect_scene_type{collab}", seed=seed, **now, **home, tasks=tasks, n_tasks=count, findings=found
     )
-    return [task.act for task in (*drafts, *first.tasks, *scene.tasks)]
+    return [*(task.act for task in drafts), *left_by(first, tasks), *left_by(scene, tasks)]
 
 
 def _touched(hours: Sequence[tuple[str, Sequence[Any]]]) -> set[str]:

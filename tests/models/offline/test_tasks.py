@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from coopera.core.errors import ModelCallError
 from coopera.core.household import plain
 from coopera.models.offline.household.knowledge import Activity, shipped
 from coopera.models.offline.household.reading import class_of
-from tests.models.offline.questions import FIXED, MOVABLE, as_tasks, ask, memory, person, when
+from tests.models.offline.questions import FIXED, MOVABLE, as_tasks, ask, left_by, memory, person, when
 
 BAKE = "Make a homemade treat"
 KEEPER = person(profile="I love to bake. I am a neat person. I have a dog and a cat.")
@@ -177,6 +177,13 @@ def test_the_robot_puts_things_where_it_remembers_them_put() -> None:
     assert sum("put the tray on the dining table" in some for some in texts) > 20
 
 
+class Reflected(NamedTuple):
+    """What a reflection said of each task, and the acts that it leaves."""
+
+    reviews: list[Any]
+    acts: list[Any]
+
+
 def _reflect(prompt: str, tasks: Any, who: dict[str, Any] | None = None, **changed: Any) -> Any:
     extra: dict[str, Any] = {"movable": MOVABLE} if prompt.endswith("1") else {}
     extra |= who or person()
@@ -186,15 +193,17 @@ def _reflect(prompt: str, tasks: Any, who: dict[str, Any] | None = None, **chang
     else:
         extra |= _NOTHING
     given_ = {**when(0, 10), "intention": BAKE, "fixed": FIXED, **extra, **changed}
-    return ask(prompt, **given_, tasks=tasks if isinstance(tasks[0], dict) else as_tasks(tasks))
+    given_["tasks"] = tasks if isinstance(tasks[0], dict) else as_tasks(tasks)
+    reply = ask(prompt, **given_)
+    return Reflected(reply.reviews, left_by(reply, given_["tasks"]))
 
 
 def test_the_first_reflection_moves_a_motion_to_where_it_can_be_made() -> None:
     tasks = as_tasks(_moves(person()))
     tasks[0]["act"] |= {"motion": "knead dough", "target": "stove_1", "target_id": FIXED["stove_1"][0]}
     reply = _reflect("human/reflect_profile_type2", tasks)
-    assert "nobody would knead dough at the stove" in reply.verdicts[0].reason
-    moved = next(t.act for t in reply.tasks if t.act.motion == "knead dough")
+    assert "nobody would knead dough at the stove" in reply.reviews[0].reason
+    moved = next(act for act in reply.acts if act.motion == "knead dough")
     assert class_of(moved.target) in ("kitchen_counter", "kitchen_cabinet", "dining_table")
 
 
@@ -209,11 +218,15 @@ def test_a_home_without_the_usual_places_still_puts_things_where_somebody_would(
 
 @pytest.mark.parametrize("kind", ["type1", "type2"])
 def test_good_tasks_pass_both_reflections_unchanged(kind: str) -> None:
-    tasks = _places(person()) if kind == "type1" else _reflect("human/reflect_profile_type2", _moves(person())).tasks
+    tasks = as_tasks(_places(person()) if kind == "type1" else _moves(person()))
+    fitting = _reflect(f"human/reflect_profile_{kind}", tasks).acts
+    for task, act in zip(tasks, fitting, strict=True):
+        task |= {"act": act.model_dump(exclude={"kind"}), "text": act.describe()}
     for node in ("profile", "scene"):
         reply = _reflect(f"human/reflect_{node}_{kind}", tasks)
-        assert [v.yes for v in reply.verdicts] == [True] * len(tasks)
-        assert [t.act for t in reply.tasks] == [t.act for t in tasks]
+        assert [v.yes for v in reply.reviews] == [True] * len(tasks)
+        assert [review.task for review in reply.reviews] == [None] * len(tasks)
+        assert [act.describe() for act in reply.acts] == [task["text"] for task in tasks]
 
 
 def test_the_first_reflection_throws_out_what_is_of_no_use_or_repeated_or_out_of_place() -> None:
@@ -222,12 +235,12 @@ def test_the_first_reflection_throws_out_what_is_of_no_use_or_repeated_or_out_of
     tasks[2]["act"] = {**tasks[2]["act"], "in_hand": tasks[0]["act"]["in_hand"]}
     tasks[3]["act"] = {**tasks[3]["act"], "target": "bathtub_1", "target_id": FIXED["bathtub_1"][0]}
     reply = _reflect("human/reflect_profile_type2", tasks)
-    assert [v.yes for v in reply.verdicts][:4] == [True, False, False, False]
-    assert "chainsaw is of no use" in reply.verdicts[1].reason
-    assert "already" in reply.verdicts[2].reason
-    assert "bathtub is not the place" in reply.verdicts[3].reason
-    assert len({t.act.in_hand for t in reply.tasks} & set(_known("bake").things)) == 5
-    assert {class_of(t.act.target) for t in reply.tasks} <= set(_known("bake").fixed)
+    assert [v.yes for v in reply.reviews][:4] == [True, False, False, False]
+    assert "chainsaw is of no use" in reply.reviews[1].reason
+    assert "already" in reply.reviews[2].reason
+    assert "bathtub is not the place" in reply.reviews[3].reason
+    assert len({act.in_hand for act in reply.acts} & set(_known("bake").things)) == 5
+    assert {class_of(act.target) for act in reply.acts} <= set(_known("bake").fixed)
 
 
 def test_the_first_reflection_breaks_monotony_and_mends_the_order() -> None:
@@ -236,18 +249,18 @@ def test_the_first_reflection_breaks_monotony_and_mends_the_order() -> None:
         task["act"] = {**task["act"], "motion": "stir a pot"}
         task["id"] = f"10.{number}"
     reply = _reflect("human/reflect_profile_type2", tasks)
-    assert [t.act.motion for t in reply.tasks].count("stir a pot") <= 3
-    order = [list(_known("bake").things).index(t.act.in_hand) for t in reply.tasks]
+    assert [act.motion for act in reply.acts].count("stir a pot") <= 3
+    order = [list(_known("bake").things).index(act.in_hand) for act in reply.acts]
     assert order == sorted(order)
-    assert any("needed earlier" in v.reason for v in reply.verdicts)
+    assert any("needed earlier" in v.reason for v in reply.reviews)
 
 
 def test_the_first_reflection_puts_things_as_this_person_does() -> None:
     tasks = as_tasks(_places(person()))
     tasks[0]["act"] |= {"object": "toy_car_1", "object_id": MOVABLE["toy_car_1"][0]}
     reply = _reflect("human/reflect_profile_type1", tasks)
-    assert [v.yes for v in reply.verdicts] == [False, True, True]
-    assert {(class_of(t.act.object), class_of(t.act.receptacle)) for t in reply.tasks} <= set(_known("bake").places)
+    assert [v.yes for v in reply.reviews] == [False, True, True]
+    assert {(class_of(act.object), class_of(act.receptacle)) for act in reply.acts} <= set(_known("bake").places)
 
 
 @pytest.mark.parametrize("kind", ["type1", "type2"])
@@ -257,9 +270,9 @@ def test_the_second_reflection_mends_names_and_ids_that_do_not_exist(kind: str) 
     tasks[0]["act"] = {**tasks[0]["act"], spot: "kitchen_counter_99", number: 4711}
     tasks[1]["act"] = {**tasks[1]["act"], number: 4711}
     reply = _reflect(f"human/reflect_scene_{kind}", tasks)
-    assert [v.yes for v in reply.verdicts[:3]] == [False, False, True]
-    assert getattr(reply.tasks[0].act, spot) == "kitchen_counter_1"
-    assert all(FIXED[getattr(t.act, spot)][0] == getattr(t.act, number) for t in reply.tasks)
+    assert [v.yes for v in reply.reviews[:3]] == [False, False, True]
+    assert getattr(reply.acts[0], spot) == "kitchen_counter_1"
+    assert all(FIXED[getattr(act, spot)][0] == getattr(act, number) for act in reply.acts)
 
 
 @pytest.mark.parametrize("kind", ["type1", "type2"])
@@ -267,8 +280,8 @@ def test_the_second_reflection_has_just_as_many_tasks_as_asked_for(kind: str) ->
     tasks = as_tasks(_places(person()) if kind == "type1" else _moves(person()))
     for n_tasks in (1, 2, 3, 5):
         reply = _reflect(f"human/reflect_scene_{kind}", tasks, n_tasks=n_tasks)
-        assert len({t.act.describe() for t in reply.tasks}) == n_tasks == len(reply.tasks)
-        assert len(reply.verdicts) == len(tasks)
+        assert len({act.describe() for act in reply.acts}) == n_tasks == len(reply.acts)
+        assert len(reply.reviews) == len(tasks)
 
 
 @pytest.mark.parametrize("kind", ["type1", "type2"])
@@ -276,11 +289,11 @@ def test_what_was_found_wrong_about_a_task_is_obeyed(kind: str) -> None:
     tasks = as_tasks(_places(person()) if kind == "type1" else _moves(person()))
     found = [f"Task 10.2: the {tasks[1]['text']} cannot be done, somebody sleeps there.", "The weather is bad."]
     reply = _reflect(f"human/reflect_scene_{kind}", tasks, findings=found)
-    assert [v.yes for v in reply.verdicts][:3] == [True, False, True]
-    assert reply.verdicts[1].reason == found[0]
-    assert reply.tasks[1].act.describe() != tasks[1]["text"]
-    assert reply.tasks[0].act.describe() == tasks[0]["text"]
-    assert len(reply.tasks) == len(tasks)
+    assert [v.yes for v in reply.reviews][:3] == [True, False, True]
+    assert reply.reviews[1].reason == found[0]
+    assert reply.acts[1].describe() != tasks[1]["text"]
+    assert reply.acts[0].describe() == tasks[0]["text"]
+    assert len(reply.acts) == len(tasks)
 
 
 def test_a_persons_own_words_say_whether_a_thing_goes_on_or_in() -> None:
@@ -296,5 +309,5 @@ def test_a_persons_own_words_say_whether_a_thing_goes_on_or_in() -> None:
 
 def test_the_second_reflection_leaves_it_to_the_person_whether_a_thing_goes_on_or_in() -> None:
     tasks = as_tasks(_places(person(), steps=["put the plate on the dishwasher", "put the spoon in the dishwasher"]))
-    kept = [t.act.describe() for t in _reflect("human/reflect_scene_type1", tasks, n_tasks=2).tasks]
+    kept = [act.describe() for act in _reflect("human/reflect_scene_type1", tasks, n_tasks=2).acts]
     assert kept == [task["text"] for task in tasks]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from typing import Any
 
 import pytest
 
@@ -11,7 +12,7 @@ from coopera.core.affordances import affordances
 from coopera.core.errors import SimulationError
 from coopera.simulation import World, load_scene
 from coopera.simulation.acts.plans import Handle, Walk
-from coopera.simulation.motions.library import load_library
+from coopera.simulation.motions.library import Library, load_library
 from tests.simulation.flat import bring, move
 from tests.simulation.kitchen import HOME, moves, puts
 
@@ -93,12 +94,61 @@ def test_a_motion_that_does_not_fit_is_refused_with_furniture_that_would_do(home
     assert home.misfit("human", moves("bed_1", "blanket", "lie down")) == ""
 
 
-def test_a_text_that_means_no_motion_is_refused_with_the_nearest_ones() -> None:
-    ranked = [("spin around", 0.27), ("comb the hair", 0.24), ("dance", 0.2)]
-    with World(HOME, match=lambda _: ranked) as home:
+def _meaning(**near: dict[str, float]) -> Any:
+    """Ranks all captions for a text: those given for a word of it, and the others far away."""
+
+    def rank(text: str) -> list[tuple[str, float]]:
+        given = {caption: cosine for word, some in near.items() if word in text for caption, cosine in some.items()}
+        captions = load_library().captions
+        return sorted(((caption, given.get(caption, 0.0)) for caption in captions), key=lambda one: -one[1])
+
+    return rank
+
+
+def test_words_that_mean_no_motion_are_shown_by_a_neutral_one_that_says_so() -> None:
+    with World(HOME, match=_meaning(qwertz={"spin around": 0.27, "comb the hair": 0.24})) as home:
+        seated = home.perform("human", moves("sofa_1", "mug", "qwertz blorp"))
+        standing = home.perform("human", moves("fridge_1", "mug", "qwertz blorp"))
+    assert (seated.ok, seated.motion, seated.neutral) == (True, "sit and rest", True)
+    assert (standing.ok, standing.motion, standing.neutral) == (True, "stand and wait", True)
+    assert seated.asked == "qwertz blorp with mug at sofa"
+
+
+def test_a_body_without_a_neutral_motion_refuses_words_that_mean_none_with_the_nearest_ones() -> None:
+    dancer = Library([motion for motion in load_library().motions if "dance" in motion.caption])
+    with World(HOME, motions=dancer, match=lambda _: [("dance", 0.2)]) as home:
         refused = home.perform("human", moves("sofa_1", "mug", "qwertz blorp"))
-    assert not refused.ok
-    assert refused.reason.startswith("nobody here knows how to 'qwertz blorp'; known motions are: spin around; comb")
+    assert refused.reason == "nobody here knows how to 'qwertz blorp'; known motions are: dance and others."
+
+
+def test_words_mean_a_motion_together_with_thing_and_place() -> None:
+    said = {"wash it": {"wash the face": 0.6, "wash dishes": 0.5, "wipe the surface": 0.4}}
+    together = {"cup at kitchen sink": {"wash dishes": 0.8}, "cloth at kitchen sink": {"wipe the surface": 0.9}}
+
+    def rank(text: str) -> list[tuple[str, float]]:
+        near = next((some for words, some in together.items() if words in text), said["wash it"])
+        return sorted(((one, near.get(one, 0.1)) for one in load_library().captions), key=lambda pair: -pair[1])
+
+    with World(HOME, match=rank) as home:
+        assert home.plan("human", moves("kitchen_sink_1", "cup", "wash it")).meant.caption == "wash dishes"
+        assert home.plan("human", moves("kitchen_sink_1", "cloth", "wash it")).meant.caption == "wipe the surface"
+
+
+def test_of_two_motions_that_are_as_near_the_one_that_is_done_with_the_thing_in_hand_is_made() -> None:
+    with World(HOME, match=_meaning(busy={"write by hand": 0.5, "type on a keyboard": 0.5})) as home:
+        assert home.plan("human", moves("dining_table_1", "notebook", "be busy")).meant.caption == "write by hand"
+        assert home.plan("human", moves("dining_table_1", "laptop", "be busy")).meant.caption == "type on a keyboard"
+
+
+def test_a_posture_that_is_said_counts() -> None:
+    with World(HOME, match=_meaning(sip={"stand and drink": 0.55, "drink from a cup": 0.5})) as home:
+        assert home.plan("human", moves("sofa_1", "mug", "sip slowly")).meant.caption == "stand and drink"
+        assert home.plan("human", moves("sofa_1", "mug", "sit down and sip")).meant.caption == "drink from a cup"
+
+
+def test_words_that_surely_mean_what_cannot_be_done_there_are_refused() -> None:
+    with World(HOME, match=_meaning(soup={"stir a pot": 0.8, "sit and rest": 0.2})) as home:
+        assert "stove_1 would do" in home.misfit("human", moves("sofa_1", "cooking pot", "stir the soup"))
 
 
 def test_an_outcome_says_which_motion_was_played_and_how_near_it_was_asked_for() -> None:
