@@ -24,6 +24,7 @@ _OBJECTS = {
 """By type and field: the variable of the prompt (an `ObjectMap`) that says which objects there are."""
 _COUNTS = {
     "verdicts": ("offers", "guesses", "tasks"),
+    "grades": ("offers", "guesses"),
     "tasks": ("n_tasks",),
     "intentions": ("n_intentions",),
 }

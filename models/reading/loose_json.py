@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 MAX_DEPTH = 60
 _MAX_DIGITS = 40
+_MAX_QUOTES = 100  # inside one text
 _SPACE = re.compile(r"(?:\s|//[^\n]*|#[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.])")
 _WORD = re.compile(r"[A-Za-z_][\w-]*")
@@ -142,6 +143,7 @@ class _Reader:
         """Read a text in quotes; quotes inside it that do not end it are its own."""
         ends, at = _QUOTES[self.text[self.at]], self.at + 1
         parts: list[str] = []
+        own_quotes = 0
         while True:
             found = re.compile(f"[{re.escape(ends)}\\\\]").search(self.text, at)
             if found is None:
@@ -154,8 +156,11 @@ class _Reader:
                 break
             else:
                 parts.append(found.group())
+                own_quotes += 1
+                if own_quotes > _MAX_QUOTES:
+                    self._fail("a text has too many quotes")
         said = "".join(parts)
-        if _KEY_FOLLOWS.search(said):
+        if own_quotes and _KEY_FOLLOWS.search(said):
             self._fail("a quote or a comma is missing")
         self.at = at
         return said

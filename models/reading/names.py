@@ -51,9 +51,9 @@ def nearest(said: object, names: Iterable[str], count: int = 3) -> list[str]:
         return []
     word, _ = parts(said)
     own = [name for name in known if parts(name)[0] == word]
-    spelt = {_plain(name): name for name in known}
-    alike = difflib.get_close_matches(_plain(said)[:120], list(spelt), n=count, cutoff=_NEAR)
-    return list(dict.fromkeys([*own, *(spelt[one] for one in alike)]))[:count]
+    spelt = [(difflib.SequenceMatcher(None, _plain(said)[:120], _plain(name)).ratio(), name) for name in known]
+    alike = [name for near, name in sorted(spelt, key=lambda one: (-one[0], one[1])) if near >= _NEAR]
+    return list(dict.fromkeys([*own, *alike]))[:count]
 
 
 def _plain(name: str) -> str:

@@ -124,16 +124,16 @@ def test_a_valid_object_is_found_in_whatever_stands_around_it(text: str) -> None
         ("", "it is empty"),
         ("  \n", "it is empty"),
         ("Yes, all of them.", "there is no JSON object in it"),
-        ("[true, false]", "there is no JSON object in it"),
+        ('["perhaps"]', "verdicts.0: Input should be"),
         (YES[:-4], "it is not valid JSON"),
-        ('{"verdicts": [{"yes": "yes"}]}', "verdicts.0.yes: Input should be a valid boolean"),
+        ('{"verdicts": [{"yes": "perhaps"}]}', "verdicts.0.yes: Input should be a valid boolean"),
         ('{"verdicts": [{"yes": 1}]}', "verdicts.0.yes: Input should be a valid boolean"),
         ('{"verdicts": [{"yes": NaN}]}', "NaN is not a JSON number"),
         ('{"verdicts": [{}]}', "verdicts.0.yes: Field required"),
-        ('{"verdicts": [], "note": 1}', "note: Extra inputs are not permitted"),
+        ('{"verdicts": [{"yes": true, "no": true}]}', "it says yes and no at once"),
         ('{"verdicts": [{"yes": true, "reason": "\\ud800"}]}', "verdicts.0.reason"),
         (f"{YES} or rather {NO}", "it holds 2 different answers instead of one"),
-        ("{'verdicts': [{'yes': True}]}", "it is not valid JSON"),
+        ("{'verdicts': [{'yes': Perhaps}]}", "it is not valid JSON"),
         ('{"a":' * 20_000, "it is not valid JSON"),
         ("{" * 50_000, "it is not valid JSON"),
     ],
@@ -147,6 +147,83 @@ def test_a_bad_reply_is_never_guessed_at(text: str, said: str) -> None:
     (call,) = door.take_calls()
     assert len(call.faults) == 1
     assert said in call.faults[0]
+
+
+def test_a_reply_of_plain_meaning_is_taken_as_it_is_meant_and_the_trace_says_what_was_put_right() -> None:
+    door, model = door_to("{'verdicts': [{'yes': 'Yes', 'reason': None, 'certainty': 3},]}")
+    assert [v.yes for v in ask(door).verdicts] == [True]
+    (call,) = door.take_calls()
+    assert (call.attempts, call.faults) == (1, [])
+    assert call.leniencies == {"extra field": 1, "json": 1, "null": 1, "yes/no": 1}
+    assert len(model.asked) == 1
+    door, _ = door_to(YES)
+    ask(door)
+    assert "leniencies" not in door.take_calls()[0].model_dump()
+
+
+def enforcing(*script: str | Exception, **options: Any) -> tuple[Door, ScriptedModel]:
+    """A door to a server that has three ways to be held to a schema, and refuses those of these exceptions."""
+    return door_to(*script, structures=("json_schema", "tools", "text"), **options)
+
+
+class RefusalError(OSError):
+    """A server's 400."""
+
+    status_code = 400
+
+
+def test_the_schema_is_shown_only_where_nothing_else_holds_the_reply_to_it() -> None:
+    door, model = enforcing(YES)
+    ask(door)
+    assert model.asked[0][0].text == "Judge!\n\nAnswer with one JSON object and nothing else."
+    door, model = enforcing(RefusalError("no"), YES, YES)
+    ask(door)
+    assert all("JSON schema" not in asked[0].text for asked in model.asked), "a tool shows the model its parameters"
+    door, model = enforcing(RefusalError("no"), RefusalError("no"), YES, YES)
+    ask(door)
+    ask(door)
+    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, False, True, True]
+    first, second = door.take_calls()
+    assert "JSON schema" in first.messages[0]["content"], "the trace has what was answered"
+    assert "JSON schema" in second.messages[0]["content"]
+
+
+@pytest.mark.parametrize("structure", ["text", "json_object"])
+def test_a_way_that_holds_to_no_schema_shows_it(structure: Structure) -> None:
+    door, model = door_to(YES, structures=(structure,))
+    ask(door)
+    assert '"verdicts"' in model.asked[0][0].text
+
+
+def test_a_server_that_only_seems_to_hold_replies_to_the_schema_is_noticed() -> None:
+    door, model = enforcing('{"first": true}', YES, YES)
+    ask(door)
+    ask(door)
+    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, True, True]
+    door, model = enforcing(YES, "I am sorry.", YES, YES)
+    for _ in range(3):
+        ask(door)
+    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, False, True, False]
+
+
+@pytest.mark.parametrize(("chosen", "shown"), [("always", True), ("never", False)])
+def test_the_schema_is_shown_or_not_as_the_settings_say(chosen: str, shown: bool) -> None:
+    for structure in ("json_schema", "text"):
+        door, model = door_to(YES, structures=(structure,))
+        door.settings = CallSettings(show_schema=chosen)
+        ask(door)
+        assert ("JSON schema" in model.asked[0][0].text) == shown
+
+
+def test_an_answer_is_found_again_in_the_cache_however_the_server_was_held_to_the_schema(cache: ReplyCache) -> None:
+    door, _ = enforcing(RefusalError("no"), RefusalError("no"), YES, cache=cache)
+    ask(door)
+    again, model = enforcing(cache=cache)
+    assert ask(again).verdicts
+    assert model.asked == []
+    other, model = door_to(YES, structures=("json_object",), cache=cache)
+    ask(other)
+    assert len(model.asked) == 1, "another way to hold it may give another answer"
 
 
 def test_a_bad_reply_is_shown_to_the_model_with_what_is_wrong_with_it() -> None:
