@@ -171,8 +171,10 @@ def _given(spec: GivenModel, settings: CallSettings, sleep: Sleep) -> Backend:
         return Backend(str(spec), model, reads_variables=True)
     if model._llm_type == "coopera-huggingface":
         return _of_this_process(str(spec), model, settings)
-    made = hashlib.sha256(str(model._get_llm_string()).encode()).hexdigest()
-    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (Exception,)), weights=made)
+    fields = {name: getattr(model, name, None) for name in sorted(type(model).model_fields)}
+    plain = {name: value for name, value in fields.items() if isinstance(value, str | int | float)}
+    mark = hashlib.sha256(f"{model._get_llm_string()} {plain}".encode()).hexdigest()
+    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (Exception,)), weights=mark)
 
 
 def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, sleep: Sleep) -> Backend:

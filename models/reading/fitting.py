@@ -158,7 +158,7 @@ class Fit:
         """A list that was written otherwise: inside a text, in another list, under numbers, or as its only item."""
         if isinstance(value, str):
             if (inside := self._nested(value)) is not None:
-                return inside if isinstance(inside, list) else [inside]
+                return self._listed(inside, item)
             parts_said = [part.strip() for part in re.split("[,;\n]", value) if part.strip()]
             return parts_said if item.get("type") in ("string", "integer") else value
         if isinstance(value, list) and len(value) == 1 and isinstance(value[0], list):
