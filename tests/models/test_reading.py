@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import random
 import re
+import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -45,6 +46,8 @@ GIVEN: dict[str, dict[str, Any]] = {
 FILLED = {**HOME, "n_tasks": 2, "n_intentions": 2, "offers": ["a", "b"]}
 GENERATED = 106
 """So that 200 of each kind are read."""
+MANY = 3000
+"""So many are read by `python -m tests.models.test_reading`."""
 
 
 class Entry(NamedTuple):
@@ -286,13 +289,16 @@ def broken(count: int) -> Iterator[Entry]:
                 yield Entry(wanted, "".join(letters))
 
 
-def test_two_hundred_meaningful_replies_are_read_as_they_are_meant() -> None:
-    hand = [(read(entry), entry.means, gist) for entry in by_hand("meaningful.yaml")]
-    drawn = [(read(entry), entry.means, meaning) for entry in bent(GENERATED)]
-    told = Counter(
-        "refused" if found is None else "right" if as_said(found.reply) == means else "wrong"
-        for found, means, as_said in (*hand, *drawn)
+def told_of(entries: Iterable[Entry], said: Callable[[Any], Any]) -> Counter[str]:
+    """How many replies were read as they are meant, otherwise, or not at all."""
+    found = [(read(entry), entry.means) for entry in entries]
+    return Counter(
+        "refused" if one is None else "right" if said(one.reply) == means else "wrong" for one, means in found
     )
+
+
+def test_two_hundred_meaningful_replies_are_read_as_they_are_meant() -> None:
+    told = told_of(by_hand("meaningful.yaml"), gist) + told_of(bent(GENERATED), meaning)
     assert sum(told.values()) >= 200
     assert told["wrong"] == 0
     assert told["right"] >= 0.95 * sum(told.values()), told
@@ -355,3 +361,8 @@ def test_depth_and_size_without_end_are_refused_in_a_sentence(text: str, reply: 
     with pytest.raises(BadReplyError) as err:
         read_reply(text, Wanted(REPLIES[reply], GIVEN["two"]))
     assert 0 < len(str(err.value)) < 500
+
+
+if __name__ == "__main__":
+    sys.stdout.write(f"meaningful: {dict(told_of(bent(MANY), meaning))}\n")
+    sys.stdout.write(f"meaningless: {dict(told_of(broken(MANY), meaning))}\n")
