@@ -125,7 +125,7 @@ class Door:
         if images and not backend.sees:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
-        wanted = Wanted(reply, variables)
+        wanted = Wanted(reply, variables, held=not backend.reads_variables)
         talk = Talk(rendered, backend, wanted, self.settings, way=backend.structure)
         started = time.perf_counter()
         try:
@@ -239,7 +239,7 @@ class Door:
             temperature=talk.rendered.temperature,
             seed=seed % SEEDS,
             max_tokens=self.settings.max_tokens,
-            schema=talk.schema,
+            schema=talk.wanted.enforced,
             name=talk.rendered.reply,
         )
         if self.meter is not None:
@@ -260,7 +260,7 @@ class Door:
         said = [list(turn) for turn in zip(roles, talk.texts(structure), strict=True)]
         seen = [picture.data for turn in talk.turns for picture in turn.pictures]
         chosen = [self.settings.max_tokens, self.settings.structure, structure]
-        form = [talk.rendered.temperature, *chosen, talk.schema]
+        form = [talk.rendered.temperature, *chosen, talk.wanted.enforced]
         return key_of(f"{talk.backend} {talk.backend.weights}", said, seen, form, seed)
 
     def _record(self, at: Address, talk: Talk, seconds: float) -> None:

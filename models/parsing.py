@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Generic, NamedTuple
@@ -34,10 +35,17 @@ class BadReplyError(Exception):
 
 @dataclass(frozen=True)
 class Wanted(Generic[Reply]):
-    """What a prompt asks for: a type of reply, and what the prompt's variables say of it."""
+    """What a prompt asks for: a type of reply, and what the prompt's variables say of it.
+
+    Attributes:
+        reply: The type.
+        variables: What the prompt was filled with.
+        held: Whether the reply must name and count what the variables say; the offline model is taken at its word.
+    """
 
     reply: type[Reply]
     variables: Mapping[str, Any]
+    held: bool = True
 
     @cached_property
     def objects(self) -> dict[str, dict[str, ObjectMap]]:
@@ -46,8 +54,8 @@ class Wanted(Generic[Reply]):
 
     @cached_property
     def enforced(self) -> dict[str, Any]:
-        """The schema that a backend is given to hold the reply to."""
-        return enforced_schema(self.reply, self.variables)
+        """The schema that a backend is given to hold the reply to; empty where it need not be held."""
+        return enforced_schema(self.reply, self.variables) if self.held else {}
 
     @property
     def shown(self) -> str:
@@ -104,6 +112,9 @@ def read_reply(text: str, wanted: Wanted[Reply]) -> Read[Reply]:
 
 
 def _fitted(piece: _Piece, wanted: Wanted[Reply]) -> Read[Reply]:
+    if not wanted.held:
+        with suppress(ValidationError):
+            return Read(wanted.reply.model_validate(piece.value, strict=True), {})
     fit = Fit(whole_schema(wanted.reply), wanted.objects)
     value = fit.whole(piece.value)
     if fit.problems:

@@ -53,8 +53,9 @@ def schema_of(reply: type[Frozen], named: frozenset[str] = frozenset()) -> str:
     return json.dumps(schema, ensure_ascii=False)
 
 
+@functools.lru_cache(maxsize=64)
 def whole_schema(reply: type[Frozen]) -> dict[str, Any]:
-    """All that a reply may hold, with defaults, for those who read one."""
+    """All that a reply may hold, with defaults, for those who read one; not to be changed."""
     whole: dict[str, Any] = _bare(_schema_of(reply), {"description"})
     return whole
 

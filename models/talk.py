@@ -57,11 +57,6 @@ class Talk:
     leniencies: dict[str, int] = field(default_factory=dict)
     fresh: list[tuple[str, CachedReply]] = field(default_factory=list)
 
-    @property
-    def schema(self) -> dict[str, Any]:
-        """What the reply is held to; empty for a model that answers from variables."""
-        return {} if self.backend.reads_variables else self.wanted.enforced
-
     def shows_schema(self, structure: Structure) -> bool:
         """Whether the prompt ends with the schema: where nothing else tells the model, or holds it to it."""
         if self.settings.show_schema == "auto":

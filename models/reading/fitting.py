@@ -185,7 +185,7 @@ class Fit:
                 continue
             found = [_ITEM_NUMBER.fullmatch(str(one[key])) for one in objects]
             numbers = [int(one[1]) for one in found if one]
-            if sorted(numbers) in (_counting(items, 0), _counting(items, 1)) and not _is_in_order(numbers):
+            if len(numbers) == len(items) and _is_in_order(sorted(numbers)) and not _is_in_order(numbers):
                 self.problems.append(f"{place}: the items are numbered in another order than the one asked for")
 
     def _object(self, value: Any, schema: Mapping[str, Any], kind: str, place: str) -> Any:
@@ -214,7 +214,7 @@ class Fit:
             if isinstance(value, str) and (inside := self._nested(value)) is not None:
                 value = inside
             elif isinstance(value, list):
-                lists = [one for one, part in known.items() if part.get("type") == "array"]
+                lists = _lists(schema)
                 if len(value) == 1 and isinstance(value[0], dict) and any(meant(key, known) for key in value[0]):
                     self.counted["wrapper"] += 1
                     return value[0]
@@ -274,7 +274,8 @@ class Fit:
             if one in fields or not inner:
                 continue
             belongs = {key: value for key, value in over.items() if meant(key, inner)}
-            if belongs and (not _may_be_null(part) or len(belongs) == len(inner)):
+            there = {meant(key, inner) for key in belongs}
+            if belongs and (not _may_be_null(part) or there >= set(self._inner(part).get("required", ()))):
                 self.counted["wrapper"] += 1
                 fields[one] = belongs
                 over = {key: value for key, value in over.items() if key not in belongs}
@@ -319,13 +320,15 @@ class Fit:
         else:
             made[one] = None
 
-    def _properties(self, schema: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The fields of an object, or of the one that may stand there or be left out."""
+    def _inner(self, schema: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A schema itself, or the one that it refers to, or the only one that may stand there if not null."""
         options = [one for one in schema.get("anyOf", ()) if one.get("type") != "null"]
-        schema = options[0] if len(options) == 1 else schema
-        if "$ref" in schema:
-            schema = self.schema["$defs"][schema["$ref"].rpartition("/")[2]]
-        found: Mapping[str, Any] = schema.get("properties", {})
+        inner: Mapping[str, Any] = options[0] if len(options) == 1 else schema
+        return self.schema["$defs"][inner["$ref"].rpartition("/")[2]] if "$ref" in inner else inner
+
+    def _properties(self, schema: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The fields of an object, of the one that is referred to, or of the one that may be left out."""
+        found: Mapping[str, Any] = self._inner(schema).get("properties", {})
         return found
 
     def _nested(self, text: str) -> Any:
@@ -337,6 +340,12 @@ class Fit:
         if inside is not None:
             self.counted["wrapper"] += 1
         return inside
+
+
+def _lists(schema: Mapping[str, Any]) -> list[str]:
+    """The lists that an object must have, or else those that it may have."""
+    lists = [one for one, part in schema["properties"].items() if part.get("type") == "array"]
+    return [one for one in lists if one in schema.get("required", ())] or lists
 
 
 def _wraps(key: str, value: Any, known: Mapping[str, Any]) -> bool:
@@ -364,10 +373,6 @@ def _is_one_of(value: Any, schema: Mapping[str, Any]) -> bool:
     if schema.get("type") in ("number", "integer"):
         return not isinstance(value, bool) and (not isinstance(value, str) or as_number(value, None) is not None)
     return isinstance(value, str) and schema.get("type") == "string"
-
-
-def _counting(items: list[Any], first: int) -> list[int]:
-    return list(range(first, first + len(items)))
 
 
 def _is_in_order(numbers: list[int]) -> bool:

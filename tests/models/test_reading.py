@@ -15,7 +15,7 @@ import pytest
 import yaml
 
 from coopera.core.people import Frozen
-from coopera.core.replies import REPLIES, FreeMotionReply, PickPlaceReply, VerdictsReply
+from coopera.core.replies import REPLIES, FreeMotionDraft, FreeMotionReply, PickPlaceReply, VerdictsReply
 from coopera.models.parsing import BadReplyError, Read, Wanted, read_reply
 from coopera.models.reading.names import nearest
 
@@ -328,6 +328,37 @@ def test_ids_come_from_the_prompt_and_those_of_unknown_objects_stand_for_none() 
     assert read_reply(own, Wanted(FreeMotionReply, {})).reply.tasks[0].act.target_id == 4
     with pytest.raises(BadReplyError, match="target_id: Field required"):
         read_reply(text, Wanted(FreeMotionReply, {}))
+
+
+class Checked(Frozen):
+    """A verdict on a draft, with the draft as it should be where it must change."""
+
+    reason: str = ""
+    yes: bool
+    task: FreeMotionDraft | None = None
+
+
+class CheckedReply(Frozen):
+    """Verdicts on drafts, and further drafts."""
+
+    items: list[Checked]
+    more: list[FreeMotionDraft] = []
+
+
+DRAFT = {"thought": "Peace.", "act": {"target": "Sofa", "in_hand": "book", "motion": "rest"}}
+
+
+@pytest.mark.parametrize(
+    ("value", "changed"),
+    [
+        ({"items": [{"yes": "yes", "task": "null"}, {"yes": "no", "task": DRAFT}], "more": None}, [None, 7]),
+        ([{"yes": True, "task": {}}, {"yes": False, **DRAFT}], [None, 7]),
+        ({"items": [{"yes": True, "thought": "It may stay."}]}, [None]),
+    ],
+)
+def test_what_may_be_left_out_is_read_as_left_out_and_what_is_there_is_kept(value: Any, changed: list[Any]) -> None:
+    reply = read_reply(json.dumps(value), Wanted(CheckedReply, HOME)).reply
+    assert [one.task and one.task.act.target_id for one in reply.items] == changed
 
 
 def test_each_leniency_is_counted_by_kind() -> None:
