@@ -74,7 +74,7 @@ def main() -> None:
         settings = CallSettings(max_tokens=given.tokens)
         started = time.perf_counter()
         door = open_door(
-            prompts=PromptLibrary(), specs=specs, seed=0, embeddings=LetterEmbeddings(), settings=settings, root=folder
+            prompts=PromptLibrary(), model=specs, seed=0, embeddings=LetterEmbeddings(), settings=settings, root=folder
         )
         print(f"loading both: {time.perf_counter() - started:.1f} s")
         pictures = write_pictures(folder, 2 * given.frames)

@@ -221,6 +221,8 @@ class ModelCall(Frozen):
     attempts: int = 1
     cached: bool = False
     faults: list[str] = []
+    leniencies: dict[str, int] = Field({}, exclude_if=is_empty)
+    """What was put right in the form of the reply, and how often, by kind (`coopera.models.reading.fitting`)."""
 
 
 class HourRecord(Frozen):

@@ -16,13 +16,14 @@ from coopera.core.people import Frozen, PersonId
 from coopera.evaluation.baselines import Occasion, occasions_of, offer, sight_of
 from coopera.graphs.robots.robot_view import RobotView
 from coopera.models.classifiers.state import replace_bytes
-from coopera.models.parsing import BadReplyError, read_reply
-from coopera.models.schemas import enforced_schema
+from coopera.models.parsing import BadReplyError, Wanted, read_reply
 
 if TYPE_CHECKING:
     from coopera.models.finetuning import FinetunedChat
 
 _PAST = "past.json"
+_OF_CODE = {"kind", "object_id", "receptacle_id"}
+"""Fields of an act that no model is asked for."""
 _OCCASIONS = TypeAdapter(list[Occasion])
 
 
@@ -64,11 +65,10 @@ class FinetunedModel:
             return Proposal(fallbacks=["nothing has been told yet"])
         reply = REPLY[view.collab]
         things = {kind: view.home.objects(kind) for kind in ("fixed", "movable")} if view.collab == 1 else {}
-        text = self._chat.reply(
-            question(view.person, view.clock, sight_of(view.observation)), enforced_schema(reply, things)
-        )
+        wanted: Wanted[PutReply | BringReply] = Wanted(reply, things)
+        text = self._chat.reply(question(view.person, view.clock, sight_of(view.observation)), wanted.enforced)
         try:
-            said = read_reply(text, reply)
+            said = read_reply(text, wanted).reply
         except BadReplyError as err:
             return Proposal(fallbacks=[f"the finetuned model's reply cannot be used: {err}"])
         tasks = [
@@ -109,6 +109,6 @@ def question(person: PersonId, clock: Clock, sight: str) -> str:
 
 def lesson(one: Occasion) -> tuple[str, str]:
     """The question of an hour, with what would have been the right reply."""
-    tasks = [act.model_dump() for act in map(offer, one.acts)]
+    tasks = [act.model_dump(exclude=_OF_CODE) for act in map(offer, one.acts)]
     said = json.dumps({"intention": one.intention, "tasks": tasks}, ensure_ascii=False)
     return question(one.person, one.clock, one.sight), said

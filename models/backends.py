@@ -9,31 +9,34 @@ A *spec* names a model:
 - `recorded:RUN`: the recorded replies of an earlier run;
 - `PROVIDER:MODEL`: the other providers of LangChain.
 
+A script may give a chat model of LangChain itself in the place of a spec (`coopera.models.given`).
+
 Add `+images` to a spec if the model looks at pictures and does not say so itself.
 """
 
 from __future__ import annotations
 
+import hashlib
 import importlib
-import json
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
 from langchain_core.exceptions import ModelError
 from langchain_core.language_models import BaseChatModel
-from langchain_core.messages import AIMessage, BaseMessage
 
-from coopera.core.errors import ConfigError, ModelCallError
+from coopera.core.errors import ConfigError
 from coopera.core.protocols import Role
-from coopera.models.cache import CachedReply
+from coopera.models.asking import Backend as Backend
+from coopera.models.asking import Request as Request
+from coopera.models.asking import one_line
+from coopera.models.given import OBJECT, Chosen, GivenModel, as_spec, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import OWN, CallSettings, Structure
-from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
+from coopera.models.transport import Line, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
@@ -56,101 +59,8 @@ _GARBLED = (ValueError, LookupError, TypeError, AttributeError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What the door asks of a model: messages, how to draw the reply, and the schema it should be held to."""
-
-    messages: Sequence[BaseMessage]
-    temperature: float
-    seed: int
-    max_tokens: int
-    schema: Mapping[str, Any] | None = None
-    name: str = "reply"
-
-
-Options = Callable[[Request, Structure], dict[str, Any]]
-"""A backend's way to say a request to its client, besides the messages."""
-Note = Callable[[str], None]
-
-
-def _no_options(request: Request, structure: Structure) -> dict[str, Any]:
-    return {}
-
-
-@dataclass(frozen=True, slots=True)
-class Backend:
-    """A chat model, and what the door must know of it.
-
-    Attributes:
-        name: As it stands in the trace and in the cache's keys.
-        sees: Whether it looks at pictures.
-        reads_variables: Whether it answers from the prompt's variables rather than from its text.
-        options: Turns a request into the client's arguments.
-        structures: Ways to hold it to a schema, best first; after a refusal the next one is tried.
-        line: The way to its server, if it has one.
-        address: Its server's address, if it differs from the provider's.
-        weights: A mark of its weights, for the cache: other weights of the same name have another mark.
-        past: The run with the recorded replies, if the model is a recorded one.
-    """
-
-    name: str
-    model: BaseChatModel | None
-    sees: bool = False
-    reads_variables: bool = False
-    options: Options = _no_options
-    structures: Sequence[Structure] = ("text",)
-    line: Line | None = None
-    address: str | None = None
-    weights: str = ""
-    past: Past | None = None
-    _refused: list[Structure] = field(default_factory=list)
-
-    def __str__(self) -> str:
-        """The model as error messages call it."""
-        return f"{self.name} at {self.address}" if self.address else self.name
-
-    @property
-    def structure(self) -> Structure:
-        """How it is held to a schema now."""
-        return next((one for one in self.structures if one not in self._refused), self.structures[-1])
-
-    def ask(self, request: Request, note: Note) -> CachedReply:
-        """Get an answer, patiently.
-
-        Args:
-            request: What is asked.
-            note: Is told of each failure on the way.
-
-        Raises:
-            ModelCallError: If there is none.
-        """
-        refused: list[Structure] = []
-        problem = ""
-        for structure in self.structures[self.structures.index(self.structure) :]:
-            try:
-                answer = self._ask(request, structure, note)
-            except RefusedError as err:
-                problem = str(err)
-                refused.append(structure)
-                if structure != self.structures[-1]:
-                    note(f"{problem}; asked again without {structure}")
-            else:
-                self._refused.extend(refused)
-                return answer
-        raise ModelCallError(problem)
-
-    def _ask(self, request: Request, structure: Structure, note: Note) -> CachedReply:
-        given = self.options(request, structure)
-
-        def once() -> CachedReply:
-            assert self.model is not None  # a past is never asked
-            return read_answer(self.model.invoke(list(request.messages), **given))
-
-        return once() if self.line is None else self.line.send(once, note, one_line)
-
-
 def open_backends(
-    specs: Mapping[Role, str],
+    specs: Chosen | Mapping[Role, Chosen],
     embeddings: Embeddings,
     base_url: str | None = None,
     settings: CallSettings | None = None,
@@ -160,7 +70,7 @@ def open_backends(
     """Open the model of each role; a role without a spec is played by the offline model.
 
     Args:
-        specs: The models.
+        specs: One model for all roles, or those of some roles: specs or chat models.
         embeddings: What the offline model compares texts with.
         base_url: Where an OpenAI-compatible server listens.
         settings: How models are called.
@@ -170,17 +80,18 @@ def open_backends(
     Raises:
         ConfigError: If a role or spec is unknown, or what a spec needs is not there.
     """
-    if unknown := sorted(set(specs) - set(ROLES)):
+    given = by_role(specs, ROLES)
+    if unknown := sorted(set(given) - set(ROLES)):
         raise ConfigError(f'there is no role "{unknown[0]}" for a model: the roles are {", ".join(ROLES)}')
     chosen = settings or CallSettings()
     return {
-        role: open_backend(specs.get(role, "offline"), role, embeddings, base_url, chosen, sleep, household)
+        role: open_backend(given.get(role, "offline"), role, embeddings, base_url, chosen, sleep, household)
         for role in ROLES
     }
 
 
 def open_backend(
-    spec: str,
+    chosen: Chosen,
     role: Role,
     embeddings: Embeddings,
     base_url: str | None = None,
@@ -193,7 +104,15 @@ def open_backend(
     Raises:
         ConfigError: If the spec is unknown, or what it needs is not there.
     """
-    chosen = settings or CallSettings()
+    calls = settings or CallSettings()
+    spec: str = as_spec(chosen)
+    if isinstance(spec, GivenModel):
+        return _given(spec, calls, sleep)
+    if spec.partition(":")[0] == OBJECT:
+        raise ConfigError(
+            f"the model {spec} is an object of a Python script, which no file can hold: give it again, as models= of "
+            "Config, or of resume_study for a run that was begun with it"
+        )
     if spec.partition(":")[0] == "offline":
         return _offline(spec, role, embeddings, household)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
@@ -203,10 +122,10 @@ def open_backend(
         past = Past(run)
         return Backend(spec, None, sees=past.sees(role), past=past)
     if provider == "huggingface":
-        return _huggingface(spec, name, chosen)
+        return _huggingface(spec, name, calls)
     if provider == "openai":
-        return _openai(spec, name, base_url, chosen, sleep)
-    return _any_provider(spec, provider, name, chosen, sleep)
+        return _openai(spec, name, base_url, calls, sleep)
+    return _any_provider(spec, provider, name, calls, sleep)
 
 
 def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> Backend:
@@ -223,7 +142,12 @@ def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> B
 
 
 def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
-    model = importlib.import_module("coopera.models.huggingface").open_model(name, settings)
+    return _of_this_process(
+        spec, importlib.import_module("coopera.models.huggingface").open_model(name, settings), settings
+    )
+
+
+def _of_this_process(spec: str, model: Any, settings: CallSettings) -> Backend:
     constrained = model.constrains and settings.structure != "text"
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
@@ -238,6 +162,19 @@ def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
         structures=("json_schema",) if constrained else ("text",),
         weights=model.weights,
     )
+
+
+def _given(spec: GivenModel, settings: CallSettings, sleep: Sleep) -> Backend:
+    """A chat model that a script has made: of this package, or any other, which is then asked like a provider's."""
+    model: Any = spec.model
+    if model._llm_type == "coopera-offline":
+        return Backend(str(spec), model, reads_variables=True)
+    if model._llm_type == "coopera-huggingface":
+        return _of_this_process(str(spec), model, settings)
+    fields = {name: getattr(model, name, None) for name in sorted(type(model).model_fields)}
+    plain = {name: value for name, value in fields.items() if isinstance(value, str | int | float)}
+    mark = hashlib.sha256(f"{model._get_llm_string()} {plain}".encode()).hexdigest()
+    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (Exception,)), weights=mark)
 
 
 def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, sleep: Sleep) -> Backend:
@@ -282,22 +219,30 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
         raise ConfigError(f"the model {spec} needs a package that is not installed: {one_line(err)}") from err
     except (ValueError, TypeError) as err:
         raise ConfigError(f'the model "{spec}" cannot be opened: {one_line(err)}; a model may be {_HELP}') from err
+    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (ModelError, OSError, RuntimeError)))
+
+
+def _by_tools(spec: str, model: Any, settings: CallSettings, line: Line, weights: str = "") -> Backend:
+    """Any chat model of LangChain, which is held to a schema by a tool that it must call, where it can call tools."""
     structures = tuple(one for one in _structures(settings) if one in {"tools", "text"}) or ("text",)
     takes_tools = type(model).bind_tools is not BaseChatModel.bind_tools
+    tempered = "temperature" in type(model).model_fields
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
-        if not takes_tools or structure != "tools" or request.schema is None:
-            return {"temperature": request.temperature}
+        drawn = {"temperature": request.temperature} if tempered else {}
+        if structure != "tools" or request.schema is None:
+            return drawn
         bound = model.bind_tools([_tool(request)], tool_choice=request.name)
-        return {"temperature": request.temperature, **bound.kwargs}
+        return {**drawn, **bound.kwargs}
 
     return Backend(
-        spec,
+        str(spec),
         model,
         sees=_sees(spec, model),
         options=options,
         structures=structures if takes_tools else ("text",),
-        line=_line(spec, settings, sleep, (ModelError, OSError, RuntimeError)),
+        line=line,
+        weights=weights,
     )
 
 
@@ -329,22 +274,6 @@ def _tool(request: Request) -> dict[str, Any]:
     }
 
 
-def read_answer(message: AIMessage) -> CachedReply:
-    """A model's reply as text: its words, or the arguments of its tool call."""
-    usage: Mapping[str, Any] = message.usage_metadata or {}
-    text = str(message.text)
-    if message.tool_calls:
-        text = json.dumps(message.tool_calls[0]["args"], ensure_ascii=False)
-    elif message.invalid_tool_calls:
-        text = message.invalid_tool_calls[0]["args"] or ""
-    return CachedReply(
-        text=text.encode("utf-8", "replace").decode(),
-        tokens_in=int(usage.get("input_tokens") or 0),
-        tokens_out=int(usage.get("output_tokens") or 0),
-        cut=message.response_metadata.get("finish_reason") in {"length", "max_tokens"},
-    )
-
-
 def _package(module: str, spec: str, package: str, *, unless_known: bool = False) -> Any:
     try:
         return importlib.import_module(module)
@@ -357,12 +286,3 @@ def _package(module: str, spec: str, package: str, *, unless_known: bool = False
 def _sees(spec: str, model: BaseChatModel) -> bool:
     profile: Mapping[str, Any] = model.profile or {}
     return spec.endswith(_PICTURES) or bool(profile.get("image_inputs"))
-
-
-def one_line(err: BaseException) -> str:
-    """An error's text on one line of bounded length, without any key that the environment holds."""
-    text = " ".join(str(err).split()) or type(err).__name__
-    for name, value in os.environ.items():
-        if name.endswith("_API_KEY") and len(value) > 3:
-            text = text.replace(value, f"<{name}>")
-    return text[:500]

@@ -6,7 +6,6 @@ with a bad one and asks again, a bounded number of times. Nothing else in cooper
 
 from __future__ import annotations
 
-import base64
 import threading
 import time
 from collections.abc import Mapping, Sequence
@@ -15,24 +14,23 @@ from pathlib import Path
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
-from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
 from coopera.core.asks import ASKS
 from coopera.core.errors import ModelCallError, ModelOutputError, RunError
 from coopera.core.hour import ModelCall
 from coopera.core.protocols import Prompts, Rendered, Reply, Role
 from coopera.core.randomness import Address, seed_at
-from coopera.models.backends import Backend, Request, open_backends
+from coopera.models.asking import Answer, Backend, Request
+from coopera.models.backends import open_backends
 from coopera.models.budget import Meter
 from coopera.models.cache import CachedReply, ReplyCache, key_of
-from coopera.models.parsing import BadReplyError, read_reply
-from coopera.models.recorded import SCHEMA_FOLLOWS, Past
-from coopera.models.schemas import enforced_schema, schema_of, strays
-from coopera.models.settings import OWN, CallSettings
+from coopera.models.given import Chosen
+from coopera.models.parsing import BadReplyError, Wanted, read_reply
+from coopera.models.recorded import Past
+from coopera.models.settings import OWN, CallSettings, Structure
+from coopera.models.talk import Picture, Talk, Turn
 from coopera.models.transport import Sleep, wait
 
-SHOWN = 4000  # characters of a bad reply that the model is shown again
-STRAYS = 5  # things out of place that a model is told of at once
 SEEDS = 2**31  # servers take seeds of 31 bits
 _AGAIN = (
     "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
@@ -43,9 +41,9 @@ _PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", "
 def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decides
     *,
     prompts: Prompts,
-    specs: Mapping[Role, str],
     seed: int,
     embeddings: Embeddings,
+    model: Chosen | Mapping[Role, Chosen] = "offline",
     base_url: str | None = None,
     cache: Path | None = None,
     shared: Path | None = None,
@@ -59,9 +57,10 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
 
     Args:
         prompts: The prompt folder.
-        specs: Model of each role (`coopera.models.backends`); a role that is not there is played by the offline model.
         seed: The run's seed; each call's seed derives from it and the call's address.
         embeddings: What the offline model compares texts with.
+        model: The model of all roles, or of each; one is a spec (`coopera.models.backends`) or a chat model of
+            LangChain. A role that is not there is played by the offline model.
         base_url: Where an OpenAI-compatible server listens.
         cache: SQLite file of replies by content; None keeps none. The offline model is faster than any cache.
         shared: Another such file, which runs have in common: looked into where the first has no answer.
@@ -75,49 +74,10 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         ConfigError: If a model cannot be opened.
     """
     chosen = settings or CallSettings()
-    backends = open_backends(specs, embeddings, base_url, chosen, sleep, household)
+    backends = open_backends(model, embeddings, base_url, chosen, sleep, household)
     cacheable = any(not backend.reads_variables and backend.past is None for backend in backends.values())
     replies = ReplyCache(cache, shared) if cache is not None and cacheable else None
     return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, meter=meter, settings=chosen, root=root)
-
-
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A picture to be shown to a model."""
-
-    name: str
-    mime: str
-    data: bytes
-
-
-@dataclass(slots=True)
-class _Talk:
-    """One call as it goes: what was said so far, and what it took."""
-
-    rendered: Rendered
-    backend: Backend
-    schema: dict[str, Any]
-    messages: list[BaseMessage] = field(default_factory=list)
-    written: list[dict[str, Any]] = field(default_factory=list)
-    reply: str = ""
-    tokens_in: int = 0
-    tokens_out: int = 0
-    attempts: int = 0
-    cached: int = 0
-    faults: list[str] = field(default_factory=list)
-    fresh: list[tuple[str, CachedReply]] = field(default_factory=list)
-
-    def fault(self, reason: str) -> None:
-        """Note what was wrong with the latest attempt."""
-        self.faults.append(f"attempt {self.attempts}: {reason}")
-
-    def bad(self, reason: str, *, more: bool) -> None:
-        """Note a reply that cannot be used; if there are more attempts it is shown to the model again."""
-        self.fault(reason)
-        if more:
-            shown = self.reply[:SHOWN] or "(an empty answer)"
-            self.messages.append(AIMessage(content=shown))
-            self.written.append({"role": "assistant", "content": shown})
 
 
 @dataclass(slots=True)
@@ -162,15 +122,15 @@ class Door:
         rendered = self.prompts.render(prompt, variables)
         backend = self.backends[rendered.role]
         if backend.past is not None:
-            return self._relive(backend.past, rendered, reply, at)
+            return self._relive(backend.past, rendered, Wanted(reply, variables), at)
         if images and not backend.sees:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
-        text = rendered.text if backend.reads_variables else f"{rendered.text}{SCHEMA_FOLLOWS}\n{schema_of(reply)}"
-        talk = _Talk(rendered, backend, {} if backend.reads_variables else enforced_schema(reply, variables))
+        wanted = Wanted(reply, variables, held=not backend.reads_variables)
+        talk = Talk(rendered, backend, wanted, self.settings, way=backend.structure)
         started = time.perf_counter()
         try:
-            return self._converse(talk, text, pictures, reply, at, dict(variables))
+            return self._converse(talk, pictures, wanted, at)
         except ModelCallError as err:
             talk.fault(str(err))
             raise
@@ -205,113 +165,118 @@ class Door:
         if self.cache is not None:
             self.cache.close()
 
-    def _relive(self, past: Past, rendered: Rendered, reply: type[Reply], at: Address) -> Reply:
+    def _relive(self, past: Past, rendered: Rendered, wanted: Wanted[Reply], at: Address) -> Reply:
         """Answer as it was answered in an earlier run, well or badly."""
         call = past.find(rendered.name, rendered.text, at)
         with self._lock:
             self._calls.append((at, call))
         try:
-            return read_reply(call.reply, reply)
+            return read_reply(call.reply, wanted).reply
         except BadReplyError as err:
             reason = call.faults[-1].partition(": ")[2] if call.faults else str(err)
             raise ModelOutputError(rendered.name, call.reply, reason) from err
 
-    def _converse(
-        self,
-        talk: _Talk,
-        text: str,
-        pictures: list[Picture],
-        reply: type[Reply],
-        at: Address,
-        variables: dict[str, Any],
-    ) -> Reply:
+    def _converse(self, talk: Talk, pictures: list[Picture], wanted: Wanted[Reply], at: Address) -> Reply:
         """Ask until an answer is valid, showing the model what was wrong with the one before."""
         name, reason = talk.rendered.name, ""
         for attempt in range(self.settings.attempts):
             talk.attempts = attempt + 1
+            last = talk.attempts == self.settings.attempts
             seed = seed_at(self.seed, *at, name, *([attempt] if attempt else []))
             if attempt == 0:
-                self._say(talk, text, pictures, variables, seed)
+                talk.turns.append(Turn(talk.rendered.text, seed, pictures))
             else:
-                self._say(talk, _AGAIN.format(reason=reason), [], variables, seed)
-            answer = self._send(talk, seed, pictures)
+                talk.turns.append(Turn(_AGAIN.format(reason=reason), seed))
+            answer = self._send(talk, seed)
             talk.reply = answer.text
+            unseen = not talk.shows_schema(talk.way)
             try:
-                valid = read_reply(answer.text, reply)
+                read = read_reply(answer.text, wanted)
             except BadReplyError as err:
                 reason = f"it was cut off at the length limit; {err}" if answer.cut else str(err)
-                talk.bad(reason, more=attempt + 1 < self.settings.attempts)
+                talk.bad(reason, more=not last)
+                if unseen and not answer.cut:
+                    talk.strayed = True
+                    talk.backend.notice(kept=False)
                 continue
-            last = attempt + 1 == self.settings.attempts
-            if stray := "; ".join(strays(valid.model_dump(), talk.schema)[:STRAYS]):
-                reason = stray
+            if unseen:
+                talk.backend.notice(kept=True)
+            if read.strays:
+                reason = read.strays
                 talk.bad(reason, more=not last)
                 if not last:
                     continue
             if answer.cut:
                 talk.fault("the reply reached the length limit and ends early, though it can be used")
+            talk.leniencies = read.leniencies
             if self.cache is not None:
                 self.cache.put(talk.fresh)
-            return valid
+            return read.reply
         raise ModelOutputError(name, talk.reply, reason)
 
-    def _say(self, talk: _Talk, text: str, pictures: list[Picture], variables: dict[str, Any], seed: int) -> None:
-        extra: dict[str, Any] = {}
-        if talk.backend.reads_variables:
-            temperature = talk.rendered.temperature
-            told = {"prompt": talk.rendered.name, "variables": variables, "seed": seed, "temperature": temperature}
-            extra = {"additional_kwargs": {"coopera": told}}
-        shown = [{"type": "image", "base64": base64.b64encode(p.data).decode(), "mime_type": p.mime} for p in pictures]
-        content: Any = [*shown, {"type": "text", "text": text}] if shown else text
-        talk.messages.append(HumanMessage(content=content, **extra))
-        names = {"images": [p.name for p in pictures]} if pictures else {}
-        talk.written.append({"role": "user", "content": text, **names})
-
-    def _send(self, talk: _Talk, seed: int, pictures: list[Picture]) -> CachedReply:
+    def _send(self, talk: Talk, seed: int) -> CachedReply:
         """Get one answer, from the cache or from the model.
 
         Raises:
             ModelCallError: If the model could not be reached, or its server gave no reply at all.
         """
-        backend, temperature = talk.backend, talk.rendered.temperature
-        key = None
-        if self.cache is not None and not backend.reads_variables:
-            said = [[m["role"], m["content"]] for m in talk.written]
-            form = [temperature, self.settings.max_tokens, self.settings.structure, talk.schema]
-            key = key_of(f"{backend} {backend.weights}", said, [p.data for p in pictures], form, seed)
-        answer = self.cache.get(key) if self.cache is not None and key is not None else None
-        if answer is not None:
+        found = self._remembered(talk, seed)
+        if found is not None:
             talk.cached += 1
         else:
-            request = Request(
-                talk.messages,
-                temperature=temperature,
-                seed=seed % SEEDS,
-                max_tokens=self.settings.max_tokens,
-                schema=talk.schema,
-                name=talk.rendered.reply,
-            )
-            if self.meter is not None:
-                self.meter.begin()
-            try:
-                answer = backend.ask(request, talk.fault)
-            except ModelCallError as err:
-                raise type(err)(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
-            if self.meter is not None:
-                self.meter.end(answer.tokens_in + answer.tokens_out)
-            if key is not None:
-                talk.fresh.append((key, answer))
+            found = self._ask(talk, seed)
+        answer, talk.way = found
         talk.tokens_in += answer.tokens_in
         talk.tokens_out += answer.tokens_out
         return answer
 
-    def _record(self, at: Address, talk: _Talk, seconds: float) -> None:
+    def _remembered(self, talk: Talk, seed: int) -> Answer | None:
+        """The answer that the cache has, however the model was held to the schema for it."""
+        if self.cache is None or talk.backend.reads_variables:
+            return None
+        for structure in talk.backend.ways:
+            reply = self.cache.get(self._key(talk, structure, seed))
+            if reply is not None:
+                return Answer(reply, structure)
+        return None
+
+    def _ask(self, talk: Talk, seed: int) -> Answer:
+        request = Request(
+            talk.messages,
+            temperature=talk.rendered.temperature,
+            seed=seed % SEEDS,
+            max_tokens=self.settings.max_tokens,
+            schema=talk.wanted.enforced,
+            name=talk.rendered.reply,
+        )
+        if self.meter is not None:
+            self.meter.begin()
+        try:
+            answer = talk.backend.ask(request, talk.fault)
+        except ModelCallError as err:
+            raise type(err)(f"{talk.rendered.name}: {talk.backend} cannot be asked: {err}") from err
+        if self.meter is not None:
+            self.meter.end(answer.reply.tokens_in + answer.reply.tokens_out)
+        if self.cache is not None and not talk.backend.reads_variables:
+            talk.fresh.append((self._key(talk, answer.structure, seed), answer.reply))
+        return answer
+
+    def _key(self, talk: Talk, structure: Structure, seed: int) -> str:
+        """What tells an answer from all others in the cache."""
+        roles = ["assistant" if turn.seed is None else "user" for turn in talk.turns]
+        said = [list(turn) for turn in zip(roles, talk.texts(structure), strict=True)]
+        seen = [picture.data for turn in talk.turns for picture in turn.pictures]
+        chosen = [self.settings.max_tokens, self.settings.structure, structure]
+        form = [talk.rendered.temperature, *chosen, talk.wanted.enforced]
+        return key_of(f"{talk.backend} {talk.backend.weights}", said, seen, form, seed)
+
+    def _record(self, at: Address, talk: Talk, seconds: float) -> None:
         call = ModelCall(
             node=at.node,
             prompt=talk.rendered.name,
             prompt_sha=talk.rendered.sha,
             model=talk.backend.name,
-            messages=talk.written,
+            messages=talk.written(talk.way),
             reply=talk.reply,
             seconds=round(seconds, 6),
             tokens_in=talk.tokens_in,
@@ -319,6 +284,7 @@ class Door:
             attempts=max(1, talk.attempts),
             cached=0 < talk.attempts == talk.cached,
             faults=talk.faults,
+            leniencies=talk.leniencies,
         )
         with self._lock:
             self._calls.append((at, call))

@@ -14,8 +14,8 @@ from coopera.core.hour import ModelCall
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
 
-SCHEMA_FOLLOWS = "\n\nAnswer with one JSON object and nothing else. It must fit this JSON schema:"
-"""What the door writes between a prompt and the schema of its reply."""
+ASKED_FOR = "\n\nAnswer with one JSON object and nothing else."
+"""What the door writes after a prompt, and before the schema of its reply where that is shown."""
 
 PREFIXES = ("recorded", "replay")
 """What a spec of this kind begins with; `replay` is the older word."""
@@ -52,7 +52,7 @@ class Past:
             except (OSError, ValueError, LookupError, TypeError, ValidationError) as err:
                 raise ConfigError(f"the model recorded:{run} cannot be opened: {path} is damaged") from err
             for call in calls:
-                said = str(call.messages[0]["content"]).partition(SCHEMA_FOLLOWS)[0]
+                said = str(call.messages[0]["content"]).partition(ASKED_FOR)[0]
                 self._calls[person, day, call.node, call.prompt, said].append(call)
                 if call.messages[0].get("images"):
                     self._seeing.add(ASKS[call.prompt].role)

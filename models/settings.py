@@ -60,6 +60,13 @@ class CallSettings(Frozen):
             "tools and text (the prompt alone)."
         ),
     ] = "auto"
+    show_schema: Annotated[
+        Literal["auto", "always", "never"],
+        Setting(
+            "Whether prompts end with the reply's JSON schema; auto leaves it out where the server, or the decoder of "
+            "this process, holds replies to it."
+        ),
+    ] = "auto"
     device: Annotated[
         str,
         Field(pattern=r"^(auto|cpu|mps|cuda(:\d+)?)$"),

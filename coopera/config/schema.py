@@ -23,6 +23,7 @@ from coopera.core.household import Collab, PerceptErrors
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
 from coopera.graphs.players.person_models import PERSON_MODELS
+from coopera.models.given import by_role
 from coopera.models.settings import OWN, SHARED, Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
@@ -340,9 +341,9 @@ class Config(Frozen):
     def _pictures_fit_the_eye(cls, data: Any) -> Any:
         """A robot whose model looks at pictures gets large ones (PAPER App. A: 1024x768), if nothing else is asked."""
         if isinstance(data, dict) and data.get("frame_size") is None:
-            models = data.get("models")
+            models = by_role(data.get("models"), tuple(Models.model_fields))
             robot = models.get("robot") if isinstance(models, dict) else getattr(models, "robot", None)
-            return {**data, "frame_size": SMALL if (robot or "offline").startswith("offline") else LARGE}
+            return {**data, "frame_size": SMALL if str(robot or "offline").startswith("offline") else LARGE}
         return data
 
     @field_validator("setting", "collab", mode="before")
@@ -382,6 +383,8 @@ def load_config(path: Path | None = None, flags: Mapping[str, Any] | None = None
     """
     data = _as_it_was_made(path, in_words_of_today(Config, read_yaml(path, "study file"), str(path))) if path else {}
     given = {name: value for name, value in (flags or {}).items() if value is not None}
+    if "models" in data:
+        data["models"] = by_role(data["models"], tuple(Models.model_fields))
     merged = {**data, **given}
     for section in (name for name, one in SETTINGS.items() if one.section):
         if isinstance(data.get(section), dict) and section in given:

@@ -4,30 +4,45 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, ValidatorFunctionWrapHandler, WrapValidator, model_validator
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
+from coopera.models.given import GivenModel, as_spec, by_role
 
 Text = Annotated[str, Field(min_length=1)]
 
 _MODEL = "a model such as offline"
 
 
-class Models(Frozen):
-    """Which language model plays which role."""
+def _kept(value: Any, check: ValidatorFunctionWrapHandler) -> str:
+    """A model's spec; a chat model that a script gives stays with its spec."""
+    spec = as_spec(value)
+    return spec if isinstance(spec, GivenModel) else str(check(spec))
 
-    human: Annotated[Text, Setting("Language model of the person.", _MODEL, flag="--human-model", metavar="SPEC")] = (
+
+Model = Annotated[Text, WrapValidator(_kept)]
+
+
+class Models(Frozen):
+    """Which language model plays which role: specs, or chat models of LangChain; one alone plays all."""
+
+    human: Annotated[Model, Setting("Language model of the person.", _MODEL, flag="--human-model", metavar="SPEC")] = (
         "offline"
     )
-    robot: Annotated[Text, Setting("Language model of the robot.", _MODEL, flag="--robot-model", metavar="SPEC")] = (
+    robot: Annotated[Model, Setting("Language model of the robot.", _MODEL, flag="--robot-model", metavar="SPEC")] = (
         "offline"
     )
-    judge: Annotated[Text, Setting("Language model of the judge.", _MODEL, flag="--judge-model", metavar="SPEC")] = (
+    judge: Annotated[Model, Setting("Language model of the judge.", _MODEL, flag="--judge-model", metavar="SPEC")] = (
         "offline"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _for_all_roles(cls, data: Any) -> Any:
+        return by_role(data, tuple(cls.model_fields))
 
 
 class Files(Frozen):

@@ -246,6 +246,9 @@ def _add_calls(tree: Tree, calls: Sequence[ModelCall]) -> None:
         notes += ["from the cache"] if call.cached else []
         notes += [f"{call.attempts} attempts"] if call.attempts > 1 else []
         leaf = branch.add(f"{escape(call.node)}: {escape(call.prompt)} · {escape(call.model)} · {', '.join(notes)}")
+        if call.leniencies:
+            mended = ", ".join(f"{kind} ({count})" for kind, count in call.leniencies.items())
+            leaf.add(f"[dim]put right[/] {mended}")
         for fault in call.faults:
             leaf.add(f"[red]fault[/] {escape(fault)}")
 

@@ -76,6 +76,7 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
         "calls": len(calls),
         "calls_cached": sum(call.cached for call in calls),
         "calls_with_faults": sum(bool(call.faults) for call in calls),
+        "leniencies": dict(sorted(sum((Counter(call.leniencies) for call in calls), Counter()).items())),
         "tokens": sum(call.tokens_in + call.tokens_out for call in calls),
         "tokens_cached": sum(call.tokens_in + call.tokens_out for call in calls if call.cached),
         "tokens_in": sum(call.tokens_in for call in calls),

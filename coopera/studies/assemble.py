@@ -95,7 +95,7 @@ def open_ask(
         door = open_door(
             prompts=prompts or PromptLibrary(config.prompts),
             # a model that is finetuned is held by the robot itself, and twice would be once too often
-            specs={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
+            model={**model_specs(config), **({"robot": "offline"} if tuned_model(config) else {})},
             seed=config.seed,
             embeddings=embeddings or stack.enter_context(open_embeddings(config)),
             base_url=config.base_url,

@@ -20,6 +20,7 @@ from typing import Any, TypeAlias
 
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, CooperaError, RunError
+from coopera.models.given import GivenModel
 from coopera.models.transport import share_pace
 from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
@@ -58,6 +59,8 @@ def run_studies(
         raise ConfigError("out: each of several studies needs a folder of its own.")
     ended: dict[int, Ended] = {}
     spread = min(processes, at_once, len(jobs))
+    if spread > 1 and any(isinstance(spec, GivenModel) for one in configs for _, spec in one.models):
+        raise ConfigError("models: a chat model given as an object cannot be shared by processes; leave processes=1.")
     if spread > 1:
         with Stop():  # `kill` is heard like Ctrl-C
             _in_processes(jobs, at_once, spread, ended.__setitem__, on_event)

@@ -13,7 +13,7 @@ from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.graph.state import CompiledStateGraph
 
 from coopera.config.files import canonical_json, reason, write_atomic
-from coopera.config.schema import Config
+from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError, RunError, WaitingError
 from coopera.core.hour import DayPlan
 from coopera.core.household import SceneId
@@ -25,6 +25,7 @@ from coopera.evaluation import SETTINGS, episode, pool, schedule
 from coopera.graphs import Services, build_study_graph
 from coopera.graphs.players.real_person import Interview
 from coopera.graphs.study import Waiting, waiting
+from coopera.models.given import Chosen, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.settings import Budget
 from coopera.models.transport import NobodyThereError
@@ -93,6 +94,7 @@ def resume_study(
     on_event: Callable[[Event], None] | None = None,
     ask_person: Interview = nobody,
     budget: Budget | None = None,
+    models: Chosen | Mapping[Role, Chosen] | None = None,
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
@@ -103,14 +105,17 @@ def resume_study(
         on_event: Told of each node that ends.
         ask_person: As for `run_study`.
         budget: What the run may spend in all, if not what it was begun with.
+        models: The chat models that the run was begun with, where these were objects: no file can hold them.
 
     Raises:
+        ConfigError: If such an object is missing, or another one than the run was begun with.
         RunError: If the run is still being written, or its prompts, its household file or its file of
             changes have changed since.
     """
     if (found := RunDir.open(path)).state == "finished":
         return _completed(found)
     with RunDir.resume(path, budget) as run:
+        run.config = _with_models(run.config, models)
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
         if changed:
@@ -122,6 +127,20 @@ def resume_study(
         logs = open_logs(run.config, plan_days(run.config))
         with open_services(run.config, run, run.people(), prompts, logs) as services:
             return _carry_on(run, services, on_event, ask_person)
+
+
+def _with_models(config: Config, models: Chosen | Mapping[Role, Chosen] | None) -> Config:
+    """A run's configuration with the objects in it whose specs it has."""
+    if models is None:
+        return config
+    given = Models.model_validate({**config.models.model_dump(), **by_role(models, tuple(Models.model_fields))})
+    for role, spec in config.models.model_dump().items():
+        if getattr(given, role) != spec:
+            raise ConfigError(
+                f"models: the {role} of this run was played by {spec}, and can only go on with it, not with "
+                f"{getattr(given, role)}."
+            )
+    return config.model_copy(update={"models": given})
 
 
 @contextmanager

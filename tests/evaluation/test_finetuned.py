@@ -12,7 +12,7 @@ from coopera.core.household import FreeMotion, HandOver
 from coopera.core.people import PersonId
 from coopera.evaluation.baselines import Occasion
 from coopera.evaluation.finetuned import BringReply, lesson
-from coopera.models.parsing import read_reply
+from coopera.models.parsing import Wanted, read_reply
 from coopera.rundir.directory import RunDir
 from coopera.studies.catalogues import resolve
 from coopera.studies.study import run_study
@@ -26,7 +26,9 @@ def test_the_right_reply_of_a_lesson_is_one_that_can_be_read() -> None:
     )
     assert "In the kitchen." in question
     assert "Rest" not in question
-    assert read_reply(reply, BringReply) == BringReply(intention="Rest a while", tasks=[HandOver(object="tea mug")])
+    read = read_reply(reply, Wanted(BringReply, {}))
+    assert read.reply == BringReply(intention="Rest a while", tasks=[HandOver(object="tea mug")])
+    assert read.leniencies == {}
 
 
 def test_a_model_on_a_server_cannot_be_finetuned(tmp_path: Path) -> None:

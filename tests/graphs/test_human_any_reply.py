@@ -21,7 +21,7 @@ from coopera.graphs import build_human_graph
 from coopera.graphs.human import human_hour
 from coopera.graphs.players.checks import findings
 from coopera.graphs.robots.method import Numbers
-from coopera.models.parsing import BadReplyError, read_reply
+from coopera.models.parsing import BadReplyError, Wanted, read_reply
 from tests.fakes import MARA, FakeHome, moving, placing
 from tests.graphs.conftest import MakeServices
 
@@ -76,7 +76,7 @@ class AnyAsk:
         drawn = self._drawn[prompt][at.draw]
         text = drawn if isinstance(drawn, str) else json.dumps(drawn)
         try:
-            return read_reply(text, reply)
+            return read_reply(text, Wanted(reply, variables)).reply
         except BadReplyError as err:
             raise ModelOutputError(prompt, text, str(err)) from err
 

@@ -38,7 +38,7 @@ def test_every_role_is_offline_unless_said_otherwise() -> None:
 
 def test_the_offline_door_answers_a_shipped_prompt_and_leaves_no_cache_file(tmp_path: Path) -> None:
     cache = tmp_path / "llm_cache.sqlite"
-    door = open_door(prompts=PromptLibrary(), specs={}, seed=1, embeddings=EMBEDDINGS, cache=cache)
+    door = open_door(prompts=PromptLibrary(), seed=1, embeddings=EMBEDDINGS, cache=cache)
     variables = examples("judge/tasks")[0]
     reply = door("judge/tasks", VerdictsReply, at=AT, variables=variables)
     assert len(reply.verdicts) == len(variables["offers"])
@@ -51,7 +51,7 @@ def test_the_offline_door_answers_a_shipped_prompt_and_leaves_no_cache_file(tmp_
 
 @pytest.mark.parametrize("name", sorted(ASKS))
 def test_the_offline_door_answers_every_prompt_whatever_its_variables(name: str) -> None:
-    door = open_door(prompts=PromptLibrary(), specs={}, seed=1, embeddings=EMBEDDINGS, settings=ONCE)
+    door = open_door(prompts=PromptLibrary(), seed=1, embeddings=EMBEDDINGS, settings=ONCE)
     for variables in examples(name):
         door(name, REPLIES[ASKS[name].reply], at=AT, variables=variables)
 

@@ -124,16 +124,16 @@ def test_a_valid_object_is_found_in_whatever_stands_around_it(text: str) -> None
         ("", "it is empty"),
         ("  \n", "it is empty"),
         ("Yes, all of them.", "there is no JSON object in it"),
-        ("[true, false]", "there is no JSON object in it"),
+        ('["perhaps"]', "verdicts.0: Input should be"),
         (YES[:-4], "it is not valid JSON"),
-        ('{"verdicts": [{"yes": "yes"}]}', "verdicts.0.yes: Input should be a valid boolean"),
+        ('{"verdicts": [{"yes": "perhaps"}]}', "verdicts.0.yes: Input should be a valid boolean"),
         ('{"verdicts": [{"yes": 1}]}', "verdicts.0.yes: Input should be a valid boolean"),
         ('{"verdicts": [{"yes": NaN}]}', "NaN is not a JSON number"),
         ('{"verdicts": [{}]}', "verdicts.0.yes: Field required"),
-        ('{"verdicts": [], "note": 1}', "note: Extra inputs are not permitted"),
+        ('{"verdicts": [{"yes": true, "no": true}]}', "it says yes and no at once"),
         ('{"verdicts": [{"yes": true, "reason": "\\ud800"}]}', "verdicts.0.reason"),
         (f"{YES} or rather {NO}", "it holds 2 different answers instead of one"),
-        ("{'verdicts': [{'yes': True}]}", "it is not valid JSON"),
+        ("{'verdicts': [{'yes': Perhaps}]}", "it is not valid JSON"),
         ('{"a":' * 20_000, "it is not valid JSON"),
         ("{" * 50_000, "it is not valid JSON"),
     ],
@@ -147,6 +147,15 @@ def test_a_bad_reply_is_never_guessed_at(text: str, said: str) -> None:
     (call,) = door.take_calls()
     assert len(call.faults) == 1
     assert said in call.faults[0]
+
+
+def test_a_reply_of_plain_meaning_is_taken_as_it_is_meant_and_the_trace_says_what_was_put_right() -> None:
+    door, _ = door_to("{'verdicts': [{'yes': 'Yes', 'reason': None, 'certainty': 3},]}", YES)
+    assert [ask(door).verdicts[0].yes for _ in range(2)] == [True, True]
+    call, clean = door.take_calls()
+    assert (call.attempts, call.faults) == (1, [])
+    assert call.leniencies == {"extra field": 1, "json": 1, "null": 1, "yes/no": 1}
+    assert "leniencies" not in clean.model_dump()
 
 
 def test_a_bad_reply_is_shown_to_the_model_with_what_is_wrong_with_it() -> None:

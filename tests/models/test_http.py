@@ -106,8 +106,8 @@ def assert_nothing_unreadable_became_a_no(run: RunDir) -> None:
             assert hour.success.judge.unscored == len(hour.robot.tasks if hour.robot else [])
 
 
-def test_an_hour_goes_well_though_a_third_of_all_calls_go_wrong(tmp_path: Path, data_dir: Path) -> None:
-    with serving("--faults", "0.3", "--hang", "1.5") as url:
+def test_an_hour_goes_well_though_almost_half_of_all_calls_go_wrong(tmp_path: Path, data_dir: Path) -> None:
+    with serving("--faults", "0.45", "--hang", "1.5") as url:
         run = live(tmp_path / "run", data_dir, url, 2)
         kinds = done(url)
     assert [hour.hour for hour in run.hours()] == [9, 10]

@@ -24,7 +24,7 @@ from coopera.models.batching import Batcher
 from coopera.models.constrained import HeldReply
 from coopera.models.door import Door
 from coopera.models.huggingface import HuggingFaceChat, open_model
-from coopera.models.parsing import read_reply
+from coopera.models.parsing import Wanted, read_reply
 from coopera.models.schemas import enforced_schema
 from coopera.models.settings import CallSettings
 from coopera.prompts import PromptLibrary
@@ -127,15 +127,17 @@ def test_random_weights_answer_every_prompt_with_a_valid_reply(llama: HuggingFac
 
 def test_a_constrained_reply_names_only_what_is_there_and_as_much_as_is_asked_for(llama: HuggingFaceChat) -> None:
     variables = examples("robot/tasks_type1")[0]
-    schema = enforced_schema(PickPlaceReply, variables)
+    wanted = Wanted(PickPlaceReply, variables)
     for seed in range(2):
-        text = llama.invoke("Go!", temperature=1.0, seed=seed, schema=schema, max_tokens=64).text
-        reply = read_reply(text, PickPlaceReply)
+        text = llama.invoke("Go!", temperature=1.0, seed=seed, schema=wanted.enforced, max_tokens=64).text
+        assert "_id" not in text
+        reply, leniencies, _ = read_reply(text, wanted)
+        assert leniencies == {}
         assert len(reply.tasks) == variables["n_tasks"]
         for task in reply.tasks:
             assert task.act.object in variables["movable"]
             assert task.act.receptacle in variables["fixed"]
-            assert task.act.receptacle_id in {place[0] for place in variables["fixed"].values()}
+            assert task.act.receptacle_id == variables["fixed"][task.act.receptacle][0]
 
 
 def test_prompts_that_arrive_together_are_answered_together_and_each_as_it_is_alone(llama: HuggingFaceChat) -> None:
