@@ -104,6 +104,7 @@ ASKS: dict[str, AskSpec] = {
     "human/feedback_tasks": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
     "human/grade_intentions": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "guesses"),
     "human/grade_tasks": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
+    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "robot/intentions": _spec(
         "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "told", "rooms", "percept", "first_task", "n_intentions"
     ),
@@ -123,9 +124,9 @@ ASKS: dict[str, AskSpec] = {
         *_MEMORY,
         *("told", "in_hand", "intention", "fixed", "states", "seen", "n_tasks"),
     ),
-    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),
 }
+"""By prompt, in the order in which they are asked in an hour and in an evening."""
 
 
 class InstructionSpec(NamedTuple):

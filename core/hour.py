@@ -209,6 +209,8 @@ class ModelCall(Frozen):
     attempts: int = 1
     cached: bool = False
     faults: list[str] = []
+    late: bool = Field(False, exclude_if=is_empty)
+    """Whether it belongs to an hour and was made in the evening, when nobody waited for it."""
 
 
 class HourRecord(Frozen):

@@ -17,6 +17,7 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
+from coopera.core.asks import ASKS
 from coopera.core.errors import ModelCallError, ModelOutputError, RunError
 from coopera.core.hour import ModelCall
 from coopera.core.protocols import Prompts, Rendered, Reply, Role
@@ -36,6 +37,7 @@ SEEDS = 2**31  # servers take seeds of 31 bits
 _AGAIN = (
     "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
 )
+_ORDER = {prompt: n for n, prompt in enumerate(ASKS)}
 _PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 
 
@@ -180,18 +182,20 @@ class Door:
         """Whether this role's model looks at pictures itself."""
         return self.backends[role].sees
 
-    def take_calls(self) -> list[ModelCall]:
-        """Return the calls made since the last time, and forget them.
+    def instant(self, role: Role) -> bool:
+        """Whether this role's model answers in this process, from variables; a recorded one is as it was then."""
+        backend = self.backends[role]
+        return backend.reads_variables if backend.past is None else backend.past.was_instant(role)
 
-        Nodes come in the order of their first calls. Within a node calls come in the order of their draws, since
-        parallel calls end in any order.
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        """Return the calls made since the last time, or only those made at an address, and forget them.
+
+        They come by the hour, then in the order of `ASKS` and of their draws, since parallel calls end in any order.
         """
         with self._lock:
-            calls, self._calls = self._calls, []
-        first: dict[tuple[object, ...], int] = {}
-        for n, (at, _) in enumerate(calls):
-            first.setdefault(at[:4], n)
-        return [call for at, call in sorted(calls, key=lambda entry: (first[entry[0][:4]], entry[0].draw))]
+            taken = [entry for entry in self._calls if at is None or entry[0] == at]
+            self._calls = [entry for entry in self._calls if at is not None and entry[0] != at]
+        return [call for _, call in sorted(taken, key=_place)]
 
     def close(self) -> None:
         """Close the cache file, if there is one."""
@@ -326,3 +330,9 @@ class Door:
             return Picture(name, mime, path.read_bytes())
         except OSError as err:
             raise RunError(f"{path}: the picture cannot be read: {err.strerror}") from err
+
+
+def _place(entry: tuple[Address, ModelCall]) -> tuple[int, int, int]:
+    """The place of a call among those of a day."""
+    at, call = entry
+    return at.hour, _ORDER.get(call.prompt, len(_ORDER)), at.draw

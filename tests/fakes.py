@@ -134,6 +134,7 @@ class ScriptedAsk:
     def __init__(self, answers: Mapping[str, Answer]) -> None:
         self.answers = answers
         self.asked: list[tuple[str, Address, dict[str, Any]]] = []
+        self.slow: set[Role] = set()
         self._calls: list[tuple[Address, ModelCall]] = []
 
     def __call__(
@@ -157,10 +158,14 @@ class ScriptedAsk:
     def sees(self, role: Role) -> bool:
         return False
 
-    def take_calls(self) -> list[ModelCall]:
-        made, self._calls = self._calls, []
-        nodes = list(dict.fromkeys(at.node for at, _ in made))
-        made.sort(key=lambda pair: (nodes.index(pair[0].node), pair[0].draw))  # parallel nodes end in any order
+    def instant(self, role: Role) -> bool:
+        return role not in self.slow
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        made = [pair for pair in self._calls if at in (None, pair[0])]
+        self._calls = [pair for pair in self._calls if pair not in made]
+        order = list(ASKS)
+        made.sort(key=lambda pair: (pair[0].hour, order.index(pair[1].prompt), pair[0].draw))  # threads end in any order
         return [call for _, call in made]
 
     def variables_of(self, prompt: str) -> list[dict[str, Any]]:

@@ -17,6 +17,7 @@ from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
+from coopera.core.randomness import Address
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
 from coopera.graphs.earlier_life import EarlierLife
@@ -251,8 +252,11 @@ class _Interruptible:
     def sees(self, role: Role) -> bool:
         return self._ask.sees(role)
 
-    def take_calls(self) -> list[ModelCall]:
-        return self._ask.take_calls()
+    def instant(self, role: Role) -> bool:
+        return self._ask.instant(role)
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        return self._ask.take_calls(at)
 
 
 class _Homes:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from functools import partial
+from typing import Any, ClassVar, Literal
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.errors import ModelOutputError
@@ -22,6 +23,7 @@ from coopera.graphs.players.player import Decomposed, Draft, HumanContext, Human
 from coopera.graphs.players.real_person import HELPFUL, Verdict
 from coopera.graphs.players.variables import as_tasks, known, living, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
+from coopera.graphs.together import together
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 
@@ -35,6 +37,7 @@ class Simulated:
     """
 
     graded: bool = False
+    one_by_one: ClassVar[bool] = False
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
         """Ask for the intention of this hour, or take it from the intentions of the whole day."""
@@ -52,16 +55,17 @@ class Simulated:
         return Decomposed(ask_for_tasks(state, ctx), stated=False)
 
     def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
-        """Ask about the intentions, and about the tasks."""
+        """Ask about the intentions and about the tasks, at once."""
         about = {**when(clock), **who(ctx), "intention": human.intention.text}
         guesses = [candidate.text for candidate in robot.intentions]
         offers = [{"thought": t.thought, "text": t.act.describe()} for t in robot.tasks]
         asked = {**about, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
         at = Address(ctx.persona.id, clock.day, clock.hour, "feedback")
-        return [
-            *self._ask_verdicts(ctx, "intentions", at, {**about, "guesses": guesses}, len(guesses)),
-            *self._ask_verdicts(ctx, "tasks", at, asked, len(offers)),
+        both = [
+            partial(self._ask_verdicts, ctx, "intentions", at, {**about, "guesses": guesses}, len(guesses)),
+            partial(self._ask_verdicts, ctx, "tasks", at, asked, len(offers)),
         ]
+        return [verdict for said in together(both, waits=not ctx.ask.instant("human")) for verdict in said]
 
     def present(self) -> Player:
         """The same: a model can always be asked."""
