@@ -3,8 +3,8 @@
     python -m benchmarks.prompt_costs [--types 1 2] [--days 2] [--hours 3] [--tokenizer tokenizer.json] [--json]
 
 Everything but the model is real. The model is a scripted OpenAI-compatible server in this process. Its replies fit the
-schema that arrives, name what the home has, and are as long as those of a capable model (`LENGTHS`, in characters, after
-two days that one lived). In a reflection it finds fault with one task of five.
+schema that arrives, name what the home has, and are about as long as those of the first capable model that lived here
+(`LENGTHS`). In a reflection it finds fault with one task of five.
 
 A round trip is counted as it happens: the server holds every request until no other has come for `--quiet` seconds, and
 then answers all that it holds. So requests that wait for each other can never share a trip. Tokens are those of the
@@ -22,7 +22,7 @@ import tempfile
 import threading
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -36,32 +36,30 @@ from coopera.rundir.directory import RunDir
 from coopera.simulation import load_scene
 
 LENGTHS = {
-    "intention": 60,
-    "thought": 75,
-    "reason": 75,
-    "reason_human": 95,
-    "reason_intentions": 85,
-    "reason_tasks": 80,
-    "reason_vision": 75,
-    "reasons_big_five": 350,
-    "reasons_profile": 300,
-    "profile": 500,
-    "seen": 70,
+    "intention": 50,
+    "thought": 65,
+    "reason": 60,
+    "reason_human": 65,
+    "reason_intentions": 60,
+    "reason_tasks": 55,
+    "reason_vision": 60,
+    "reasons_big_five": 250,
+    "reasons_profile": 200,
+    "profile": 400,
+    "seen": 60,
     "motion": 30,
 }
-"""Characters of a field, on average; 40 where it is not named here."""
+"""Characters of a field, on average; 40 where it is not named. A reflection on five tasks then has some 700 tokens."""
 _LISTED = {"wants": 6, "tasks": 3}
-"""Items of a list whose length the schema leaves open; one where it is not named here, and none where there may be none."""
+"""Items of a list whose length the schema leaves open; as few as may be where it is not named."""
 _WANTED = 10  # characters of one of the things that an intention names
 _FAULTY = 5  # one task of so many is found wanting
-_WORDS = (
-    "the and a to in of for with at my on it this that is be after before then morning evening quiet some little time "
-    "kitchen desk table sofa window garden cup tea book notebook plan work music lunch dinner clean wash dry put take "
-    "bring make read write call rest stretch slowly carefully together again because likes prefers usually calm tidy"
-).split()
-_THINGS = "mug|notebook|pen|laptop|sponge|towel|phone|novel|water bottle|apple|blanket|remote control|plate|radio".split(
-    "|"
-)
+_WORDS = """
+the and a to in of for with at my on it this that is be after before then morning evening quiet some little time kitchen
+desk table sofa window garden cup tea book notebook plan work music lunch dinner clean wash dry put take bring make read
+write call rest stretch slowly carefully together again because likes prefers usually calm tidy
+"""
+_THINGS = "mug, notebook, pen, laptop, sponge, towel, phone, novel, water bottle, apple, blanket, remote control, plate"
 Tokens = Callable[[str], int]
 
 
@@ -86,8 +84,16 @@ class Writer:
         written: dict[str, Any] = self._value("", schema, schema.get("$defs", {}), random.Random(prompt), 0)
         return written
 
-    def _value(self, name: str, part: Mapping[str, Any], known: Mapping[str, Any], rng: random.Random, n: int) -> Any:
-        """A value; `n` is its place in the list that it stands in."""
+    def _value(
+        self,
+        name: str,
+        part: Mapping[str, Any],
+        known: Mapping[str, Any],
+        rng: random.Random,
+        n: int,
+        listed: Mapping[str, int] = _LISTED,
+    ) -> Any:
+        """A value; `n` is its place in the list that it stands in, `listed` how long lists are that may be longer."""
         if "$ref" in part:
             return self._value(name, known[part["$ref"].rpartition("/")[2]], known, rng, n)
         if "anyOf" in part:
@@ -96,13 +102,13 @@ class Writer:
         if "const" in part:
             return part["const"]
         if "enum" in part:
-            return "on" if "on" in part["enum"] else part["enum"][(rng.randrange(997) + n) % len(part["enum"])]
+            return "on" if "on" in part["enum"] else _pick(part["enum"], rng, n)
         kind = part["type"]
         if kind == "object":
             return self._object(part, known, rng, n)
         if kind == "array":
             open_end = part.get("minItems", 0) < part.get("maxItems", 64)
-            count = _LISTED.get(name, part.get("minItems", 0)) if open_end else part["minItems"]
+            count = listed.get(name, part.get("minItems", 0)) if open_end else part["minItems"]
             return [self._value(name, part["items"], known, rng, m) for m in range(count)]
         if kind == "boolean":
             return name == "yes" and n % _FAULTY != 1
@@ -110,7 +116,9 @@ class Writer:
 
     def _object(self, part: Mapping[str, Any], known: Mapping[str, Any], rng: random.Random, n: int) -> dict[str, Any]:
         fields = part["properties"]
-        found = {name: self._value(name, one, known, rng, n) for name, one in fields.items()}
+        # a reflection that judges five tasks gives five back
+        listed = {**_LISTED, "tasks": fields.get("verdicts", {}).get("minItems", _LISTED["tasks"])}
+        found = {name: self._value(name, one, known, rng, n, listed) for name, one in fields.items()}
         if found.get("yes") is True and "task" in found:
             found["task"] = None
         for name in found:
@@ -122,19 +130,26 @@ class Writer:
 
     def _can_be_done(self, task: dict[str, Any], n: int) -> None:
         """A motion that is made at the furniture, with what it needs in hand."""
-        if motions := affordances().motions_at(task["target"].rpartition("_")[0]):
+        named = affordances().motions_at(task["target"].rpartition("_")[0])
+        if motions := [one for one in named if not one.startswith(("sit", "lie"))]:  # there may be no seat
             task["motion"] = motions[n % len(motions)]
             needed = affordances().names(affordances().of(task["motion"]).needs)
             task["in_hand"] = needed[0].replace("_", " ") if needed else task["in_hand"]
 
     def _text(self, name: str, rng: random.Random, n: int) -> str:
         if name in {"object", "in_hand"}:
-            return _THINGS[(rng.randrange(97) + n) % len(_THINGS)]
+            return _pick(_THINGS.split(", "), rng, n)
         long = (_WANTED if name == "wants" else LENGTHS.get(name, 40)) * rng.uniform(0.7, 1.3)
-        said = rng.choice(_WORDS)
+        words = _WORDS.split()
+        said = rng.choice(words)
         while len(said) < long:
-            said += f" {rng.choice(_WORDS)}"
+            said += f" {rng.choice(words)}"
         return said
+
+
+def _pick(some: Sequence[str], rng: random.Random, n: int) -> str:
+    """One of some things; the items of a list have different ones."""
+    return some[(rng.randrange(997) + n) % len(some)]
 
 
 class Scripted:
