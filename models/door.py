@@ -295,7 +295,7 @@ class Door:
             except ModelCallError as err:
                 raise type(err)(f"{talk.rendered.name}: {backend} cannot be asked: {err}") from err
             if self.meter is not None:
-                self.meter.end(answer.tokens_in + answer.tokens_out)
+                self.meter.end(backend.name, answer.tokens_in, answer.tokens_out)
             if key is not None:
                 talk.fresh.append((key, answer))
         talk.tokens_in += answer.tokens_in

@@ -164,8 +164,8 @@ class ScriptedAsk:
     def take_calls(self, at: Address | None = None) -> list[ModelCall]:
         made = [pair for pair in self._calls if at in (None, pair[0])]
         self._calls = [pair for pair in self._calls if pair not in made]
-        order = list(ASKS)
-        made.sort(key=lambda pair: (pair[0].hour, order.index(pair[1].prompt), pair[0].draw))  # threads end in any order
+        order = list(ASKS)  # threads end in any order
+        made.sort(key=lambda pair: (pair[0].hour, order.index(pair[1].prompt), pair[0].draw))
         return [call for _, call in made]
 
     def variables_of(self, prompt: str) -> list[dict[str, Any]]:

@@ -22,6 +22,7 @@ from langchain_core.messages import AIMessage, BaseMessage
 from langchain_core.outputs import ChatGeneration, ChatResult
 from pydantic import PrivateAttr
 
+from coopera.config.prices import Prices, read_prices
 from coopera.config.schema import Config, Models
 from coopera.core.asks import ASKS
 from coopera.core.errors import ConfigError
@@ -41,9 +42,9 @@ from coopera.studies.study import new_run, plan_days
 _TRIED = 2, 4  # days, since a robot that was told of a day is asked more; and hours of each
 _LETTERS = 4  # characters of English that make a token, about
 _NOTE = (
-    "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count as "
-    "a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a reply; a "
-    "bad reply is asked for again, up to {attempts} times in all. Pictures cost tokens besides, as the model has it."
+    "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count "
+    "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a reply; "
+    "a bad reply is asked for again, up to {attempts} times in all. Pictures cost tokens besides, as the model has it."
 )
 
 
@@ -63,7 +64,8 @@ def estimate(config: Config) -> dict[str, Any]:
         config: Resolved by `coopera.studies.catalogues.resolve`.
 
     Returns:
-        `roles`, each with `model calls tokens_in tokens_out tokens_out_at_most pictures`, the totals, and a `note`.
+        `roles`, each with `model calls tokens_in tokens_out tokens_out_at_most pictures`, the totals, a `note`, and
+        `money` where prices are given.
     """
     plans = plan_days(config)
     trial = _trial(config, plans)
@@ -91,7 +93,10 @@ def estimate(config: Config) -> dict[str, Any]:
         letters=_LETTERS,
         attempts=config.calls.attempts,
     )
-    return {"hours": sum(len(plan.hours) for plan in plans), "roles": roles, **sums, "note": note}
+    found = {"hours": sum(len(plan.hours) for plan in plans), "roles": roles, **sums, "note": note}
+    return (
+        found if config.budget.prices is None else {**found, "money": _bill(read_prices(config.budget.prices), roles)}
+    )
 
 
 def in_words(found: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
@@ -100,6 +105,13 @@ def in_words(found: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     names = ("calls", "tokens_in", "tokens_out", "tokens_out_at_most", "pictures")
     rows = [[role, entry["model"], *(f"{entry[name]:,}" for name in names)] for role, entry in found["roles"].items()]
     return head, rows
+
+
+def _bill(prices: Prices, roles: Mapping[Role, Mapping[str, Any]]) -> dict[str, Any]:
+    asked = [one for one in roles.values() if one["calls"]]
+    spent = sum(prices.money(one["model"], one["tokens_in"], one["tokens_out"]) for one in asked)
+    unpriced = sorted({one["model"] for one in asked if prices.of(one["model"]) is None})
+    return {**prices.about(spent), "unpriced": unpriced}
 
 
 def _trial(config: Config, plans: Sequence[DayPlan]) -> Config:
