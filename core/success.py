@@ -49,7 +49,8 @@ class Success(Frozen):
     """The hour's success by each measure; `help` is None in traces of before it was measured.
 
     A measure that asks a language model may come in the evening (`coopera.evaluation.success`): until then `judge` is
-    None, and a further measure is not there. The figures of further measures stand beside these, each under its own name (`coopera.evaluation.measuring`).
+    None, and a further measure is not there. The figures of further measures stand beside these, each under its own
+    name (`coopera.evaluation.measuring`).
     """
 
     model_config = ConfigDict(extra="allow")

@@ -62,7 +62,9 @@ class Measure:
 
     def complete(self, home: Home, at: Address, hour: HourRecord) -> Success:
         """Take the measures that an hour still misses, once its day is over; those that it has stay as they are."""
-        assert hour.success is not None and hour.human is not None and hour.robot is not None  # it was measured
+        assert hour.success, "an hour is measured first"
+        assert hour.human, "by what the person did"
+        assert hour.robot, "and the robot"
         late = [spec for spec in self._measures if hour.success.of(spec.name) is None]
         human, robot = hour.human, hour.robot
         given = (human.intention, human.tasks[1:], robot.tasks, robot.outcomes)

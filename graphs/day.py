@@ -34,10 +34,10 @@ from coopera.core.randomness import Address
 from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
 from coopera.graphs.players.player import HumanContext
 from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.players.together import together
 from coopera.graphs.robots.learning import account_of
 from coopera.graphs.robots.traits import accounts, revise
 from coopera.graphs.services import Services
-from coopera.graphs.together import together
 
 _hour_graph = made_once()(build_hour_graph)
 

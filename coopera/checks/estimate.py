@@ -43,8 +43,8 @@ _TRIED = 2, 4  # days, since a robot that was told of a day is asked more; and h
 _LETTERS = 4  # characters of English that make a token, about
 _NOTE = (
     "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count "
-    "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a reply; "
-    "a bad reply is asked for again, up to {attempts} times in all. Pictures cost tokens besides, as the model has it."
+    "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a "
+    "reply; a bad reply is asked for again, up to {attempts} times in all. Pictures cost tokens besides, as the model has it."
 )
 
 

@@ -21,9 +21,9 @@ from coopera.core.replies import (
 )
 from coopera.graphs.players.player import Decomposed, Draft, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
+from coopera.graphs.players.together import together
 from coopera.graphs.players.variables import as_tasks, known, living, motions_here, when, who
 from coopera.graphs.robots.method import Numbers
-from coopera.graphs.together import together
 
 TASKS_REPLY: dict[int, type[PickPlaceReply | FreeMotionReply]] = {1: PickPlaceReply, 2: FreeMotionReply}
 

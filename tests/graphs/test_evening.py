@@ -14,7 +14,7 @@ from langgraph.runtime import Runtime
 from coopera.core.randomness import Address
 from coopera.graphs import build_day_graph, first_day
 from coopera.graphs.day import DayState, feedback
-from coopera.graphs.together import together
+from coopera.graphs.players.together import together
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 from tests.graphs.test_day import DyingAsk, Killed, days, files, run_saved
