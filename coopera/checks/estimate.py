@@ -44,8 +44,8 @@ _LETTERS = 4  # characters of English that make a token, about
 _NOTE = (
     "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count "
     "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a "
-    "reply; a bad reply is asked for again, up to {attempts} times in all. Pictures cost tokens besides, as the model "
-    "has it."
+    "reply; a bad reply is asked for again, up to {attempts} times in all. From the second day on, how many intentions "
+    "the robot follows up depends on what it is told. Pictures cost tokens besides, as the model has it."
 )
 
 

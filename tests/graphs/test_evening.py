@@ -14,6 +14,7 @@ from langgraph.runtime import Runtime
 from coopera.core.randomness import Address
 from coopera.graphs import build_day_graph, first_day
 from coopera.graphs.day import DayState, feedback
+from coopera.graphs.players.simulated import Simulated
 from coopera.graphs.players.together import together
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
@@ -119,6 +120,20 @@ def test_an_hour_is_on_record_before_its_judge_was_asked_and_complete_after_the_
     assert [at for prompt, at, _ in ask.asked if prompt == "judge/tasks"] == [
         Address(MARA.id, 0, hour, "score") for hour in (9, 10, 11)
     ]
+
+
+class OneWhoIsAsked(Simulated):
+    """A person who takes one question after another, since somebody sits there and answers."""
+
+    one_by_one = True
+
+
+def test_a_real_person_is_asked_one_thing_after_another_once_the_judge_has_been(make_services: MakeServices) -> None:
+    ask = slow_judge()
+    lived(make_services(ask=ask, player=OneWhoIsAsked()))
+    evening = [(prompt, at.hour) for prompt, at, _ in ask.asked if prompt in EVENING]
+    assert sorted(evening[:HOURS]) == [("judge/tasks", hour) for hour in (9, 10, 11)]
+    assert evening[HOURS:] == [(prompt, hour) for hour in (9, 10, 11) for prompt in EVENING[:2]]
 
 
 @pytest.mark.parametrize("moment", [1, 3])
