@@ -115,6 +115,7 @@ ASKS: dict[str, AskSpec] = {
     "human/feedback_tasks": _spec("human", "VerdictsReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
     "human/grade_intentions": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "guesses"),
     "human/grade_tasks": _spec("human", "GradesReply", *_TIME, *_PERSON, "intention", "tasks", "offers"),
+    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "robot/intentions": _spec(
         "robot", "IntentionsReply", *_TIME, *_BELIEF, *_MEMORY, "told", "rooms", "percept", "first_task", "n_intentions"
     ),
@@ -134,9 +135,9 @@ ASKS: dict[str, AskSpec] = {
         *_MEMORY,
         *("told", "in_hand", "intention", "fixed", "states", "seen", "direct", "n_tasks"),
     ),
-    "robot/traits": _spec("robot", "TraitsReply", "intentions", "tasks", "profile", "evening"),
     "judge/tasks": _spec("judge", "VerdictsReply", "time", "intention", "tasks", "offers"),
 }
+"""By prompt, in the order in which they are asked in an hour and in an evening."""
 
 
 class InstructionSpec(NamedTuple):

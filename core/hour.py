@@ -223,6 +223,8 @@ class ModelCall(Frozen):
     faults: list[str] = []
     leniencies: dict[str, int] = Field({}, exclude_if=is_empty)
     """What was put right in the form of the reply, and how often, by kind (`coopera.models.reading.fitting`)."""
+    late: bool = Field(False, exclude_if=is_empty)
+    """Whether it belongs to an hour and was made in the evening, when nobody waited for it."""
 
 
 class HourRecord(Frozen):

@@ -42,8 +42,12 @@ class Ask(Protocol):
         """Whether this role's model looks at pictures itself."""
         ...
 
-    def take_calls(self) -> list[ModelCall]:
-        """Return the calls made since the last time, in order, and forget them."""
+    def instant(self, role: Role) -> bool:
+        """Whether this role's model answers at once, so that nothing is gained by asking it later or several times."""
+        ...
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        """Return the calls made since the last time, or only those made at an address, in order, and forget them."""
         ...
 
 

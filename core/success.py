@@ -48,14 +48,16 @@ class Help(Frozen):
 class Success(Frozen):
     """The hour's success by each measure; `help` is None in traces of before it was measured.
 
-    The figures of further measures stand beside these, each under its own name (`coopera.evaluation.measuring`).
+    A measure that asks a language model may come in the evening (`coopera.evaluation.success`): until then `judge` is
+    None, and a further measure is not there. The figures of further measures stand beside these, each under its own
+    name (`coopera.evaluation.measuring`).
     """
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[str, dict[str, int | float | None]] = Field(init=False)
 
     predicate: Counts
-    judge: Counts
+    judge: Counts | None = None
     help: Help | None = None
 
     def of(self, measure: str) -> Counts | Help | dict[str, int | float | None] | None:

@@ -17,7 +17,7 @@ from coopera.core.errors import ConfigError, RunError
 from coopera.core.hour import Intention, Task, TaskCandidate
 from coopera.core.household import Act, Outcome
 from coopera.core.people import Frozen
-from coopera.core.protocols import Ask, Home
+from coopera.core.protocols import Ask, Home, Role
 from coopera.core.randomness import Address
 from coopera.core.registry import Registry
 from coopera.core.success import Counts, Success
@@ -36,7 +36,7 @@ class MeasuredHour:
     """What a measure sees of an hour.
 
     Attributes:
-        home: The home as the hour left it.
+        home: The home as the hour left it; for a measure that is taken in the evening, as the day left it.
         at: The hour's address, for draws and for `ask`.
         intention: The person's true one.
         remaining: The person's tasks after the first, which the robot has watched.
@@ -72,6 +72,8 @@ class MeasureSpec(Generic[F]):
         short: The heading in that table, where `title` is long.
         row: The measure in whose rows of metrics.csv the figures stand; None gives them rows of their own.
         order: Lower ones stand first; equal ones by name.
+        asks: The role whose language model it asks. Unless that model answers at once, the measure is taken in the
+            evening, for all hours together, so that nobody waits for it.
     """
 
     name: str
@@ -85,6 +87,7 @@ class MeasureSpec(Generic[F]):
     short: str = ""
     row: str | None = None
     order: int = 100
+    asks: Role | None = None
 
     def __post_init__(self) -> None:
         """Refuse names that stand for something else in the files.
@@ -123,6 +126,7 @@ def by_counts(
     beside: tuple[str, ...] = (),
     short: str = "",
     order: int = 100,
+    asks: Role | None = None,
 ) -> MeasureSpec[Counts]:
     """Return a measure of F1 over the superset: what was accepted is the prediction, and `truth` says what was right.
 
@@ -133,6 +137,7 @@ def by_counts(
         beside: As in `MeasureSpec`, as are `short` and `order`.
         short: Its heading where there is little room.
         order: Its place.
+        asks: As in `MeasureSpec`.
     """
     return MeasureSpec(
         name=name,
@@ -145,6 +150,7 @@ def by_counts(
         beside=beside,
         short=short,
         order=order,
+        asks=asks,
     )
 
 

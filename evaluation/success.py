@@ -5,18 +5,21 @@ robot has watched). The classifier's verdict is the prediction: accepted and cor
 
 Worked example: six candidates, four accepted, three of these correct, one correct one rejected:
 tp 3, fp 1, fn 1, tn 1; precision 3/4, recall 3/4, F1 = 6/8 = 0.75.
+
+A measure that asks a language model, as the judge's does, holds nothing up: unless that model answers at once, it is
+taken in the evening, for all hours together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
 
-from coopera.core.hour import Intention, Task, TaskCandidate
-from coopera.core.household import Outcome
+from coopera.core.hour import HourRecord, Intention, Task, TaskCandidate
+from coopera.core.household import Act, Outcome
 from coopera.core.protocols import Ask, Home
 from coopera.core.randomness import Address
 from coopera.core.success import Success
@@ -45,11 +48,32 @@ class Measure:
         candidates: Sequence[TaskCandidate],
         outcomes: Sequence[Outcome] = (),
     ) -> tuple[list[TaskCandidate], Success]:
-        """Set `correct` (by the predicate) on the candidates, and take every measure."""
+        """Set `correct` (by the predicate) on the candidates, and take every measure that nobody need wait for."""
         scored = [
             one.model_copy(update={"correct": self._predicate.matches(home, one, remaining)}) for one in candidates
         ]
-        helps = partial(self._predicate.helps, home)
-        hour = MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, helps)
-        figures = {spec.name: spec.measure(hour).model_dump() for spec in self._measures}
-        return scored, Success.model_validate(figures)
+        now = [spec for spec in self._measures if spec.asks is None or self._ask.instant(spec.asks)]
+        hour = MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, self._helps(home))
+        return scored, Success.model_validate(_figures(now, hour))
+
+    def misses(self, success: Success) -> bool:
+        """Whether measures of an hour are still to be taken."""
+        return any(success.of(spec.name) is None for spec in self._measures)
+
+    def complete(self, home: Home, at: Address, hour: HourRecord) -> Success:
+        """Take the measures that an hour still misses, once its day is over; those that it has stay as they are."""
+        assert hour.success, "an hour is measured first"
+        assert hour.human, "by what the person did"
+        assert hour.robot, "and the robot"
+        late = [spec for spec in self._measures if hour.success.of(spec.name) is None]
+        human, robot = hour.human, hour.robot
+        given = (human.intention, human.tasks[1:], robot.tasks, robot.outcomes)
+        found = _figures(late, MeasuredHour(home, at, *given, self._ask, self._helps(home)))
+        return Success.model_validate({**hour.success.model_dump(), **found})
+
+    def _helps(self, home: Home) -> Callable[[Act, Act], bool]:
+        return partial(self._predicate.helps, home)
+
+
+def _figures(measures: Iterable[MeasureSpec[Any]], hour: MeasuredHour) -> dict[str, Any]:
+    return {spec.name: spec.measure(hour).model_dump() for spec in measures}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from langgraph.checkpoint.base import BaseCheckpointSaver
@@ -32,9 +33,10 @@ from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
-from coopera.graphs.hour import HourInput, build_hour_graph
+from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
 from coopera.graphs.players.player import HumanContext
 from coopera.graphs.players.real_person import Verdict
+from coopera.graphs.players.together import together
 from coopera.graphs.recorded import forget_ahead, remember_day, take_over_hour
 from coopera.graphs.robots.learning import account_of
 from coopera.graphs.robots.traits import accounts, revise
@@ -121,21 +123,32 @@ def next_hour(state: DayState, runtime: Runtime[Services]) -> Literal["hour", "f
 
 
 def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Ask the person for feedback on all candidates of today. Writes `feedback`; adds to `calls`.
+    """Ask the person for feedback on all candidates of today, and take the measures left for now. Writes `feedback`.
+
+    All of it goes out together; a real person is asked one thing after another, in the end. Adds to `calls`.
 
     PAPER §3.3: yes or no with a reason per task. DEVIATES: the person answers for the intention candidates too, and for
     the whole superset, not only for the tasks done. So the classifiers do not bias their own labels. How many questions
     are answered, and how many answers are slips, is set by `Services.answering` (the paper: all, and none).
     """
-    ctx = runtime.context.here().human(state["plan"])
+    services, plan = runtime.context.here(), state["plan"]
+    ctx = services.human(plan)
+    measures = [partial(_measure_late, services, plan, hour) for hour in _unmeasured(services, plan)]
+    if measures:
+        services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
+    heard = [(one.hour, one.human, one.robot) for one in _told(services, plan)]
+    told = [(hour, human, robot) for hour, human, robot in heard if human is not None and robot is not None]
+    questions = [partial(_hour_feedback, ctx, *one) for one in told]
+    if ctx.player.one_by_one:
+        together(measures)
+        meant = [question() for question in questions]
+    else:
+        waits = bool(measures) or not services.ask.instant("human")
+        meant = together([*measures, *questions], waits=waits)[len(measures) :]
     items: list[FeedbackItem] = []
-    for hour in _told(runtime.context, ctx.plan):
-        if hour.human is not None and hour.robot is not None:
-            meant = _hour_feedback(ctx, hour.hour, hour.human, hour.robot)
-            clock = ctx.plan.clock(ctx.plan.hours.index(hour.hour))
-            rng = runtime.context.rng(Address(ctx.plan.person, clock.day, clock.hour, "answering"))
-            items += runtime.context.answering.given(meant, rng)
-    return {"feedback": items, "calls": runtime.context.ask.take_calls()}
+    for (hour, _, _), said in zip(told, meant, strict=True):
+        items += services.answering.given(said, services.rng(Address(plan.person, plan.episode_day, hour, "answering")))
+    return {"feedback": items, "calls": services.ask.take_calls()}
 
 
 def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
@@ -219,6 +232,20 @@ def _told(services: Services, plan: DayPlan) -> list[HourRecord]:
         return hours
     others = ((hour, services.stranger(plan, hour.hour)) for hour in hours)
     return [hour.model_copy(update={"human": other}) for hour, other in others if other is not None]
+
+
+def _unmeasured(services: Services, plan: DayPlan) -> list[HourRecord]:
+    """The day's hours of which measures are still to be taken."""
+    hours = services.recorder.read_day(plan.day)
+    return [hour for hour in hours if hour.success and services.score.misses(hour.success)]
+
+
+def _measure_late(services: Services, plan: DayPlan, hour: HourRecord) -> None:
+    """Take the measures that an hour misses, and write its trace again, as a whole, with the calls that they took."""
+    at = scored_at(plan, hour.hour)
+    success = services.score.complete(services.home(plan.scene), at, hour)
+    calls = [call.model_copy(update={"late": True}) for call in services.ask.take_calls(at)]
+    services.recorder.write_hour(hour.model_copy(update={"success": success, "calls": [*hour.calls, *calls]}))
 
 
 def _hour_feedback(ctx: HumanContext, hour: int, human: HumanHour, robot: RobotHour) -> list[FeedbackItem]:

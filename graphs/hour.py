@@ -140,9 +140,12 @@ def finish(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def score(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Judge the robot's tasks against the person's remaining ones. Completes `robot`; writes `success`."""
+    """Judge the robot's tasks against the person's remaining ones. Completes `robot`; writes `success`.
+
+    What somebody would have to wait for is asked in the evening (`coopera.graphs.day.feedback`).
+    """
     services, plan, human, robot = runtime.context, state["plan"], state["human"], state["robot"]
-    at = Address(plan.person, _clock(state).day, _clock(state).hour, "score")
+    at = scored_at(plan, _clock(state).hour)
     home, remaining = services.home(plan.scene), human.tasks[1:]
     tasks, success = services.score(home, at, human.intention, remaining, robot.tasks, robot.outcomes)
     return {"robot": robot.model_copy(update={"tasks": tasks}), "success": success}
@@ -183,6 +186,11 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         {"day": plan.day, "hour": clock.hour, "node": "record", "success": success.model_dump() if success else None}
     )
     return {"world": world}
+
+
+def scored_at(plan: DayPlan, hour: int) -> Address:
+    """The address of an hour's measures, whenever they are taken."""
+    return Address(plan.person, plan.episode_day, hour, "score")
 
 
 def robot_view(

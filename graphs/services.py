@@ -15,7 +15,16 @@ import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
-from coopera.core.hour import DayPlan, HumanHour, Intention, Observation, SearchSizes, Task, TaskCandidate
+from coopera.core.hour import (
+    DayPlan,
+    HourRecord,
+    HumanHour,
+    Intention,
+    Observation,
+    SearchSizes,
+    Task,
+    TaskCandidate,
+)
 from coopera.core.household import HUMAN, ROBOT, AgentId, Outcome, SceneId
 from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
@@ -44,7 +53,18 @@ class Score(Protocol):
         candidates: Sequence[TaskCandidate],
         outcomes: Sequence[Outcome] = (),
     ) -> tuple[list[TaskCandidate], Success]:
-        """Judge candidates, and what came of those that were done, against the true intention and remaining tasks."""
+        """Judge candidates, and what came of those that were done, against the true intention and remaining tasks.
+
+        Measures for which somebody would have to wait are left out, to be taken by `complete`.
+        """
+        ...
+
+    def misses(self, success: Success) -> bool:
+        """Whether measures of an hour are still to be taken."""
+        ...
+
+    def complete(self, home: Home, at: Address, hour: HourRecord) -> Success:
+        """Take the measures that a measured hour still misses, once its day is over."""
         ...
 
 

@@ -35,6 +35,7 @@ SEEDS = 2**31  # servers take seeds of 31 bits
 _AGAIN = (
     "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
 )
+_ORDER = {prompt: n for n, prompt in enumerate(ASKS)}
 _PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 
 
@@ -141,24 +142,20 @@ class Door:
         """Whether this role's model looks at pictures itself."""
         return self.backends[role].sees
 
-    def take_calls(self) -> list[ModelCall]:
-        """Return the calls made since the last time, and forget them.
+    def instant(self, role: Role) -> bool:
+        """Whether this role's model answers in this process, from variables; a recorded one is as it was then."""
+        backend = self.backends[role]
+        return backend.reads_variables if backend.past is None else backend.past.was_instant(role)
 
-        Parallel calls end in any order. So calls come by hour and person, and then in the order in which
-        `coopera.core.asks` lists the prompts. Within a node they come in the order of their draws.
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        """Return the calls made since the last time, or only those made at an address, and forget them.
+
+        They come by the hour, then in the order of `ASKS` and of their draws, since parallel calls end in any order.
         """
         with self._lock:
-            calls, self._calls = self._calls, []
-        place = {prompt: n for n, prompt in enumerate(ASKS)}
-        first: dict[Address, int] = {}
-        for n, (at, _) in enumerate(calls):
-            first.setdefault(at._replace(draw=0), n)
-
-        def turn(entry: tuple[Address, ModelCall]) -> tuple[object, ...]:
-            at, call = entry
-            return at.day, at.hour, at.person, place.get(call.prompt, len(place)), first[at._replace(draw=0)], at.draw
-
-        return [call for _, call in sorted(calls, key=turn)]
+            taken = [entry for entry in self._calls if at is None or entry[0] == at]
+            self._calls = [entry for entry in self._calls if at is not None and entry[0] != at]
+        return [call for _, call in sorted(taken, key=_place)]
 
     def close(self) -> None:
         """Close the cache file, if there is one."""
@@ -256,7 +253,7 @@ class Door:
         except ModelCallError as err:
             raise type(err)(f"{talk.rendered.name}: {talk.backend} cannot be asked: {err}") from err
         if self.meter is not None:
-            self.meter.end(answer.reply.tokens_in + answer.reply.tokens_out)
+            self.meter.end(talk.backend.name, answer.reply.tokens_in, answer.reply.tokens_out)
         if self.cache is not None and not talk.backend.reads_variables:
             talk.fresh.append((self._key(talk, answer.structure, seed), answer.reply))
         return answer
@@ -299,3 +296,9 @@ class Door:
             return Picture(name, mime, path.read_bytes())
         except OSError as err:
             raise RunError(f"{path}: the picture cannot be read: {err.strerror}") from err
+
+
+def _place(entry: tuple[Address, ModelCall]) -> tuple[int, int, int]:
+    """The place of a call among those of a day."""
+    at, call = entry
+    return at.hour, _ORDER.get(call.prompt, len(_ORDER)), at.draw

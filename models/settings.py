@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
@@ -99,9 +100,30 @@ class Budget(Frozen):
         Setting("Stop, to be resumed, after N tokens.", flag="--budget-tokens", unset="no limit"),
     ] = None
 
+    money: Annotated[
+        Annotated[float, Field(gt=0, allow_inf_nan=False)] | None,
+        Setting(
+            "Stop, to be resumed, after so much money, in the currency of `prices`.",
+            "a number above 0",
+            flag="--budget-money",
+            unset="no limit",
+        ),
+    ] = None
+    prices: Annotated[
+        Path | None,
+        Setting(
+            "What models cost, by a million tokens (docs/models.md): the run then says what it has cost.",
+            "the path of a file of prices",
+            flag="--prices",
+            metavar="FILE",
+            unset="no money is counted",
+        ),
+    ] = None
+
 
 class Spent(Frozen):
     """What models were asked for, prompts and replies together, without what came from a cache."""
 
     calls: int = 0
     tokens: int = 0
+    money: float = 0.0

@@ -137,6 +137,7 @@ class ScriptedAsk:
     def __init__(self, answers: Mapping[str, Answer]) -> None:
         self.answers = answers
         self.asked: list[tuple[str, Address, dict[str, Any]]] = []
+        self.slow: set[Role] = set()
         self._calls: list[tuple[Address, ModelCall]] = []
 
     def __call__(
@@ -160,12 +161,14 @@ class ScriptedAsk:
     def sees(self, role: Role) -> bool:
         return False
 
-    def take_calls(self) -> list[ModelCall]:
-        made, self._calls = self._calls, []
-        prompts = list(ASKS)  # parallel calls end in any order
-        made.sort(
-            key=lambda pair: (pair[0].hour, prompts.index(pair[1].prompt), pair[0].draw)
-        )  # parallel ones end anyhow
+    def instant(self, role: Role) -> bool:
+        return role not in self.slow
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        made = [pair for pair in self._calls if at in (None, pair[0])]
+        self._calls = [pair for pair in self._calls if pair not in made]
+        order = list(ASKS)  # threads end in any order
+        made.sort(key=lambda pair: (pair[0].hour, order.index(pair[1].prompt), pair[0].draw))
         return [call for _, call in made]
 
     def variables_of(self, prompt: str) -> list[dict[str, Any]]:

@@ -8,12 +8,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.console import Console
 
+from benchmarks.prompt_costs import Scripted, Writer, counter
+from benchmarks.prompt_costs import serving as scripted
 from coopera import Config, run_study
 from coopera.cli import main
 from coopera.config.schema import Models
 from coopera.models.recorded import PREFIXES
+from coopera.models.settings import Budget
+from coopera.report.progress import days_table
 from coopera.rundir.directory import RunDir
+from coopera.simulation import load_scene
 from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
 from tests.test_household import truth
@@ -96,6 +102,60 @@ def test_an_estimate_foretells_the_calls_of_the_run(lived: Path, capsys: pytest.
     assert found["roles"]["human"]["calls"] == found["calls"] == len(asked)
     assert found["tokens_in"] > 100 * len(asked)
     assert found["roles"]["robot"]["paid"] is False
+
+
+@pytest.fixture(scope="module", params=[1, 2])
+def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, data_dir: Path) -> Path:
+    """A run whose models are a server that answers well and at length, with what they cost."""
+    folder = tmp_path_factory.mktemp("asked")
+    prices = folder / "prices.yaml"
+    prices.write_text('as_of: 2026-05-01\ncurrency: EUR\nmodels: {"openai:*": {in: 1, out: 10}}\n')
+    ids = {one.name: one.id for one in load_scene("maple").objects}
+    models = Models(human="openai:scripted", robot="openai:scripted", judge="openai:scripted")
+    budget = Budget(prices=prices)
+    given = {**SMALL, "collab": request.param, "scenes": ["maple"], "models": models, "budget": budget}
+    with scripted(Scripted(Writer(ids), counter(None), 0.0)) as url:
+        run_study(Config(**given, base_url=url, out=folder / "run", cache=folder / "c.sqlite", data_dir=data_dir))
+    return folder / "run"
+
+
+def test_an_estimate_is_within_a_tenth_of_the_tokens_that_a_server_counts(
+    asked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", str(study_like(asked)), "--estimate", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out.splitlines()[-1])
+    summary = json.loads((asked / "summary.json").read_text())
+    foretold, asked_for = found["calls"], summary["calls"]
+    assert abs(foretold - asked_for) <= 2, "who lives other days reflects once more, or once less"
+    assert found["tokens_in"] / foretold == pytest.approx(summary["tokens_in"] / asked_for, rel=0.1)
+    both = found["tokens_in"] + found["tokens_out"]
+    assert both / foretold == pytest.approx(summary["tokens"] / asked_for, rel=0.1)
+    paid = (found["tokens_in"] + 10 * found["tokens_out"]) / 1e6
+    assert found["money"]["spent"] == pytest.approx(paid, abs=1e-6)
+
+
+def test_what_a_run_cost_stands_in_its_summary_and_is_told_at_its_end(
+    asked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    summary = json.loads((asked / "summary.json").read_text())
+    spent = (summary["tokens_in"] + 10 * summary["tokens_out"]) / 1e6
+    assert summary["money"]["spent"] == pytest.approx(spent, abs=1e-6)
+    assert (summary["money"]["currency"], summary["money"]["unpriced"]) == ("EUR", [])
+    days_table(summary, asked, Console(highlight=False))
+    assert f"Cost: {spent:.2f} EUR, by the prices of 2026-05-01." in capsys.readouterr().out
+    assert RunDir.open(asked).spent().money == pytest.approx(spent, abs=1e-6)
+
+
+def test_a_judge_that_was_asked_in_the_evening_is_so_in_the_recorded_run_too(asked: Path) -> None:
+    hours = RunDir.open(asked).hours()
+    assert [call.late for hour in hours for call in hour.calls if call.prompt == "judge/tasks"] == [True]
+    assert all(hour.success and hour.success.judge for hour in hours)
+    out = asked.parent / "again"
+    assert main(["run", "--model", f"recorded:{asked}", "--out", str(out)]) == 0
+    now, before = truth(out), truth(asked)
+    for name in before:
+        if name.startswith(("trace", "metrics")):
+            assert now[name] == before[name], name
 
 
 @pytest.mark.slow

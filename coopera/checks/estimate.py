@@ -1,31 +1,61 @@
-"""What a run would ask of its models, from a few hours lived by the offline model for nothing."""
+"""What a run would ask of its models, from a few hours lived by the offline model for nothing.
+
+The trial goes through the one door. Stand-ins take the place of the models: each is asked as the real one would be,
+with the very messages and the schema that it is held to, counts them, and has the offline model answer.
+"""
 
 from __future__ import annotations
 
+import json
 import math
 import tempfile
+import threading
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from langchain_core.callbacks import CallbackManagerForLLMRun
+from langchain_core.language_models import BaseChatModel
+from langchain_core.messages import AIMessage, BaseMessage
+from langchain_core.outputs import ChatGeneration, ChatResult
+from pydantic import PrivateAttr
+
+from coopera.config.prices import Prices, read_prices
 from coopera.config.schema import Config, Models
 from coopera.core.asks import ASKS
-from coopera.core.hour import ModelCall
-from coopera.core.replies import REPLIES
+from coopera.core.errors import ConfigError
+from coopera.core.hour import DayPlan, ModelCall
+from coopera.core.protocols import Reply, Role
+from coopera.core.randomness import Address
+from coopera.evaluation import Measure
+from coopera.graphs import build_study_graph
+from coopera.models.backends import ROLES, Backend, Request, open_backend
+from coopera.models.door import Door
 from coopera.models.recorded import recorded_run
-from coopera.models.schemas import schema_of
-from coopera.models.settings import Budget
-from coopera.rundir.directory import RunDir
-from coopera.studies.study import plan_days, run_study
+from coopera.models.settings import Budget, CallSettings, Structure
+from coopera.prompts import PromptLibrary
+from coopera.studies.assemble import model_specs, open_embeddings
+from coopera.studies.study import new_run, plan_days
 
-_TRIED = 3  # hours
+_TRIED = 2, 4  # days, since a robot that was told of a day is asked more; and hours of each
 _LETTERS = 4  # characters of English that make a token, about
 _NOTE = (
-    "Measured on {hours} hours of {person}'s first day as the offline model lives it; {letters} characters count as a "
-    "token. A talkative model writes more, at most max_tokens a reply; a bad reply is asked for again, up to "
-    "{attempts} times in all. Pictures cost tokens besides, as the model has it."
+    "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count "
+    "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a "
+    "reply; a bad reply is asked for again, up to {attempts} times in all. From the second day on, how many intentions "
+    "the robot follows up depends on what it is told. Pictures cost tokens besides, as the model has it."
 )
+
+
+class Tried(NamedTuple):
+    """A call of the trial, and how many of the whole run it stands for."""
+
+    call: ModelCall
+    times: float
+    longer: float
+    """By how much the messages of those are longer."""
 
 
 def estimate(config: Config) -> dict[str, Any]:
@@ -35,33 +65,39 @@ def estimate(config: Config) -> dict[str, Any]:
         config: Resolved by `coopera.studies.catalogues.resolve`.
 
     Returns:
-        `roles`, each with `model calls tokens_in tokens_out tokens_out_at_most pictures`, the totals, and a `note`.
+        `roles`, each with `model calls tokens_in tokens_out tokens_out_at_most pictures`, the totals, a `note`, and
+        `money` where prices are given.
     """
-    hours = min(config.hours, _TRIED)
-    calls = _tried(config, hours)
     plans = plan_days(config)
-    lived = sum(len(plan.hours) for plan in plans)
-    total: dict[str, Counter[str]] = {role: Counter() for role in Models.model_fields}
-    for call in calls:
-        spec = ASKS[call.prompt]
-        per_day = call.node == "infer_traits"
-        times = len(plans) if per_day else lived / hours
-        longer = config.hours / hours if per_day else 1.0
-        schema = len(schema_of(REPLIES[spec.reply]))
-        total[spec.role] += Counter(
+    trial = _trial(config, plans)
+    looks = _looks(config)
+    total: dict[Role, Counter[str]] = {role: Counter() for role in ROLES}
+    for call, times, longer in _weighed(_live(trial, config, looks), trial, plans):
+        if not _is_asked(config, call):
+            continue
+        words = len(str(call.messages[0]["content"])) / _LETTERS
+        total[ASKS[call.prompt].role] += Counter(
             {
                 "calls": times,
-                "tokens_in": times * (longer * len(str(call.messages[0]["content"])) + schema) / _LETTERS,
-                "tokens_out": times * len(call.reply) / _LETTERS,
-                "pictures": times * _pictures(config, call),
+                "tokens_in": times * (call.tokens_in + (longer - 1) * words),
+                "tokens_out": times * call.tokens_out,
+                "pictures": times * _pictures(config, call) if looks else 0,
             }
         )
     roles = {role: _rounded(counts, config, role) for role, counts in total.items()}
     paid = [entry for entry in roles.values() if entry["paid"]]
     sums = {name: sum(entry[name] for entry in paid) for name in ("calls", "tokens_in", "tokens_out", "pictures")}
-    person = (config.humans or [""])[0]
-    note = _NOTE.format(hours=hours, person=person, letters=_LETTERS, attempts=config.calls.attempts)
-    return {"hours": lived, "roles": roles, **sums, "note": note}
+    note = _NOTE.format(
+        days=trial.days,
+        hours=trial.hours,
+        person=(config.humans or [""])[0],
+        letters=_LETTERS,
+        attempts=config.calls.attempts,
+    )
+    found = {"hours": sum(len(plan.hours) for plan in plans), "roles": roles, **sums, "note": note}
+    return (
+        found if config.budget.prices is None else {**found, "money": _bill(read_prices(config.budget.prices), roles)}
+    )
 
 
 def in_words(found: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
@@ -72,33 +108,162 @@ def in_words(found: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     return head, rows
 
 
-def _tried(config: Config, hours: int) -> list[ModelCall]:
+def _bill(prices: Prices, roles: Mapping[Role, Mapping[str, Any]]) -> dict[str, Any]:
+    asked = [one for one in roles.values() if one["calls"]]
+    spent = sum(prices.money(one["model"], one["tokens_in"], one["tokens_out"]) for one in asked)
+    unpriced = sorted({one["model"] for one in asked if prices.of(one["model"]) is None})
+    return {**prices.about(spent), "unpriced": unpriced}
+
+
+def _trial(config: Config, plans: Sequence[DayPlan]) -> Config:
+    """The first person's first days, as short as will do."""
+    days, hours = _TRIED
+    return config.model_copy(
+        update={
+            "setting": 1,
+            "humans": (config.humans or [])[:1],
+            "scenes": (config.scenes or [])[:1],
+            "days": min(days, 1 + max(plan.episode_day for plan in plans)),
+            "hours": min(config.hours, hours),
+            "models": Models(),
+            "played_by": "simulated" if config.played_by == "me" else config.played_by,
+            "backbone": "offline:words",
+            "classifier": "kernel",
+            "classifier_config": None,
+            "schedule": None,
+            "earlier_life": None,
+            "pictures": "none",
+            "budget": Budget(),
+        }
+    )
+
+
+def _live(trial: Config, config: Config, looks: bool) -> list[tuple[int, bool, ModelCall]]:
+    """The calls of the trial: the day, whether it stands for a day rather than for an hour, and the call."""
     with tempfile.TemporaryDirectory() as folder:
-        trial = config.model_copy(
-            update={
-                "setting": 1,
-                "humans": (config.humans or [])[:1],
-                "scenes": (config.scenes or [])[:1],
-                "days": 1,
-                "hours": hours,
-                "models": Models(),
-                "backbone": "offline:words",
-                "schedule": None,
-                "earlier_life": None,
-                "pictures": "none",
-                "budget": Budget(),
-                "out": Path(folder) / "run",
-            }
-        )
-        run_study(trial)
-        run = RunDir.open(Path(folder) / "run")
-        calls = [call for hour in run.hours() for call in hour.calls]
-        return calls + [call for evening in run.evenings() for call in evening.calls]
+        out = Path(folder) / "run"
+        with new_run(trial.model_copy(update={"out": out}), resumable=False) as (run, services):
+            specs = model_specs(config)
+            standing_in = {role: _stand_in(specs[role], role, services.ask, config.calls, looks) for role in ROLES}
+            ask = _Told(Door(prompts=PromptLibrary(config.prompts), backends=standing_in, seed=trial.seed))
+            counting = replace(services, ask=ask, score=Measure(ask, services.embeddings))
+            build_study_graph().invoke({"schedule": plan_days(run.config)}, context=counting)
+            found = [(hour.episode_day, False, call) for hour in run.hours() for call in hour.calls]
+            return found + [
+                (evening.episode_day, call.node == "infer_traits", call)
+                for evening in run.evenings()
+                for call in evening.calls
+            ]
+
+
+def _weighed(calls: Sequence[tuple[int, bool, ModelCall]], trial: Config, plans: Sequence[DayPlan]) -> list[Tried]:
+    """How many calls each of the trial's stands for: the first day for first days, the last for all others."""
+    last = (trial.days or 1) - 1
+    like = {day: [plan for plan in plans if min(plan.episode_day, last) == day] for day in range(last + 1)}
+    found = []
+    for day, daily, call in calls:
+        hours = sum(len(plan.hours) for plan in like[day])
+        longer = max(len(plan.hours) for plan in plans) / trial.hours if daily else 1.0
+        found.append(Tried(call, len(like[day]) if daily else hours / trial.hours, longer))
+    return found
+
+
+def _is_asked(config: Config, call: ModelCall) -> bool:
+    """Whether a call would be made at all: nobody asks a model what a person says, or has done in an earlier life."""
+    decides = ASKS[call.prompt].role == "human" and call.node != "feedback"
+    answers = ASKS[call.prompt].role == "human" and config.played_by == "me"
+    return not answers and not (decides and config.earlier_life is not None)
+
+
+class _Told:
+    """The door; what a call is filled with reaches the stand-in of this thread, which has the offline model answer."""
+
+    now = threading.local()
+
+    def __init__(self, door: Door) -> None:
+        self._door = door
+        self.sees, self.instant, self.take_calls = door.sees, door.instant, door.take_calls
+
+    def __call__(
+        self, prompt: str, reply: type[Reply], /, *, at: Address, variables: Mapping[str, Any], **_: Any
+    ) -> Reply:
+        self.now.call = (prompt, reply, at, variables)
+        return self._door(prompt, reply, at=at, variables=variables)
+
+
+class _StandIn(BaseChatModel):
+    """Counts what a model is told, and answers as the offline model does."""
+
+    _ask: Any = PrivateAttr()
+
+    def __init__(self, ask: Any) -> None:
+        super().__init__()
+        self._ask = ask
+
+    @property
+    def _llm_type(self) -> str:
+        return "stand-in"
+
+    def _generate(
+        self,
+        messages: list[BaseMessage],
+        stop: list[str] | None = None,
+        run_manager: CallbackManagerForLLMRun | None = None,
+        **kwargs: Any,
+    ) -> ChatResult:
+        prompt, reply, at, variables = _Told.now.call
+        data, schema = self._ask(prompt, reply, at=at, variables=variables).model_dump(mode="json"), kwargs["schema"]
+        text = json.dumps(_asked_for(data, schema, schema.get("$defs", {})), ensure_ascii=False)
+        told = sum(len(str(message.content)) for message in messages)
+        told += len(json.dumps(schema, ensure_ascii=False)) if kwargs["counts"] else 0
+        tokens = {"input_tokens": told // _LETTERS, "output_tokens": len(text) // _LETTERS}
+        usage: Any = {**tokens, "total_tokens": sum(tokens.values())}
+        return ChatResult(generations=[ChatGeneration(message=AIMessage(content=text, usage_metadata=usage))])
+
+
+def _asked_for(value: Any, schema: Mapping[str, Any], known: Mapping[str, Any]) -> Any:
+    """The part of a reply that a schema asks for."""
+    if "$ref" in schema:
+        schema = known[schema["$ref"].rpartition("/")[2]]
+    if "anyOf" in schema:
+        schema = next((one for one in schema["anyOf"] if (one.get("type") == "null") == (value is None)), {})
+        return _asked_for(value, schema, known) if value is not None else None
+    if isinstance(value, list):
+        return [_asked_for(item, schema.get("items", {}), known) for item in value]
+    if not isinstance(value, dict) or "properties" not in schema:
+        return value
+    return {name: _asked_for(value[name], part, known) for name, part in schema["properties"].items() if name in value}
+
+
+def _stand_in(spec: str, role: Role, ask: Any, settings: CallSettings, looks: bool) -> Backend:
+    """What stands in for a model: asked in the form that its server is asked in first."""
+
+    def options(request: Request, structure: Structure) -> dict[str, Any]:
+        # weights in this process are held by a mask, which costs no token
+        return {"schema": request.schema, "counts": structure != "text" and not spec.startswith("huggingface:")}
+
+    form: Structure = "json_schema" if settings.structure == "auto" else settings.structure
+    return Backend(spec, _StandIn(ask), sees=looks and role == "robot", options=options, structures=(form,))
+
+
+def _looks(config: Config) -> bool:
+    """Whether the robot's model looks at pictures, as far as that can be told without loading it."""
+    spec = model_specs(config)["robot"]
+    if not _paid(spec) or spec.endswith("+images"):
+        return _paid(spec)
+    if spec.startswith("huggingface:"):
+        form = Path(spec.partition(":")[2]) / "config.json"
+        return form.is_file() and "vision_config" in json.loads(form.read_text(encoding="utf-8"))
+    try:
+        with open_embeddings(config) as embeddings:
+            return open_backend(spec, "robot", embeddings, config.base_url, config.calls).sees
+    except ConfigError:  # as where a key is missing, which an estimate does not need
+        return False
 
 
 def _pictures(config: Config, call: ModelCall) -> int:
     """Frames from two views, where the robot's own model may look at them."""
-    looks = call.prompt == "robot/intentions" and config.pictures == "sampled" and _paid(config.models.robot)
+    looks = call.prompt == "robot/intentions" and config.pictures == "sampled"
     return 2 * config.frames if looks else 0
 
 

@@ -190,8 +190,11 @@ class _ListeningAsk:
     def sees(self, role: Role) -> bool:
         return self._ask.sees(role)
 
-    def take_calls(self) -> list[ModelCall]:
-        return self._ask.take_calls()
+    def instant(self, role: Role) -> bool:
+        return self._ask.instant(role)
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        return self._ask.take_calls(at)
 
 
 class _ListeningClassifier:

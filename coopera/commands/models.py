@@ -1,4 +1,4 @@
-"""`coopera models`: whether a language model can do what is asked of it."""
+"""`coopera models`: whether a language model can do what is asked of it, and what a run has asked of its models."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl
+from coopera.commands.options import AsJson, BaseUrl, RunPath
 
 app = typer.Typer(help="The language models that play the person, the robot and the judge.", no_args_is_help=True)
 
@@ -60,3 +60,30 @@ def check(
             typer.echo(in_words(backend, one))
     if not works:
         raise typer.Exit(1)
+
+
+@app.command()
+def cost(
+    run: RunPath,
+    prices: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Prices, if not those that the run was told.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Say what a run asked of its models: calls, round trips, tokens, seconds waited, and money where prices are known.
+
+    It goes by the run's trace, so a run that is not finished can be asked, too.
+    """
+    from coopera.config.prices import in_words, read_prices
+    from coopera.report.costs import costs_of
+    from coopera.report.costs import in_words as as_table
+    from coopera.report.tables import print_table
+    from coopera.rundir.directory import RunDir
+
+    found = costs_of(RunDir.open(run), read_prices(prices) if prices else None)
+    if as_json:
+        typer.echo(json.dumps(found, sort_keys=True))
+        return
+    print_table(*as_table(found))
+    if "money" in found:
+        typer.echo(in_words(found["money"]))

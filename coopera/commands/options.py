@@ -49,6 +49,7 @@ PromptFolder = Annotated[Path | None, option("prompts")]
 DataFolder = Annotated[Path | None, option("data_dir", "--out")]
 CallBudget = Annotated[int | None, option("budget.calls")]
 TokenBudget = Annotated[int | None, option("budget.tokens")]
+MoneyBudget = Annotated[float | None, option("budget.money")]
 
 
 def takes_settings(command: Callable[..., None]) -> Callable[..., None]:

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, CallBudget, RunPath, TokenBudget, nested, takes_settings
+from coopera.commands.options import (
+    AsJson,
+    CallBudget,
+    MoneyBudget,
+    RunPath,
+    TokenBudget,
+    nested,
+    takes_settings,
+)
 from coopera.core.errors import BudgetError
 
 if TYPE_CHECKING:
@@ -48,14 +56,18 @@ def run(
 
 
 def resume(
-    run: RunPath, budget_calls: CallBudget = None, budget_tokens: TokenBudget = None, as_json: AsJson = False
+    run: RunPath,
+    budget_calls: CallBudget = None,
+    budget_tokens: TokenBudget = None,
+    budget_money: MoneyBudget = None,
+    as_json: AsJson = False,
 ) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
     from coopera.config.schema import load_config
     from coopera.rundir.directory import RunDir
 
     found = RunDir.open(run)
-    given = nested({"budget.calls": budget_calls, "budget.tokens": budget_tokens})
+    given = nested({"budget.calls": budget_calls, "budget.tokens": budget_tokens, "budget.money": budget_money})
     raised = load_config(run / "config.yaml", given).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
@@ -80,6 +92,7 @@ def _recorded(models: Mapping[str, str]) -> Path | None:
 
 def _show_estimate(config: Any, *, as_json: bool) -> None:
     from coopera.checks.estimate import estimate, in_words
+    from coopera.config.prices import in_words as bill_in_words
     from coopera.report.tables import print_table
 
     found = estimate(config)
@@ -88,6 +101,8 @@ def _show_estimate(config: Any, *, as_json: bool) -> None:
         return
     print_table(*in_words(found))
     typer.echo(found["note"])
+    if "money" in found:
+        typer.echo(bill_in_words(found["money"]))
 
 
 def _hours_of(config: Any) -> int:

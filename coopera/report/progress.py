@@ -12,6 +12,7 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from coopera.config.prices import in_words
 from coopera.core.clock import hour_label
 from coopera.evaluation.measuring import all_measures
 
@@ -105,6 +106,8 @@ def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None
         console.print(f"{summary['failed_hours']} of {summary['hours']} hours failed and are not in these figures.")
     if summary.get("unscored"):
         console.print(f"{summary['unscored']} candidates could not be scored and are not in these figures.")
+    if "money" in summary:
+        console.print(in_words(summary["money"]), soft_wrap=True)
     report = folder / "report.html"
     console.print(f"Run: {folder}", soft_wrap=True)
     if report.is_file():

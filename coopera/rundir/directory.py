@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import IO, Any, Self
 
 from coopera.config.files import canonical_json, reason, write_atomic, write_output
+from coopera.config.prices import Prices, read_prices
 from coopera.config.schema import Config, load_config
 from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
 from coopera.core.hour import Evening, HourRecord
@@ -92,8 +93,10 @@ class RunDir:
         """
         if config.out is None:
             raise ConfigError("out: a folder for the run must be given.")
+        prices = read_prices(config.budget.prices) if config.budget.prices else None
         root, made = config.out, claim.make_folder(config.out)
         info = _info(prompts, models) | {"knowledge": dict(knowledge or {}), "resumable": resumable}
+        info |= {"prices": prices.model_dump(by_alias=True)} if prices else {}
         lock = None
         try:
             lock = claim.lock(root)
@@ -181,6 +184,11 @@ class RunDir:
     def resumable(self) -> bool:
         """Whether its memory and checkpoints are on file; if not, a run that was stopped is done anew."""
         return bool(self.info.get("resumable", True))
+
+    @property
+    def prices(self) -> Prices | None:
+        """What its models cost, as it was told when it began."""
+        return Prices.model_validate(self.info["prices"]) if "prices" in self.info else None
 
     def __enter__(self) -> Self:
         """Return the run; from now on Ctrl-C and `kill` stop it at its next step."""
@@ -294,7 +302,7 @@ class RunDir:
 
     def summary(self) -> dict[str, Any]:
         """The figures so far, computed from the trace, which is the content of summary.json."""
-        return summarise(self.config, self.hours(), self.evenings())
+        return summarise(self.config, self.hours(), self.evenings(), self.prices)
 
     def spent(self) -> Spent:
         """What models were paid for so far: as noted at the end, or, after a kill, at least what the trace shows."""
@@ -303,7 +311,8 @@ class RunDir:
         calls += [call for evening in self.evenings() for call in evening.calls]
         paid = [call for call in calls if not call.cached]
         tokens = sum(call.tokens_in + call.tokens_out for call in paid)
-        return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens))
+        money = self.prices.bill(paid)["spent"] if self.prices else 0.0
+        return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
 
     def note_spent(self, spent: Spent) -> None:
         """Keep what was spent in run.json."""

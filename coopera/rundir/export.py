@@ -94,7 +94,7 @@ def _hour_row(hour: HourRecord) -> dict[str, Any]:
         "robot_accepted": [bool(c.accepted) for c in robot.tasks] if robot else [],
         "robot_correct": [c.correct for c in robot.tasks] if robot else [],
         "predicate_f1": success.predicate.f1 if success else None,
-        "judge_f1": success.judge.f1 if success else None,
+        "judge_f1": success.judge.f1 if success and success.judge else None,
     }
 
 

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from coopera.config.prices import Prices
 from coopera.config.schema import Config
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.success import Counts
@@ -53,11 +54,14 @@ def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
     return text.getvalue()
 
 
-def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = ()) -> dict[str, Any]:
+def summarise(
+    config: Config, hours: Sequence[HourRecord], evenings: Sequence[Evening] = (), prices: Prices | None = None
+) -> dict[str, Any]:
     """The content of summary.json, from the hours in order and the evenings.
 
     `unscored` counts candidates without a score by the predicate, `judge_unscored` those without a readable verdict of
     the judge. A failed hour counts in `failed_hours` alone. `repairs` counts the person's tasks mended by code.
+    `money` is there only where prices are known.
     """
     days = sorted({record.day for record in hours})
     told = {evening.day: evening for evening in evenings}
@@ -81,6 +85,7 @@ def summarise(config: Config, hours: Sequence[HourRecord], evenings: Sequence[Ev
         "tokens_cached": sum(call.tokens_in + call.tokens_out for call in calls if call.cached),
         "tokens_in": sum(call.tokens_in for call in calls),
         "tokens_out": sum(call.tokens_out for call in calls),
+        **({"money": prices.bill(calls)} if prices else {}),
         "hours": len(hours),
         "failed_hours": sum(record.status == "failed" for record in hours),
         "failures": [

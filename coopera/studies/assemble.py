@@ -17,6 +17,7 @@ from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Persona
 from coopera.core.protocols import Ask, Classifier, Home, Reply, Role
+from coopera.core.randomness import Address
 from coopera.evaluation import Measure, find_method
 from coopera.graphs import Method, Services
 from coopera.graphs.earlier_life import EarlierLife
@@ -31,7 +32,7 @@ from coopera.graphs.robots.learning import KINDS, Learner
 from coopera.graphs.robots.own_robot import MakeRobot, OwnRobot
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
-from coopera.models.budget import Meter
+from coopera.models.budget import Meter, for_nothing
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
@@ -137,7 +138,7 @@ def open_services(
     """
     with ExitStack() as stack:
         embeddings = stack.enter_context(open_embeddings(config))
-        meter = Meter(config.budget, run.spent())
+        meter = Meter(config.budget, run.spent(), run.prices.money if run.prices else for_nothing)
         stack.callback(lambda: run.note_spent(meter.spent))
         prompts = prompts or PromptLibrary(config.prompts)
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
@@ -252,8 +253,11 @@ class _Interruptible:
     def sees(self, role: Role) -> bool:
         return self._ask.sees(role)
 
-    def take_calls(self) -> list[ModelCall]:
-        return self._ask.take_calls()
+    def instant(self, role: Role) -> bool:
+        return self._ask.instant(role)
+
+    def take_calls(self, at: Address | None = None) -> list[ModelCall]:
+        return self._ask.take_calls(at)
 
 
 class _Homes:

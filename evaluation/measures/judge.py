@@ -36,4 +36,5 @@ MEASURE = by_counts(
     _verdicts,
     short="judge",
     order=2,
+    asks="judge",
 )

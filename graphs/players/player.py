@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, NamedTuple, Protocol
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol
 
 from langchain_core.embeddings import Embeddings
 from typing_extensions import TypedDict
@@ -105,6 +105,9 @@ class Player(Protocol):
     Raises:
         ModelOutputError: From each method, if a language model's reply cannot be used.
     """
+
+    one_by_one: ClassVar[bool]
+    """Whether they are asked one thing after another, since somebody answers; a model is asked everything at once."""
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
         """What the person wants to do this hour. Reads `clock`, `recalled`, `today`."""

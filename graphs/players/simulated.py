@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from functools import partial
+from typing import Any, ClassVar, Literal
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.errors import ModelOutputError
@@ -21,6 +22,7 @@ from coopera.core.replies import (
 from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import HELPFUL, Verdict
 from coopera.graphs.players.reflecting import Draft
+from coopera.graphs.players.together import together
 from coopera.graphs.players.variables import all_of_the_home, as_tasks, known, living, motions_here, when, who
 from coopera.graphs.players.variety import variety
 from coopera.graphs.robots.method import Numbers
@@ -37,6 +39,7 @@ class Simulated:
     """
 
     graded: bool = False
+    one_by_one: ClassVar[bool] = False
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
         """Ask for the intention of this hour, or take it from the intentions of the whole day."""
@@ -55,16 +58,17 @@ class Simulated:
         return Decomposed(ask_for_tasks(state, ctx), stated=False)
 
     def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
-        """Ask about the intentions, and about the tasks."""
+        """Ask about the intentions and about the tasks, at once."""
         about = {**when(clock), **who(ctx), "intention": human.intention.text}
         guesses = [candidate.text for candidate in robot.intentions]
         offers = [{"thought": t.thought, "text": t.act.describe()} for t in robot.tasks]
         asked = {**about, "tasks": as_tasks(human.tasks[1:]), "offers": offers}
         at = Address(ctx.persona.id, clock.day, clock.hour, "feedback")
-        return [
-            *self._ask_verdicts(ctx, "intentions", at, {**about, "guesses": guesses}, len(guesses)),
-            *self._ask_verdicts(ctx, "tasks", at, asked, len(offers)),
+        both = [
+            partial(self._ask_verdicts, ctx, "intentions", at, {**about, "guesses": guesses}, len(guesses)),
+            partial(self._ask_verdicts, ctx, "tasks", at, asked, len(offers)),
         ]
+        return [verdict for said in together(both, waits=not ctx.ask.instant("human")) for verdict in said]
 
     def present(self) -> Player:
         """The same: a model can always be asked."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
@@ -40,6 +40,7 @@ class Logged:
 
     logs: Logs
     otherwise: Simulated = Simulated()
+    one_by_one: ClassVar[bool] = False
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
         """Take the intention from the log, if it has one of this hour; what is wanted stands in its tasks."""
@@ -75,6 +76,7 @@ class Interviewed:
 
     graded: bool = False
     interview: Interview = ask_here
+    one_by_one: ClassVar[bool] = True
 
     def intention(self, state: HumanState, ctx: HumanContext) -> Intention:
         """Ask what they want to do."""

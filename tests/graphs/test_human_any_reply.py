@@ -83,7 +83,10 @@ class AnyAsk:
     def sees(self, role: Any) -> bool:
         return False
 
-    def take_calls(self) -> list[ModelCall]:
+    def instant(self, role: Any) -> bool:
+        return True
+
+    def take_calls(self, at: Any = None) -> list[ModelCall]:
         return []
 
 

@@ -84,7 +84,7 @@ def test_what_every_setting_says_of_itself_is_one_sentence() -> None:
         (["--person-model", "single_shot"], "person_model", "single_shot"),
         (["--humans", "joan, amara"], "humans", ["joan", "amara"]),
         (["--prompts", "mine"], "prompts", Path("mine")),
-        (["--budget-calls", 3], "budget", {"calls": 3, "tokens": None}),
+        (["--budget-calls", 3], "budget", {"calls": 3, "tokens": None, "money": None, "prices": None}),
         (["--model", "a", "--judge-model", "b"], "models", {"human": "a", "robot": "a", "judge": "b"}),
     ],
 )

@@ -56,7 +56,10 @@ class FakeAsk:
     def sees(self, role: Role) -> bool:
         return False
 
-    def take_calls(self) -> list[ModelCall]:
+    def instant(self, role: Any) -> bool:
+        return True
+
+    def take_calls(self, at: Any = None) -> list[ModelCall]:
         return []
 
 
