@@ -45,11 +45,12 @@ class Measure:
         candidates: Sequence[TaskCandidate],
         outcomes: Sequence[Outcome] = (),
     ) -> tuple[list[TaskCandidate], Success]:
-        """Set `correct` (by the predicate) on the candidates, and take every measure."""
+        """Set `correct` (by the predicate) on the candidates, and take every measure that needs no evening."""
         scored = [
             one.model_copy(update={"correct": self._predicate.matches(home, one, remaining)}) for one in candidates
         ]
         helps = partial(self._predicate.helps, home)
-        hour = MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, helps)
-        figures = {spec.name: spec.measure(hour).model_dump() for spec in self._measures}
+        alike = self._predicate.alike
+        hour = MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, helps, alike)
+        figures = {spec.name: spec.measure(hour).model_dump() for spec in self._measures if spec.measure}
         return scored, Success.model_validate(figures)

@@ -17,6 +17,7 @@ from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Persona
 from coopera.core.version import __version__
+from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim
@@ -151,7 +152,8 @@ class RunDir:
         run._lock = claim.lock(path)
         for half in path.rglob(".*.tmp"):  # what a killed writer left
             half.unlink(missing_ok=True)
-        run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
+        hours = told_in_the_evening(run.hours(), run.evenings())
+        run._rows = {(record.day, record.hour): metrics_rows(record) for record in hours}
         if budget is not None:
             run.config = run.config.model_copy(update={"budget": budget})
             write_atomic(path / "config.yaml", run.config.to_yaml())
@@ -242,6 +244,8 @@ class RunDir:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
         self._stop.check()
         write_record(self._day(evening.day) / "evening.json", evening)
+        for record in told_in_the_evening(self.read_day(evening.day), [evening]):
+            self._rows[record.day, record.hour] = metrics_rows(record)
         self._write_metrics()
 
     def adapters_folder(self, day: int) -> Path:
