@@ -63,4 +63,7 @@ def _marks(pattern: Pattern, names: Sequence[str]) -> list[str]:
 
 def _distinct(offers: Sequence[Offer]) -> list[Offer]:
     """The first offers of each wording."""
-    return list({offer.offer: offer for offer in reversed(offers)}.values())[::-1][:EXAMPLES]
+    first: dict[str, Offer] = {}
+    for offer in offers:
+        first.setdefault(offer.offer, offer)
+    return list(first.values())[:EXAMPLES]
