@@ -85,10 +85,10 @@ class HandOverReply(Frozen):
 
 
 class VerdictReply(Frozen):
-    """A yes or no with its reason."""
+    """A yes or no with its reason, which comes first: decoding writes keys in this order, and a later one defends."""
 
-    yes: bool
     reason: Reason = ""
+    yes: bool
 
 
 class _Review(Frozen):
@@ -164,10 +164,10 @@ class VerdictsReply(Frozen):
 
 
 class Grade(Frozen):
-    """How helpful something was, from 1 (of no use) to 5 (just what was needed), with the reason."""
+    """How helpful something was, from 1 (of no use) to 5 (just what was needed), after the reason."""
 
-    grade: int = Field(ge=1, le=5)
     reason: Reason = ""
+    grade: int = Field(ge=1, le=5)
 
 
 class GradesReply(Frozen):

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from pydantic import ConfigDict, Field
 
-from coopera.core.people import Frozen
+from coopera.core.people import Frozen, is_empty
+
+Figure: TypeAlias = int | float | list[bool | None] | None
+"""What a measure keeps of an hour under a name."""
 
 
 class Counts(Frozen):
     """A confusion count over one task superset; `unscored` candidates are in none of the others.
 
     f1, precision and recall are None where nothing could be scored. PAPER §4.3: accepted tasks are predicted positives.
+    `verdicts` says of each candidate of one hour, in the robot's order, whether it was right; None is unscored. Added
+    up over hours there are none.
     """
 
     tp: int = Field(0, ge=0)
@@ -21,6 +28,7 @@ class Counts(Frozen):
     f1: float | None = None
     precision: float | None = None
     recall: float | None = None
+    verdicts: list[bool | None] = Field([], exclude_if=is_empty)
 
 
 class Help(Frozen):
@@ -54,13 +62,13 @@ class Success(Frozen):
     """
 
     model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, dict[str, int | float | None]] = Field(init=False)
+    __pydantic_extra__: dict[str, dict[str, Figure]] = Field(init=False)
 
     predicate: Counts
     judge: Counts | None = None
     help: Help | None = None
 
-    def of(self, measure: str) -> Counts | Help | dict[str, int | float | None] | None:
+    def of(self, measure: str) -> Counts | Help | dict[str, Figure] | None:
         """The figures by a measure; None where it was not taken."""
         shipped = {"predicate": self.predicate, "judge": self.judge, "help": self.help}
         return shipped[measure] if measure in shipped else self.__pydantic_extra__.get(measure)

@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
-
-from coopera.core.hour import FeedbackItem
-from coopera.core.success import Counts
-from coopera.evaluation.counts import count
-
-
-def by_person(feedback: Iterable[FeedbackItem]) -> Counts:
-    """Success as the person said it in the evening, task by task; an answer that could not be read is unscored."""
-    tasks = [item for item in feedback if item.kind == "task"]
-    return count([item.accepted for item in tasks], [item.helpful for item in tasks])
 
 
 def l1(one: Sequence[float | None], other: Sequence[float | None]) -> float | None:

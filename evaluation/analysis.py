@@ -16,9 +16,6 @@ from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.results import Row
 from coopera.evaluation.statistics import Mean
 
-PEOPLE = "people"
-"""The measure that is no measure of an hour, but what the person said of it."""
-
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
@@ -68,10 +65,8 @@ class Cell(NamedTuple):
 
 
 def score(rows: Iterable[Row], measure: str, figure: str | None = None) -> float | None:
-    """A figure of some hours by a measure, by default its headline; by "people", the F1 of what the person said."""
+    """A figure of some hours by a measure, by default its headline."""
     hours = [row for row in rows if row.status == "ok"]
-    if measure == PEOPLE:
-        return pool(counts for row in hours if (counts := row.counts(measure))).f1
     spec = find_measure(measure)
     return spec.pool([figures for row in hours if (figures := row.of(spec)) is not None])[figure or spec.headline]
 

@@ -7,14 +7,14 @@ Its figures then stand in each hour's trace, in metrics.csv, in the days of summ
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.hour import Intention, Task, TaskCandidate
+from coopera.core.hour import Evening, FeedbackItem, HourRecord, Intention, Task, TaskCandidate
 from coopera.core.household import Act, Outcome
 from coopera.core.people import Frozen
 from coopera.core.protocols import Ask, Home, Role
@@ -28,7 +28,7 @@ Pooled: TypeAlias = Mapping[str, float | int | None]
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _HOUR = {"day", "episode", "episode_day", "hour", "person", "scene", "measure", "status"}
-_TAKEN = _HOUR | {"hours", "failed_hours", "people", "need"}
+_TAKEN = _HOUR | {"hours", "failed_hours", "need"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,7 @@ class MeasuredHour:
         outcomes: What came of the robot's acts, in the order in which they were done.
         ask: The one door to language models, for a measure that asks one.
         helps: The predicate: whether an act of the robot helps with an act of the person.
+        alike: Cosine of two sentences by the run's embeddings.
     """
 
     home: Home
@@ -54,6 +55,7 @@ class MeasuredHour:
     outcomes: Sequence[Outcome]
     ask: Ask
     helps: Callable[[Act, Act], bool]
+    alike: Callable[[str, str], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +67,7 @@ class MeasureSpec(Generic[F]):
         about: What it says, in a line.
         title: The heading of its one figure in tables, such as "predicate F1".
         figures: The figures of an hour: a frozen model of numbers. They are columns of metrics.csv.
-        measure: Measures an hour.
+        measure: Measures an hour as soon as it is lived; None for a measure that is taken from the answers.
         pool: Adds up hours for summary.json. There may be none: all of a day's may have failed.
         headline: Which of the pooled figures is the one that tables show.
         beside: Other pooled figures that the table at a run's end has room for.
@@ -74,13 +76,15 @@ class MeasureSpec(Generic[F]):
         order: Lower ones stand first; equal ones by name.
         asks: The role whose language model it asks. Unless that model answers at once, the measure is taken in the
             evening, for all hours together, so that nobody waits for it.
+        answers: Measures an hour by what the person answered about it in the evening (`told_in_the_evening`).
+        at_end: Whether it stands in the table at a run's end, which has to fit 80 columns.
     """
 
     name: str
     about: str
     title: str
     figures: type[F]
-    measure: Callable[[MeasuredHour], F]
+    measure: Callable[[MeasuredHour], F] | None
     pool: Callable[[Sequence[F]], Pooled]
     headline: str
     beside: tuple[str, ...] = ()
@@ -88,12 +92,14 @@ class MeasureSpec(Generic[F]):
     row: str | None = None
     order: int = 100
     asks: Role | None = None
+    answers: Callable[[Sequence[FeedbackItem]], F] | None = None
+    at_end: bool = True
 
     def __post_init__(self) -> None:
-        """Refuse names that stand for something else in the files.
+        """Refuse names that stand for something else in the files, and a measure that is never taken.
 
         Raises:
-            ConfigError: Naming what cannot be a name.
+            ConfigError: Naming what is wrong.
         """
         for name in (self.name, *self.figures.model_fields):
             if not _NAME.fullmatch(name) or name in _TAKEN:
@@ -101,6 +107,8 @@ class MeasureSpec(Generic[F]):
                     f"measure: {self.name}: {name!r} cannot be the name of a measure or of a figure; it must be a "
                     f"lower-case word such as path_length, and none of {', '.join(sorted(_TAKEN))}."
                 )
+        if (self.measure is None) == (self.answers is None):
+            raise ConfigError(f"measure: {self.name}: one of `measure` and `answers` must be given, and one alone.")
 
     def read(self, success: Success) -> F | None:
         """Return an hour's figures; None in traces of before there was this measure.
@@ -126,7 +134,7 @@ def by_counts(
     beside: tuple[str, ...] = (),
     short: str = "",
     order: int = 100,
-    asks: Role | None = None,
+    at_end: bool = True,
 ) -> MeasureSpec[Counts]:
     """Return a measure of F1 over the superset: what was accepted is the prediction, and `truth` says what was right.
 
@@ -137,20 +145,26 @@ def by_counts(
         beside: As in `MeasureSpec`, as are `short` and `order`.
         short: Its heading where there is little room.
         order: Its place.
-        asks: As in `MeasureSpec`.
+        at_end: Whether it stands in the table at a run's end.
     """
+
+    def measure(hour: MeasuredHour) -> Counts:
+        verdicts = list(truth(hour))
+        counted = count([bool(one.accepted) for one in hour.candidates], verdicts)
+        return counted.model_copy(update={"verdicts": verdicts})
+
     return MeasureSpec(
         name=name,
         about=about,
         title=f"{name} F1",
         figures=Counts,
-        measure=lambda hour: count([bool(one.accepted) for one in hour.candidates], truth(hour)),
+        measure=measure,
         pool=lambda hours: pool(hours).model_dump(),
         headline="f1",
         beside=beside,
         short=short,
         order=order,
-        asks=asks,
+        at_end=at_end,
     )
 
 
@@ -206,3 +220,22 @@ def all_measures() -> list[MeasureSpec[Any]]:
         ConfigError: If another package offers one that cannot be loaded.
     """
     return sorted(map(find_measure, known_measures()), key=lambda spec: (spec.order, spec.name))
+
+
+def told_in_the_evening(hours: Iterable[HourRecord], evenings: Iterable[Evening]) -> list[HourRecord]:
+    """Return the hours with the measures that are taken from the evening's answers beside the others.
+
+    They are in no trace of an hour, since the person answers after it. Hours without a success, and those of a day
+    that has not ended, come back as they are.
+    """
+    told = {evening.day: evening.feedback for evening in evenings}
+    specs = [spec for spec in all_measures() if spec.answers is not None]
+    return [_told(hour, told[hour.day], specs) if hour.day in told else hour for hour in hours]
+
+
+def _told(hour: HourRecord, feedback: Sequence[FeedbackItem], specs: Sequence[MeasureSpec[Any]]) -> HourRecord:
+    if hour.success is None:
+        return hour
+    said = [item for item in feedback if item.hour == hour.hour]
+    figures = {spec.name: spec.answers(said).model_dump() for spec in specs if spec.answers is not None}
+    return hour.model_copy(update={"success": Success.model_validate({**hour.success.model_dump(), **figures})})

@@ -56,7 +56,11 @@ class Predicate:
     def _similarity(self, one: str, other: str) -> float:
         if plain(one).lower() == plain(other).lower():
             return 1.0
-        return float(self._vector(plain(one)) @ self._vector(plain(other)))
+        return self.alike(plain(one), plain(other))
+
+    def alike(self, one: str, other: str) -> float:
+        """Cosine of two texts."""
+        return float(self._vector(one) @ self._vector(other))
 
     def _vector(self, text: str) -> Floats:
         """A text's vector in float64; the names of a home's things come again every hour."""

@@ -19,8 +19,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Frozen
 from coopera.core.success import Counts
-from coopera.evaluation.agreement import by_person
-from coopera.evaluation.measuring import F, MeasureSpec, all_measures
+from coopera.evaluation.measuring import F, MeasureSpec, all_measures, told_in_the_evening
 
 FORMAT = 1
 """Raised whenever a column changes its meaning; readers refuse other numbers."""
@@ -156,16 +155,15 @@ def rows_of(
         activity: Finds the group of an intention.
         labels: method, setting, collab, seed and episode.
     """
-    told = {evening.day: evening.feedback for evening in evenings}
+    hours = told_in_the_evening(hours, evenings)
     lived = list(dict.fromkeys((hour.day, hour.person) for hour in hours))
     rounds = {day: sum(who == person for _, who in lived[:place]) for place, (day, person) in enumerate(lived)}
     last = {person: day for day, person in lived}
     rows = []
     for hour in hours:
-        said = by_person(item for item in told.get(hour.day, []) if item.hour == hour.hour)
         measured: dict[str, Any] = {}
         if hour.success:
-            taken = {"people": said, **{spec.name: spec.read(hour.success) for spec in all_measures()}}
+            taken = {spec.name: spec.read(hour.success) for spec in all_measures()}
             for name, figures in taken.items():
                 if figures is not None:
                     measured |= {at: getattr(figures, field) for at, field in columns_of(name, type(figures)).items()}

@@ -12,14 +12,14 @@ taken in the evening, for all hours together.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.hour import HourRecord, Intention, Task, TaskCandidate
-from coopera.core.household import Act, Outcome
+from coopera.core.household import Outcome
 from coopera.core.protocols import Ask, Home
 from coopera.core.randomness import Address
 from coopera.core.success import Success
@@ -37,7 +37,8 @@ class Measure:
             ConfigError: If another package offers a measure that cannot be loaded.
         """
         self._ask, self._predicate = ask, Predicate(embeddings)
-        self._measures = all_measures() if measures is None else list(measures)
+        known = all_measures() if measures is None else measures
+        self._of_hours = [spec for spec in known if spec.measure]
 
     def __call__(
         self,
@@ -52,28 +53,36 @@ class Measure:
         scored = [
             one.model_copy(update={"correct": self._predicate.matches(home, one, remaining)}) for one in candidates
         ]
-        now = [spec for spec in self._measures if spec.asks is None or self._ask.instant(spec.asks)]
-        hour = MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, self._helps(home))
+        now = [spec for spec in self._of_hours if spec.asks is None or self._ask.instant(spec.asks)]
+        hour = self._measured(home, at, intention, remaining, scored, outcomes)
         return scored, Success.model_validate(_figures(now, hour))
 
     def misses(self, success: Success) -> bool:
         """Whether measures of an hour are still to be taken."""
-        return any(success.of(spec.name) is None for spec in self._measures)
+        return any(success.of(spec.name) is None for spec in self._of_hours)
 
     def complete(self, home: Home, at: Address, hour: HourRecord) -> Success:
         """Take the measures that an hour still misses, once its day is over; those that it has stay as they are."""
         assert hour.success, "an hour is measured first"
         assert hour.human, "by what the person did"
         assert hour.robot, "and the robot"
-        late = [spec for spec in self._measures if hour.success.of(spec.name) is None]
+        late = [spec for spec in self._of_hours if hour.success.of(spec.name) is None]
         human, robot = hour.human, hour.robot
-        given = (human.intention, human.tasks[1:], robot.tasks, robot.outcomes)
-        found = _figures(late, MeasuredHour(home, at, *given, self._ask, self._helps(home)))
-        return Success.model_validate({**hour.success.model_dump(), **found})
+        measured = self._measured(home, at, human.intention, human.tasks[1:], robot.tasks, robot.outcomes)
+        return Success.model_validate({**hour.success.model_dump(), **_figures(late, measured)})
 
-    def _helps(self, home: Home) -> Callable[[Act, Act], bool]:
-        return partial(self._predicate.helps, home)
+    def _measured(
+        self,
+        home: Home,
+        at: Address,
+        intention: Intention,
+        remaining: Sequence[Task],
+        scored: Sequence[TaskCandidate],
+        outcomes: Sequence[Outcome],
+    ) -> MeasuredHour:
+        helps, alike = partial(self._predicate.helps, home), self._predicate.alike
+        return MeasuredHour(home, at, intention, remaining, scored, outcomes, self._ask, helps, alike)
 
 
 def _figures(measures: Iterable[MeasureSpec[Any]], hour: MeasuredHour) -> dict[str, Any]:
-    return {spec.name: spec.measure(hour).model_dump() for spec in measures}
+    return {spec.name: spec.measure(hour).model_dump() for spec in measures if spec.measure}

@@ -8,7 +8,6 @@ from typing import NamedTuple
 from coopera.core.success import Counts
 from coopera.evaluation import paper
 from coopera.evaluation.analysis import (
-    PEOPLE,
     STATED,
     Cell,
     Endpoint,
@@ -81,18 +80,18 @@ def all_tables(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint =
 
 
 def _measures(rows: Sequence[Row]) -> list[str]:
-    """Every measure that some row has, the person's own after the predicate and the judge."""
+    """Every measure that some row has, those that count candidates first."""
     taken = [spec for spec in all_measures() if any(row.of(spec) is not None for row in rows)]
     counted = [spec.name for spec in taken if issubclass(spec.figures, Counts)]
-    return [*counted, PEOPLE, *(spec.name for spec in taken if spec.name not in counted)]
+    return [*counted, *(spec.name for spec in taken if spec.name not in counted)]
 
 
 def last_day_table(rows: Sequence[Row], methods: Sequence[str], measure: str) -> Table:
     """A measure on each person's last day, by setting and type."""
     places = _places(rows)
     lines = _lines(methods, [last_day(_of(rows, place), measure) for place in places])
-    spec = None if measure == PEOPLE else find_measure(measure)
-    what = f"F1 by {measure}" if spec is None or issubclass(spec.figures, Counts) else _upper(spec.title)
+    spec = find_measure(measure)
+    what = f"F1 by {measure}" if issubclass(spec.figures, Counts) else _upper(spec.title)
     return Table(
         f"last_day_{measure}",
         f"{what} on each person's last day",
@@ -254,14 +253,16 @@ def generalisation_table(rows: Sequence[Row]) -> Table:
 
 
 def agreement_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
-    """L1 of predicate and judge to the person's own answers."""
+    """L1 of predicate, judge and similarity to the person's own answers."""
     settings = sorted({row.setting for row in rows})
     lines = []
-    for measure in ("predicate", "judge"):
+    for measure in ("predicate", "judge", "similar"):
         for method in methods:
             found = [agreement([r for r in rows if r.method == method and r.setting == s], measure) for s in settings]
             if any(value is not None for value in found):
                 lines.append([f"{measure}, {method}", *(NONE if v is None else f"{v:.3f}" for v in found)])
+        if measure not in paper.L1:
+            continue
         theirs = [paper.L1[measure].get(setting) for setting in settings]
         lines.append([f"{measure}, paper (real people)", *(NONE if v is None else f"{v:.3f}" for v in theirs)])
     return Table(

@@ -116,14 +116,16 @@ def figures(run: RunDir) -> tuple[dict[str, int], dict[str, Any]]:
     assert hour.robot is not None
     offered, done = len(hour.robot.tasks), len(hour.robot.outcomes)
     assert offered >= done > 0
-    right = count([task.accepted is True for task in hour.robot.tasks], every_other(hour.robot.tasks))
-    return {"offered": offered, "carried_out": done}, right.model_dump()
+    truth = every_other(hour.robot.tasks)
+    right = count([task.accepted is True for task in hour.robot.tasks], truth)
+    return {"offered": offered, "carried_out": done}, {**right.model_dump(), "verdicts": truth}
 
 
 def test_ones_own_measures_stand_in_the_trace_under_their_names(measured: RunDir) -> None:
     success = json.loads((measured.root / "trace/day-00/hour-09.json").read_text())["success"]
     assert (success["boldness"], success["parity"]) == figures(measured)
-    assert set(success) == {one.name for one in all_measures()} >= {"predicate", "judge", "help", "boldness", "parity"}
+    assert set(success) == {one.name for one in all_measures() if one.measure}
+    assert set(success) >= {"predicate", "judge", "similar", "help", "boldness", "parity"}
 
 
 def test_ones_own_measures_are_rows_of_metrics_csv(measured: RunDir) -> None:
@@ -140,8 +142,9 @@ def test_ones_own_measures_are_figures_of_each_day_of_the_summary(measured: RunD
     summary = json.loads((measured.root / "summary.json").read_text())
     (day,) = summary["days"]
     assert day["boldness"] == {**bold, "share": bold["carried_out"] / bold["offered"]}
+    del right["verdicts"]  # of one hour
     assert day["parity"] == right
-    assert set(summary["agreement"]) == {"predicate", "judge", "parity"}
+    assert set(summary["agreement"]) == {"predicate", "judge", "similar", "parity"}
     assert all(day[name] == plain["days"][0][name] for name in ("predicate", "judge", "help", "people"))
 
 

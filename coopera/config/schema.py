@@ -27,10 +27,8 @@ from coopera.models.given import by_role
 from coopera.models.settings import OWN, SHARED, Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
-
 Ids = Annotated[list[Text], Field(min_length=1)]
 Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
-
 SMALL, LARGE = (320, 240), (1024, 768)
 
 

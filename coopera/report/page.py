@@ -17,9 +17,10 @@ from coopera.core.errors import CooperaError, RunError
 from coopera.core.hour import Evening, FeedbackItem, HourRecord, IntentionCandidate, RobotHour, TaskCandidate
 from coopera.core.household import Outcome
 from coopera.core.people import BigFive, Persona
-from coopera.evaluation.measuring import all_measures
+from coopera.evaluation.measuring import all_measures, told_in_the_evening
 from coopera.report import charts, learned
 from coopera.report.budget import budget_of, day_rows, in_words
+from coopera.report.differing import as_page, offers_of
 from coopera.report.pictures import Album, embed
 from coopera.report.progress import figure
 from coopera.report.tree import reasons
@@ -122,10 +123,10 @@ def _environment() -> Environment:
 
 def render(run: RunDir, album: Album) -> str:
     """The page as text; a run that is not finished is shown as far as it got."""
-    records = run.hours()
+    evenings = {evening.day: evening for evening in run.evenings()}
+    records = told_in_the_evening(run.hours(), evenings.values())
     people = run.people()
     days = _days(run, records, album, people)
-    evenings = {evening.day: evening for evening in run.evenings()}
     return (
         _environment()
         .get_template("report.html.j2")
@@ -143,6 +144,7 @@ def render(run: RunDir, album: Album) -> str:
             ends=_ends(records),
             need=needed(records),
             budget=_budget(run, records, list(evenings.values())),
+            differing=as_page(offers_of(records)),
             by_hour=_by_hour(records, run.config.day_hours),
             calibration=_calibration(records, evenings),
             mixed_up={

@@ -87,11 +87,11 @@ def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None
     """Print the days of a run with their success, and where its report is."""
     console = console or Console(highlight=False)
     title = f"{summary['method']}, setting {summary['setting']}"
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for name in ("day", "person", "home"):
         table.add_column(name)
     shown: list[tuple[str, str, str]] = []
-    for spec in all_measures():
+    for spec in (one for one in all_measures() if one.at_end):
         shown += [(spec.short or spec.title, spec.name, spec.headline)]
         shown += [(name, spec.name, name) for name in spec.beside]
     for title, _, _ in shown:
@@ -101,7 +101,8 @@ def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None
         table.add_row(str(day["day"]), day["person"], day["scene"], *figures)
     console.print(table)
     console.print("need F1, precision, recall: what it did against what the person still had to do;", soft_wrap=True)
-    console.print("F1 (by the predicate) and judge: over the robot's own candidates, as in the paper.", soft_wrap=True)
+    console.print("F1 (by the predicate) and judge: over the robot's own candidates, as in the paper;", soft_wrap=True)
+    console.print("people: over these, too, by what the person answers in the evening.", soft_wrap=True)
     if summary.get("failed_hours"):
         console.print(f"{summary['failed_hours']} of {summary['hours']} hours failed and are not in these figures.")
     if summary.get("unscored"):

@@ -15,7 +15,7 @@ from coopera.core.hour import Evening, HourRecord, HumanHour, ModelCall, Reasons
 from coopera.core.household import Outcome
 from coopera.core.people import TRAITS
 from coopera.core.success import Counts
-from coopera.evaluation.measuring import all_measures
+from coopera.evaluation.measuring import all_measures, told_in_the_evening
 from coopera.report.progress import figure
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes, intention_verdicts, read_json
@@ -82,6 +82,7 @@ def hour_tree(record: HourRecord, evening: Evening | None = None) -> Tree:
     if record.robot:
         _add_robot(tree.add("[bold]robot[/]"), record.robot, intention_verdicts(evening, record.hour))
     _add_outcomes(tree, "what the person did", human_outcomes(record))
+    [record] = told_in_the_evening([record], [evening] if evening else [])
     if record.success:
         branch = tree.add("[bold]success[/]")
         for spec in all_measures():

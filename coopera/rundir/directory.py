@@ -19,6 +19,7 @@ from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Persona
 from coopera.core.version import __version__
+from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim
@@ -155,7 +156,7 @@ class RunDir:
         run._lock = claim.lock(path)
         for half in path.rglob(".*.tmp"):  # what a killed writer left
             half.unlink(missing_ok=True)
-        run._rows = {(record.day, record.hour): metrics_rows(record) for record in run.hours()}
+        run._rows = run._rows_of_all()
         if budget is not None:
             run.config = run.config.model_copy(update={"budget": budget})
             write_atomic(path / "config.yaml", run.config.to_yaml())
@@ -265,6 +266,8 @@ class RunDir:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
         self._stop.check()
         write_record(self.evening_file(evening.day), evening)
+        for record in told_in_the_evening(self.read_day(evening.day), [evening]):
+            self._rows[record.day, record.hour] = metrics_rows(record)
         self._write_metrics()
 
     def adapters_folder(self, day: int) -> Path:
@@ -330,7 +333,7 @@ class RunDir:
     def write_figures(self) -> dict[str, Any]:
         """Write metrics.csv and summary.json from the trace, and return the summary."""
         summary = self.summary()
-        self._rows = {(record.day, record.hour): metrics_rows(record) for record in self.hours()}
+        self._rows = self._rows_of_all()
         self._write_metrics()
         write_atomic(self.root / "summary.json", canonical_json(summary))
         return summary
@@ -341,6 +344,10 @@ class RunDir:
 
     def _write_info(self) -> None:
         write_atomic(self.root / "run.json", canonical_json(self.info))
+
+    def _rows_of_all(self) -> dict[tuple[int, int], list[dict[str, Any]]]:
+        hours = told_in_the_evening(self.hours(), self.evenings())
+        return {(record.day, record.hour): metrics_rows(record) for record in hours}
 
     def _write_metrics(self) -> None:
         rows = [row for key in sorted(self._rows) for row in self._rows[key]]

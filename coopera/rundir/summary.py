@@ -12,9 +12,9 @@ from coopera.config.prices import Prices
 from coopera.config.schema import Config
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.success import Counts
-from coopera.evaluation.agreement import by_person, l1
+from coopera.evaluation.agreement import l1
 from coopera.evaluation.measures.help import need, pool_help
-from coopera.evaluation.measuring import Pooled, all_measures, find_measure
+from coopera.evaluation.measuring import Pooled, all_measures, find_measure, told_in_the_evening
 
 _HOUR = ("day", "episode", "episode_day", "hour", "person", "scene")
 _NEED = ("need_precision", "need_recall", "need_f1")
@@ -23,7 +23,8 @@ _COUNTS = ("f1", "precision", "recall", "tp", "fp", "fn", "tn", "unscored")
 
 def columns() -> list[str]:
     """The columns of metrics.csv: which hour, by which measure, and the figures of every measure."""
-    figures = [name for spec in all_measures() for name in spec.figures.model_fields if name not in _COUNTS]
+    figures = [name for spec in all_measures() if spec.figures is not Counts for name in spec.figures.model_fields]
+    figures = [name for name in figures if name not in _COUNTS]
     return [*_HOUR, "measure", *_COUNTS, "status", *dict.fromkeys(figures), *_NEED]
 
 
@@ -39,7 +40,7 @@ def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
     for spec in all_measures():
         row = rows.setdefault(spec.row or spec.name, {**blank, "measure": spec.row or spec.name})
         found = spec.read(record.success) if record.success else None
-        row |= found.model_dump() if found else {}
+        row |= found.model_dump(exclude={"verdicts"}) if found else {}
     if record.success and record.success.help:
         rows["predicate"] |= dict(zip(_NEED, need(record.success.help), strict=True))
     return list(rows.values())
@@ -64,9 +65,9 @@ def summarise(
     `money` is there only where prices are known.
     """
     days = sorted({record.day for record in hours})
-    told = {evening.day: evening for evening in evenings}
+    hours = told_in_the_evening(hours, evenings)
     calls = [call for hour in hours for call in hour.calls] + [call for evening in evenings for call in evening.calls]
-    entries = [day_entry([record for record in hours if record.day == day], told.get(day)) for day in days]
+    entries = [day_entry([record for record in hours if record.day == day]) for day in days]
     return {
         "method": config.method,
         "setting": config.setting,
@@ -98,7 +99,7 @@ def summarise(
         "fallbacks": fallbacks(hours),
         "identified": _identified(hours),
         "judge_unscored": sum(entry["judge"]["unscored"] for entry in entries),
-        "agreement": _agreement(hours, told),
+        "agreement": _agreement(hours),
     }
 
 
@@ -113,17 +114,13 @@ def fallbacks(hours: Iterable[HourRecord]) -> dict[str, int]:
     return dict(sorted(Counter(text.split(":")[0].split(' "')[0] for text in said).items()))
 
 
-def _agreement(hours: Iterable[HourRecord], told: Mapping[int, Evening]) -> dict[str, float | None]:
+def _agreement(hours: Iterable[HourRecord]) -> dict[str, float | None]:
     """L1 of each measure of F1 to the person's own answers, hour by hour; None where no hour has both."""
-    scored = [(record, record.success) for record in hours if record.success and record.day in told]
-    people = [
-        by_person([item for item in told[record.day].feedback if item.hour == record.hour]).f1 for record, _ in scored
-    ]
-    found: dict[str, float | None] = {}
-    for spec in all_measures():
-        if issubclass(spec.figures, Counts):
-            counts = [spec.read(success) for _, success in scored]
-            found[spec.name] = l1([one.f1 if one else None for one in counts], people)
+    scored = [record.success for record in hours if record.success]
+    counted = [spec for spec in all_measures() if issubclass(spec.figures, Counts)]
+    f1 = {spec.name: [one.f1 if (one := spec.read(success)) else None for success in scored] for spec in counted}
+    people = f1.pop("people")
+    found = {measure: l1(values, people) for measure, values in f1.items()}
     return {measure: None if value is None else round(value, 6) for measure, value in found.items()}
 
 
@@ -133,11 +130,8 @@ def _identified(hours: Iterable[HourRecord]) -> dict[str, int]:
     return {"hours": len(guessed), "right": sum(one == other for one, other in guessed)}
 
 
-def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> dict[str, Any]:
-    """One day of the summary: by each measure, the figures of its hours together (PAPER §4.3).
-
-    `people` is success as the person said it in the evening; `docs/measures.md` has the others.
-    """
+def day_entry(hours: Sequence[HourRecord]) -> dict[str, Any]:
+    """One day of the summary: by each measure, the figures of its hours together (PAPER §4.3)."""
     first = hours[0]
     return {
         "day": first.day,
@@ -149,7 +143,6 @@ def day_entry(hours: Sequence[HourRecord], evening: Evening | None = None) -> di
         "failed_hours": sum(record.status == "failed" for record in hours),
         "need": needed(hours),
         **{spec.name: dict(pooled(hours, spec.name)) for spec in all_measures()},
-        "people": by_person(evening.feedback if evening else []).model_dump(),
     }
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from coopera.core.errors import ModelOutputError
 from coopera.core.replies import VerdictsReply
 from coopera.evaluation.measuring import MeasuredHour, by_counts
@@ -30,11 +32,13 @@ def _verdicts(hour: MeasuredHour) -> list[bool | None]:
     return verdicts if len(verdicts) == len(hour.candidates) else unread
 
 
-MEASURE = by_counts(
-    "judge",
-    "F1 over the robot's candidates; a language model that knows the truth says which of them help",
-    _verdicts,
-    short="judge",
-    order=2,
+MEASURE = replace(
+    by_counts(
+        "judge",
+        "F1 over the robot's candidates; a language model that knows the truth says which of them help",
+        _verdicts,
+        short="judge",
+        order=2,
+    ),
     asks="judge",
 )

@@ -12,7 +12,9 @@ Floats = npt.NDArray[np.float64]
 _SHARES = np.arange(1.0, 2.51, 0.125)
 """Shares of yes to try, in multiples of the share of yes among the labels."""
 _USUAL_SHARE = 1.75
-_STEEPEST = 20.0
+_FLATTEST, _STEEPEST = 0.05, 20.0
+_NOISE = 1e-6
+"""Scores that differ by less than this, or by this share of the largest, differ by rounding alone."""
 
 
 class Scale(NamedTuple):
@@ -26,6 +28,14 @@ class Scale(NamedTuple):
         depth = np.clip(self.slope * (scores - self.threshold), -30.0, 30.0)
         probabilities: Floats = 1.0 / (1.0 + np.exp(-depth))
         return probabilities
+
+    def within(self, scores: Floats) -> Scale:
+        """Return the scale with its threshold where some of these scores, shape (n,), get a yes and others a no.
+
+        A threshold from a few held-out examples may lie beyond all that the whole model says. Scores that do not
+        differ are all undecided.
+        """
+        return self._replace(threshold=min(max(self.threshold, score_at(scores, 1.0)), float(scores.max())))
 
 
 def scale(scores: Floats, labels: npt.NDArray[np.bool_], *, days: int) -> Scale:
@@ -55,8 +65,15 @@ def best_share(scores: Floats, labels: npt.NDArray[np.bool_], *, days: int) -> f
 
 
 def score_at(scores: Floats, share: float) -> float:
-    """Return the score that this share of all scores reaches."""
-    return float(np.quantile(scores, max(0.0, 1.0 - share)))
+    """Return the score that this share of all scores reaches; where scores differ, the lowest never reaches it."""
+    higher = scores[scores > scores.min() + _noise(scores)]
+    least = float(higher.min()) if len(higher) else float(scores.min())
+    return max(float(np.quantile(scores, max(0.0, 1.0 - share))), least)
+
+
+def _noise(scores: Floats) -> float:
+    """Return by how much scores may differ through rounding alone."""
+    return _NOISE * max(1.0, float(np.abs(scores).max()))
 
 
 def _f1_at(scores: Floats, labels: npt.NDArray[np.bool_], share: float) -> float:
@@ -65,12 +82,16 @@ def _f1_at(scores: Floats, labels: npt.NDArray[np.bool_], share: float) -> float
 
 
 def _platt_slope(scores: Floats, labels: npt.NDArray[np.bool_]) -> float:
-    """Return the slope of a logistic regression of the label on the score, kept positive and finite.
+    """Return the slope of a logistic regression of the label on the score, kept positive and within bounds.
 
-    A score without any skill gives the smallest slope: all probabilities close to 0.5, in the score's order.
+    A score without any skill, or without any difference but rounding, gives the flattest slope: all probabilities
+    close to 0.5, in the score's order. The steepest keeps a few examples from making probabilities of 0 and 1, since
+    other examples may lie much further apart than those few.
     """
     from sklearn.linear_model import LogisticRegression  # noqa: PLC0415 - heavy
 
-    spread = float(scores.std()) or 1.0
+    spread = float(scores.std())
+    if spread <= _noise(scores):
+        return _FLATTEST
     fitted = LogisticRegression(C=10.0).fit(scores[:, None] / spread, labels)
-    return float(np.clip(fitted.coef_[0, 0], 0.05, _STEEPEST)) / spread
+    return min(max(float(fitted.coef_[0, 0]), _FLATTEST) / spread, _STEEPEST)

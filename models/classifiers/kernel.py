@@ -94,8 +94,8 @@ class KernelClassifier:
 
         Returns:
             `examples`, `positives`, `f1` at the chosen threshold, and `f1_always_yes`. Both F1 are measured on held-out
-            days (with a single day: on held-out hours), and only on the robot's candidates: the true intentions of
-            the evening have no rank and do not count.
+            days (with a single day: on held-out hours; with a single hour there is nothing to hold out), and only on
+            the robot's candidates: the true intentions of the evening have no rank and do not count.
         """
         taught = lesson(examples, self._inputs, most=MOST)
         counts = {"examples": float(len(taught.labels)), "positives": float(sum(taught.labels))}
@@ -130,6 +130,7 @@ class KernelClassifier:
             "f1_always_yes": _f1(np.ones(len(labels), bool), labels),
         }
         solution = solve_triangular(lower, weights, lower=True, trans="T")
+        chosen = chosen.within((features @ weights)[asked])
         return _Fitted(landmarks, similarity, standing, solution, chosen, mixed), measured
 
     def _similarity(self, centre: Floats) -> Similarity:
@@ -226,6 +227,7 @@ def _ridge(features: Floats, labels: npt.NDArray[np.bool_], group: npt.NDArray[n
     Returns:
         The weights, shape (m,), and each example's score by a fit without its group, shape (n,), which has a closed
         form: with H the hat matrix, the residuals of a group left out are (I - H_gg)^-1 times those of the fit.
+        Without the only group nothing is known: all scores are 0.
     """
     target = np.where(labels, 1.0, -1.0)
     importance = np.where(labels, 0.5 / labels.mean(), 0.5 / (1 - labels.mean()))
@@ -236,8 +238,8 @@ def _ridge(features: Floats, labels: npt.NDArray[np.bool_], group: npt.NDArray[n
     factor = cho_factor(normal)
     weights: Floats = cho_solve(factor, weighted.T @ (root * target))
     residual = root * target - weighted @ weights
-    unseen = np.empty(len(labels))
-    for name in np.unique(group):
+    unseen, groups = np.zeros(len(labels)), np.unique(group)
+    for name in groups if len(groups) > 1 else ():
         rows = np.flatnonzero(group == name)
         part = weighted[rows]
         hat = part @ cho_solve(factor, part.T)

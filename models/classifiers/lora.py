@@ -21,7 +21,7 @@ from transformers import AutoTokenizer
 from coopera.core.errors import CooperaError
 from coopera.core.hour import CandidateKind, Example
 from coopera.models.classifiers.adapters import AdaptedEncoder, Recipe
-from coopera.models.classifiers.calibration import best_share, score_at
+from coopera.models.classifiers.calibration import Scale, best_share, score_at
 from coopera.models.classifiers.evening import Evening, balanced, evening, must_be_finite, one_thread
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from coopera.models.classifiers.text import Inputs, sentence_pair
@@ -103,6 +103,7 @@ class LoraClassifier:
             asked = np.array([example.rank is not None for example in taught.examples])
             shift = _threshold(_logits(net, seen), taught.labels, [taught.held_out & asked, taught.held_out])
             loss = self._fit(net, seen, taught, every, epochs=last, speed=0.1)
+            shift = Scale(1.0, shift).within(_logits(net, seen)).threshold  # the second phase may have moved all
         self._net, self._learned, self._shift = net, net.state(), shift
         return counts | {"passes": float(len(first) * most + len(seen) * last), "loss": loss}
 

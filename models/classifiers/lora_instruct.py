@@ -88,13 +88,13 @@ class LoraInstructClassifier:
             try:
                 loss = self._fit(base, taught, rows, epochs)
                 judged = taught.held_out if taught.held_out.any() else ~taught.held_out
-                texts = [self._instruct(taught.examples[row]) for row in np.flatnonzero(judged)]
-                scores = self._scores(base, texts)
+                scores = self._scores(base, [self._instruct(example) for example in taught.examples])
                 self._must_be_finite("answer", float(scores.sum()))
             finally:
                 learned = base.take_out(self._kind)
         days = len({hour // 24 for hour in taught.hours})
-        self._scale, self._learned = scale(scores, taught.labels[judged], days=days), learned
+        chosen = scale(scores[judged], taught.labels[judged], days=days)
+        self._scale, self._learned = chosen.within(scores), learned
         return counts | {"passes": float(len(rows) * epochs), "loss": loss}
 
     def _fit(self, base: CausalBase, taught: Evening, rows: npt.NDArray[np.int64], epochs: int) -> float:

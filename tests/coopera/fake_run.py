@@ -180,7 +180,8 @@ def _robot(
     judged = [None if c is None else bool(c) ^ bool(rng.random() < 0.1) for c in correct]
     useful = [[_helps(one.act, task.act) for task in human.tasks[1:]] for one in outcomes]
     given = help_given(outcomes, useful, remaining=len(human.tasks) - 1)
-    success = Success(predicate=count(accepted, correct), judge=count(accepted, judged), help=given)
+    by_judge = count(accepted, judged).model_copy(update={"verdicts": judged})
+    success = Success(predicate=count(accepted, correct), judge=by_judge, help=given)
     fallbacks = [] if tasks else ["no intention accepted"]
     return RobotHour(
         observation=observation, recalled=[], intentions=intentions, tasks=tasks, outcomes=outcomes, fallbacks=fallbacks

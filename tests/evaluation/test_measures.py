@@ -8,9 +8,11 @@ from coopera.core.hour import FeedbackItem, HourRecord, ModelCall, Observation, 
 from coopera.core.household import HandOver, Outcome, SceneId
 from coopera.core.people import PersonId
 from coopera.core.success import Counts, Help
-from coopera.evaluation.agreement import by_person, l1
+from coopera.evaluation.agreement import l1
+from coopera.evaluation.counts import pool
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.measures.help import Need, false_help, help_given, need, pool_help
+from coopera.evaluation.measures.people import by_person
 
 
 def done(metres: float = 2.0, *, ok: bool = True) -> Outcome:
@@ -79,7 +81,16 @@ def test_the_persons_own_answers_are_counted_task_by_task() -> None:
     """Accepted and helpful, accepted and not, declined and helpful, unreadable; the intention is not a task."""
     items = [said("cup", True, True), said("hat", True, False), said("pen", False, True), said("jar", True, None)]
     items.append(said("Cook", True, True).model_copy(update={"kind": "intention"}))
-    assert by_person(items) == Counts(tp=1, fp=1, fn=1, unscored=1, f1=0.5, precision=0.5, recall=0.5)
+    found = by_person(items)
+    assert found.verdicts == [True, False, True, None]
+    assert pool([found]) == Counts(tp=1, fp=1, fn=1, unscored=1, f1=0.5, precision=0.5, recall=0.5)
+
+
+def test_what_the_person_meant_counts_and_not_their_slip() -> None:
+    """The robot learns from the slip; a measure that counted it would be wrong on purpose."""
+    slip = said("cup", True, False).model_copy(update={"slip": True})
+    assert by_person([slip]).verdicts == [True]
+    assert (by_person([slip]).tp, by_person([slip]).fp) == (1, 0)
 
 
 def test_the_l1_distance_is_taken_over_hours_that_both_measured() -> None:

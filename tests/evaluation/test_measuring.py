@@ -5,9 +5,18 @@ from typing import Any
 import pytest
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.people import Frozen
+from coopera.core.hour import Evening, FeedbackItem, HourRecord
+from coopera.core.people import Belief, Frozen
 from coopera.core.success import Counts, Help, Success
-from coopera.evaluation.measuring import MeasureSpec, all_measures, find_measure, known_measures, means, sums
+from coopera.evaluation.measuring import (
+    MeasureSpec,
+    all_measures,
+    find_measure,
+    known_measures,
+    means,
+    sums,
+    told_in_the_evening,
+)
 
 
 class Steps(Frozen):
@@ -20,7 +29,7 @@ def spec(figures: type[Frozen] = Steps, name: str = "walked") -> MeasureSpec[Any
 
 
 def test_the_measures_that_ship_have_their_order_and_say_what_they_are() -> None:
-    assert [one.name for one in all_measures()][:3] == ["help", "predicate", "judge"]
+    assert [one.name for one in all_measures()][:5] == ["help", "predicate", "judge", "people", "similar"]
     assert sorted(one.name for one in all_measures()) == sorted(known_measures())
     assert all(one.about and one.headline in one.pool([]) for one in all_measures())
 
@@ -37,7 +46,7 @@ def test_a_name_that_means_something_else_in_the_files_is_refused() -> None:
     class Hours(Frozen):
         hour: int = 0
 
-    for figures, name, wrong in ((Steps, "people", "people"), (Hours, "walked", "hour"), (Steps, "a-b", "a-b")):
+    for figures, name, wrong in ((Steps, "person", "person"), (Hours, "walked", "hour"), (Steps, "a-b", "a-b")):
         with pytest.raises(ConfigError, match=f"measure: {name}: '{wrong}' cannot be the name"):
             spec(figures, name)
 
@@ -63,3 +72,40 @@ def test_figures_of_another_shape_are_refused_with_what_was_expected() -> None:
     success = Success.model_validate({"predicate": {}, "judge": {}, "walked": {"miles": 3}})
     with pytest.raises(RunError, match=r"success.walked: the trace has \{'miles': 3\}, and .* has steps, metres"):
         spec().read(success)
+
+
+def test_a_measure_is_taken_in_the_hour_or_in_the_evening() -> None:
+    for measure, answers in ((None, None), (lambda _: Steps(), lambda _: Steps())):
+        with pytest.raises(ConfigError, match="one of `measure` and `answers` must be given, and one alone"):
+            MeasureSpec("walked", "", "metres", Steps, measure, sums(Steps), "metres", answers=answers)
+
+
+def test_the_evening_completes_the_hours_of_its_day_and_no_others() -> None:
+    lived = [hour(9), hour(10), hour(9).model_copy(update={"day": 1}), hour(11).model_copy(update={"success": None})]
+    told = told_in_the_evening(lived, [evening(answer(9, helpful=True), answer(10, helpful=False))])
+    people = find_measure("people")
+    found = [people.read(one.success) if one.success else None for one in told]
+    assert found == [
+        Counts(tp=1, f1=1, precision=1, recall=1, verdicts=[True]),
+        Counts(fp=1, f1=0, precision=0, verdicts=[False]),
+        None,
+        None,
+    ]
+    assert told_in_the_evening(lived, []) == lived
+    assert told_in_the_evening(told, [evening(answer(9, helpful=True), answer(10, helpful=False))]) == told
+
+
+def hour(at: int) -> HourRecord:
+    success = Success.model_validate({"predicate": {}, "judge": {}})
+    where = {"day": 0, "episode": 0, "episode_day": 0, "hour": at, "person": "ann", "scene": "maple"}
+    lived = {"human": None, "robot": None, "world": {}, "success": success, "status": "ok"}
+    return HourRecord.model_validate(where | lived)
+
+
+def evening(*feedback: FeedbackItem) -> Evening:
+    where = {"day": 0, "episode": 0, "episode_day": 0, "person": "ann", "scene": "maple"}
+    return Evening.model_validate({**where, "feedback": list(feedback), "belief": Belief()})
+
+
+def answer(at: int, *, helpful: bool) -> FeedbackItem:
+    return FeedbackItem(hour=at, kind="task", text="bring the mug", accepted=True, helpful=helpful)

@@ -80,8 +80,8 @@ def test_an_unreadable_judge_leaves_candidates_unscored_and_never_wrong() -> Non
 
     measure = Measure(ScriptedAsk({"judge/tasks": garbled}), LetterEmbeddings())
     _, success = measure(FakeHome(), AT, Intention(text="Read"), [], [candidate(HandOver(object="novel"))])
-    assert success.judge == Counts(unscored=1)
-    assert success.predicate == Counts(fp=1, f1=0, precision=0)
+    assert success.judge == Counts(unscored=1, verdicts=[None])
+    assert success.predicate == Counts(fp=1, f1=0, precision=0, verdicts=[False])
 
 
 def test_a_judge_that_answers_another_number_of_questions_is_unreadable() -> None:

@@ -3,6 +3,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable
+from itertools import combinations
 from pathlib import Path
 
 from coopera.report.budget import budget_of, read_budget
@@ -47,6 +48,18 @@ def test_the_table_says_in_words_where_help_was_lost_and_by_day(coopera: Coopera
                   "the thing was in the person's hand already", "right intention, wrong thing", "By day"):  # fmt: skip
         assert words in said.out
     assert all(len(line.rstrip()) <= 90 for line in said.out.splitlines())
+
+
+def test_it_says_where_the_measures_differ(coopera: Coopera, small_run: RunDir) -> None:
+    said = coopera("analyse", "robot", small_run.root).out
+    assert "Where the measures differ" in said
+    assert "predicate, people" in said
+    found = coopera("analyse", "robot", small_run.root, "--json").json["differences"]["ours"]
+    names = ["predicate", "judge", "people"]
+    assert [(one["one"], one["other"]) for one in found["pairs"]] == list(combinations(names, 2))
+    for one in found["pairs"]:
+        assert one["both"] + one["only_one"] + one["only_other"] + one["neither"] <= found["offers"]
+    assert sum(one["offers"] for one in found["patterns"]) <= found["offers"]
 
 
 def test_runs_of_one_method_are_added_up(coopera: Coopera, small_run: RunDir) -> None:

@@ -52,7 +52,7 @@ def test_the_days_of_a_run_fit_80_columns_with_need_f1_first(small_run: RunDir) 
     days_table(summary, Path("here"), console)
     text = console.export_text()
     [heads] = [line for line in text.splitlines() if "person" in line and "home" in line]
-    assert heads.split() == ["day", "person", "home", "need", "F1", "precision", "recall", "F1", "judge"]
+    assert heads.split() == ["day", "person", "home", "need", "F1", "precision", "recall", "F1", "judge", "people"]
     for day in summary["days"]:
         assert day["need"].keys() == {"precision", "recall", "f1"}
         [line] = [line for line in text.splitlines() if line.split()[:2] == [str(day["day"]), "spc-valid-0001"]]

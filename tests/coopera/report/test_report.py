@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from coopera.evaluation.measuring import told_in_the_evening
+from coopera.evaluation.robot.differences import offers_of
 from coopera.evaluation.robot.error_budget import LOST, by_day
 from coopera.report import charts
 from coopera.report.budget import read_budget
@@ -177,3 +179,16 @@ def test_a_trace_cannot_make_the_page_read_files_outside_the_run(small_run: RunD
     (tmp_path / "secret.png").write_bytes(b"secret")
     frames = {(0, 9): [str(tmp_path / "secret.png"), "../" * 20 + f"{tmp_path}/secret.png", "run.json"]}
     assert embed(small_run.root, frames, 10**9).views == {}
+
+
+def test_it_shows_where_the_measures_differ_and_escapes_what_was_said(small_run: RunDir, page: Page) -> None:
+    assert "differing" in page.ids
+    assert "Where the measures differ" in page.text
+    nasty = offers_of(told_in_the_evening(small_run.hours(), small_run.evenings()))
+    said: dict[str, bool | None] = {"predicate": True, "judge": False}
+    shown = [one._replace(thought="<script>alert(1)</script>", said=said) for one in nasty]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("coopera.report.page.offers_of", lambda _: shown)
+        html = render(small_run, gather_pictures(small_run, 0))
+    assert "<script>alert(1)" not in html
+    assert "&lt;script&gt;alert(1)" in html

@@ -137,7 +137,7 @@ def test_agreement_with_the_person_is_hour_by_hour(small_run: RunDir) -> None:
     ]
     evening = small_run.evenings()[0].model_copy(update={"day": 0, "feedback": answers})
     assert summarise(small_run.config, hours, [evening])["agreement"]["predicate"] == 0
-    assert summarise(small_run.config, hours)["agreement"] == {"predicate": None, "judge": None}
+    assert summarise(small_run.config, hours)["agreement"] == dict.fromkeys(("predicate", "judge", "similar"))
 
 
 @pytest.mark.parametrize(

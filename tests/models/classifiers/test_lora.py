@@ -16,6 +16,7 @@ from coopera.core.people import PersonId
 from coopera.models.classifiers.adapters import Recipe
 from coopera.models.classifiers.lora import LoraClassifier
 from coopera.models.classifiers.text import Inputs
+from tests.models.classifiers.few import BOTH, never_constant, undecided_without_a_difference
 from tests.tiny import SEED
 
 QUICK = Recipe(epochs=(8, 2), layers=1, learning_rate=3e-2, tokens=32)
@@ -219,3 +220,12 @@ def test_the_bundled_encoder_can_be_adapted() -> None:
     judge = LoraClassifier(kind="task", inputs=Inputs(), recipe=recipe)
     judge.train(feedback(1), seed=0)
     assert len(set(judge.probabilities(QUESTIONS))) == 3
+
+
+@pytest.mark.parametrize("case", BOTH)
+def test_after_a_few_answers_it_says_yes_to_some_and_no_to_others(base: Path, case: str) -> None:
+    never_constant(lambda: lora(base), case)
+
+
+def test_answers_of_one_kind_or_that_contradict_each_other_decide_nothing(base: Path) -> None:
+    undecided_without_a_difference(lambda: lora(base))

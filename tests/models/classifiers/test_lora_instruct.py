@@ -20,6 +20,7 @@ from coopera.models.classifiers.instruction import SHIPPED, read_recipe
 from coopera.models.classifiers.lora_instruct import LoraInstructClassifier
 from coopera.prompts import PromptLibrary
 from tests.fakes import LetterEmbeddings
+from tests.models.classifiers.few import BOTH, never_constant, undecided_without_a_difference
 from tests.tiny import SEED
 
 INSTRUCT = PromptLibrary().instruct
@@ -257,3 +258,12 @@ def test_the_manifest_says_what_it_is(tmp_path: Path, trained: LoraInstructClass
         "q_proj",
         "v_proj",
     ]
+
+
+@pytest.mark.parametrize("case", BOTH)
+def test_after_a_few_answers_it_says_yes_to_some_and_no_to_others(recipe: Path, case: str) -> None:
+    never_constant(lambda: classifier(recipe), case)
+
+
+def test_answers_of_one_kind_or_that_contradict_each_other_decide_nothing(recipe: Path) -> None:
+    undecided_without_a_difference(lambda: classifier(recipe))
