@@ -128,10 +128,7 @@ class HeldReply:
         self._drawn += 1
         if token in self._ends:
             return self._end(token)
-        if free:
-            self._text.add(token)
-        else:
-            self._text.end()
+        self._text.add(token, free=free)
         if self._matcher is not None:
             if not self._matcher.consume_token(token):
                 raise ModelCallError(f"constrained decoding lost its way: {self._matcher.get_error()}")

@@ -49,10 +49,12 @@ class FreeText:
         self._text: list[int] = []
         self._followed: defaultdict[tuple[int, ...], set[int]] = defaultdict(set)
 
-    def add(self, token: int) -> None:
-        """Note a token that was drawn where the text was free."""
+    def add(self, token: int, *, free: bool = True) -> None:
+        """Note a token that was drawn; what the grammar chose, such as the rest of a character, is not remembered."""
         if token in self._ends:
             return self.end()
+        if not free:
+            return None
         self._said.add(token)
         self._text.append(token)
         n = self._manner.no_repeat

@@ -17,6 +17,7 @@ from typing import Any
 import torch
 from safetensors import SafetensorError, safe_open
 from transformers import AutoModelForCausalLM, AutoTokenizer, LlamaConfig, LlamaForCausalLM
+from transformers.utils import logging as chatter
 
 from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
@@ -96,6 +97,7 @@ def _whole(folder: Path) -> bool:
 
 
 def _unpack(file: Path, folder: Path) -> None:
+    chatter.disable_progress_bar()  # type: ignore[no-untyped-call]
     given: dict[str, Any] = {"gguf_file": file.name, "trust_remote_code": False, "local_files_only": True}
     words: Any = AutoTokenizer.from_pretrained(file.parent, **given)
     read: Any = AutoModelForCausalLM.from_pretrained(file.parent, dtype=torch.bfloat16, **given)
