@@ -70,6 +70,7 @@ def unpacked(file: Path, models: Path) -> Path:
     Raises:
         ConfigError: If the file cannot be read, or the folder cannot be written.
     """
+    chatter.disable_progress_bar()  # type: ignore[no-untyped-call]
     made = models / f"{file.stem}-{file.stat().st_size}"
     if _whole(made):
         return made
@@ -97,7 +98,6 @@ def _whole(folder: Path) -> bool:
 
 
 def _unpack(file: Path, folder: Path) -> None:
-    chatter.disable_progress_bar()  # type: ignore[no-untyped-call]
     given: dict[str, Any] = {"gguf_file": file.name, "trust_remote_code": False, "local_files_only": True}
     words: Any = AutoTokenizer.from_pretrained(file.parent, **given)
     read: Any = AutoModelForCausalLM.from_pretrained(file.parent, dtype=torch.bfloat16, **given)
