@@ -36,10 +36,11 @@ DRAWS = 2000
 
 
 def main() -> None:
+    """Train on both, and print what each was worth."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", type=Path, help="A run with feedback on more than ten hours.")
     given = parser.parse_args()
-    chatter.disable_progress_bar()  # type: ignore[no-untyped-call]
+    chatter.disable_progress_bar()
     lessons, asked = divided(given.run)
     sys.stdout.write(f"{len(lessons)} examples of {HOURS} hours train, {len(asked)} of later hours are asked\n")
     with tempfile.TemporaryDirectory() as folder:
@@ -86,7 +87,7 @@ def tried(base: str, lessons: Sequence[Example], asked: Sequence[Example]) -> st
     low, high = interval(asked, scores)
     auc = roc_auc_score([e.label for e in asked], scores)
     return (
-        f"AUC {auc:.2f} ({low:.2f} to {high:.2f}), last loss {told['loss']:.3f}, {seconds:.0f} CPU seconds of training, "
+        f"AUC {auc:.2f} ({low:.2f} to {high:.2f}), last loss {told['loss']:.3f}, {seconds:.0f} CPU seconds to train, "
         f"verdicts after loading {'identical' if same else 'DIFFERENT'}"
     )
 

@@ -34,7 +34,7 @@ from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import OWN, CallSettings, Structure
-from coopera.models.small.manner import PLAIN, SMALL, Manner, manner_of
+from coopera.models.small.manner import PLAIN, SMALL, Manner
 from coopera.models.transport import Line, RefusedError, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
@@ -237,7 +237,7 @@ def _smol(settings: CallSettings) -> Backend:
 
 
 def _huggingface(spec: str, name: str, settings: CallSettings, otherwise: Manner = PLAIN) -> Backend:
-    manner = manner_of(settings, otherwise)
+    manner = settings.manner(otherwise)
     model = importlib.import_module("coopera.models.huggingface").open_model(name, settings)
     constrained = model.constrains and settings.structure != "text"
 

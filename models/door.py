@@ -166,7 +166,9 @@ class Door:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
         text = rendered.text if backend.reads_variables else f"{rendered.text}{SCHEMA_FOLLOWS}\n{schema_of(reply)}"
-        talk = _Talk(rendered, backend, {} if backend.reads_variables else enforced_schema(reply, variables, brief=backend.brief))
+        talk = _Talk(
+            rendered, backend, {} if backend.reads_variables else enforced_schema(reply, variables, brief=backend.brief)
+        )
         started = time.perf_counter()
         try:
             return self._converse(talk, text, pictures, reply, at, dict(variables))

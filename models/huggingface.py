@@ -37,8 +37,8 @@ from coopera.core.errors import ConfigError, ModelCallError
 from coopera.core.lazy import made_once
 from coopera.models.batching import Batcher
 from coopera.models.constrained import Drawing, Grammars, HeldReply
-from coopera.models.small.manner import PLAIN, Manner
 from coopera.models.settings import CallSettings
+from coopera.models.small.manner import PLAIN, Manner
 
 _GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}
@@ -85,8 +85,9 @@ class _Question:
 class HuggingFaceChat(BaseChatModel):
     """A chat model in this process.
 
-    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, the `schema` that the reply must
-    fit, and the `manner` in which free text is drawn. A reply that had to be closed or cut at the length limit has the finish reason "length".
+    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, the `schema` that the reply must fit,
+    and the `manner` in which free text is drawn. A reply that had to be closed or cut at the length limit has the finish reason
+    "length".
     """
 
     path: str
@@ -190,7 +191,9 @@ class HuggingFaceChat(BaseChatModel):
             raise ModelCallError(f"{self.path}: a prompt of {length} tokens does not fit into its {loaded.room}")
         room = loaded.room - length
         limit = min(question.max_tokens, room)
-        row = HeldReply(temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends, manner=question.manner)
+        row = HeldReply(
+            temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends, manner=question.manner
+        )
         if question.schema is not None and loaded.grammars is not None:
             row.hold_to(loaded.grammars, question.schema, room)
         return row
@@ -214,18 +217,17 @@ def _grow(model: Any, prompt: torch.Tensor, row: HeldReply) -> list[int]:
     """Draw one reply to a prompt of shape (1, T); tokens that must come are read in one go with the next pass."""
     new: list[int] = []
     given, past = prompt, None
-    while not row.done:
+    while True:
         if ahead := row.forced():
             new += ahead
             given = torch.cat([given, torch.tensor([ahead], device=given.device)], dim=1)
         if row.done:
-            break
+            return new
         out = model(input_ids=given, past_key_values=past, use_cache=True, logits_to_keep=1)
         past = out.past_key_values
         token = row.draw(out.logits[0, -1].float())
         new.append(token)
         given = torch.tensor([[token]], device=given.device)
-    return new
 
 
 def open_model(path: str, settings: CallSettings | None = None) -> HuggingFaceChat:

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
+from coopera.models.small.manner import PLAIN, Manner
 
 OWN, SHARED = "own", "shared"
 """Household files that the setting `household` names by a word: the robot's own, and the person's."""
@@ -117,6 +118,11 @@ class CallSettings(Frozen):
             unset="0; 4 for smol",
         ),
     ] = None
+
+    def manner(self, otherwise: Manner = PLAIN) -> Manner:
+        """How free text is drawn: as said here, and where nothing is said in the model's own manner."""
+        given = {name: value for name in Manner._fields if (value := getattr(self, name)) is not None}
+        return otherwise._replace(**given)
 
 
 class Budget(Frozen):

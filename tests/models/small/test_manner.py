@@ -11,7 +11,7 @@ import torch
 from coopera.models.constrained import HeldReply
 from coopera.models.huggingface import HuggingFaceChat, open_model
 from coopera.models.settings import CallSettings
-from coopera.models.small.manner import PLAIN, SMALL, FreeText, Manner, manner_of, nucleus
+from coopera.models.small.manner import PLAIN, SMALL, FreeText, Manner, nucleus
 from tests.tiny import byte_tokenizer, random_llama
 
 QUOTE = 7
@@ -57,9 +57,9 @@ def test_the_nucleus_is_the_likeliest_tokens_that_reach_the_share() -> None:
 
 
 def test_settings_win_over_a_models_own_manner() -> None:
-    assert manner_of(CallSettings()) == PLAIN
-    assert manner_of(CallSettings(), SMALL) == SMALL
-    assert manner_of(CallSettings(no_repeat=0, top_p=1.0), SMALL) == SMALL._replace(no_repeat=0, top_p=1.0)
+    assert CallSettings().manner() == PLAIN
+    assert CallSettings().manner(SMALL) == SMALL
+    assert CallSettings(no_repeat=0, top_p=1.0).manner(SMALL) == SMALL._replace(no_repeat=0, top_p=1.0)
 
 
 def test_free_text_does_not_repeat_itself_and_names_may(tmp_path: Path) -> None:

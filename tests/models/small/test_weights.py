@@ -50,7 +50,7 @@ def _package(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def _write_gguf(file: Path, seed: int = 0) -> None:
     """A Llama of some thousand weights with a tokenizer of bytes, in the format of the real package."""
-    import gguf
+    import gguf  # noqa: PLC0415 - where it is not installed, these tests are skipped
 
     words = learned_words(["Hello there, hello there."], size=280)
     merges = json.loads(words.backend_tokenizer.to_str())["model"]["merges"]
