@@ -1,8 +1,8 @@
 """Decoding that cannot leave a JSON schema: at each step only tokens that keep the reply valid can be drawn.
 
 llguidance says which tokens are valid, and which are the only ones: signs and names of fields need no model. A reply
-near the length limit is closed by the shortest way. So even a model without knowledge, or without an end, answers with valid
-JSON.
+near the length limit is closed by the shortest way. So even a model without knowledge, or without an end, answers
+with valid JSON.
 """
 
 from __future__ import annotations

@@ -85,9 +85,9 @@ class _Question:
 class HuggingFaceChat(BaseChatModel):
     """A chat model in this process.
 
-    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, the `schema` that the reply must fit,
-    and the `manner` in which free text is drawn. A reply that had to be closed or cut at the length limit has the finish reason
-    "length".
+    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, the `schema` that the reply must
+    fit, and the `manner` in which free text is drawn. A reply that had to be closed or cut at the length limit has
+    the finish reason "length".
     """
 
     path: str
