@@ -1,8 +1,13 @@
-"""What people are told of a setting: it stands beside the field's type, and all that shows a setting reads it."""
+"""What people are told of a setting: it stands beside the field's type, and all that shows a setting reads it.
+
+The data folder's default is here, too, since models keep their weights there.
+"""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,3 +34,12 @@ class Setting:
     values: tuple[str, ...] = ()
     formerly: str = ""
     listed: str = ""
+
+
+def default_data_dir() -> Path:
+    """Where imported people and homes live: COOPERA_DATA_DIR, else the user's own data folder."""
+    given = os.environ.get("COOPERA_DATA_DIR")
+    if given:
+        return Path(given).expanduser()
+    base = os.environ.get("XDG_DATA_HOME")
+    return (Path(base) if base else Path.home() / ".local" / "share") / "coopera"

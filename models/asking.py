@@ -72,6 +72,7 @@ class Backend:
         address: Its server's address, if it differs from the provider's.
         weights: A mark of its weights, for the cache: other weights of the same name have another mark.
         past: The run with the recorded replies, if the model is a recorded one.
+        brief: Whether its replies are held to be short.
     """
 
     name: str
@@ -84,6 +85,7 @@ class Backend:
     address: str | None = None
     weights: str = ""
     past: Past | None = None
+    brief: bool = False
     _seen: _Seen = field(default_factory=_Seen)
 
     def __str__(self) -> str:

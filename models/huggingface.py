@@ -38,6 +38,7 @@ from coopera.core.lazy import made_once
 from coopera.models.batching import Batcher
 from coopera.models.constrained import Drawing, Grammars, HeldReply
 from coopera.models.settings import CallSettings
+from coopera.models.small.manner import PLAIN, Manner
 
 _GPU_BATCH = 16
 _ROLES = {"human": "user", "ai": "assistant", "system": "system"}
@@ -78,13 +79,15 @@ class _Question:
     seed: int
     max_tokens: int
     schema: Mapping[str, Any] | None
+    manner: Manner
 
 
 class HuggingFaceChat(BaseChatModel):
     """A chat model in this process.
 
-    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, and the `schema` that the reply must
-    fit. A reply that had to be closed or cut at the length limit has the finish reason "length".
+    `invoke` takes `temperature` (0 takes the likeliest), `seed`, `max_tokens`, the `schema` that the reply must
+    fit, and the `manner` in which free text is drawn. A reply that had to be closed or cut at the length limit has
+    the finish reason "length".
     """
 
     path: str
@@ -138,6 +141,7 @@ class HuggingFaceChat(BaseChatModel):
             seed=int(kwargs.get("seed", 0)),
             max_tokens=int(kwargs.get("max_tokens", CallSettings().max_tokens)),
             schema=kwargs.get("schema"),
+            manner=kwargs.get("manner", PLAIN),
         )
         return ChatResult(generations=[ChatGeneration(message=self._answer(question))])
 
@@ -166,6 +170,9 @@ class HuggingFaceChat(BaseChatModel):
         ).to(loaded.model.device)
         lengths = [int(length) for length in given["attention_mask"].sum(dim=1)]
         rows = [self._row(question, length) for question, length in zip(questions, lengths, strict=True)]
+        if len(rows) == 1 and not self.sees:
+            new = _grow(loaded.model, given["input_ids"], rows[0])
+            return [self._message(new, rows[0], lengths[0])]
         out = loaded.model.generate(
             **given,
             max_new_tokens=max(row.limit for row in rows),
@@ -184,7 +191,9 @@ class HuggingFaceChat(BaseChatModel):
             raise ModelCallError(f"{self.path}: a prompt of {length} tokens does not fit into its {loaded.room}")
         room = loaded.room - length
         limit = min(question.max_tokens, room)
-        row = HeldReply(temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends)
+        row = HeldReply(
+            temperature=question.temperature, seed=question.seed, limit=limit, ends=loaded.ends, manner=question.manner
+        )
         if question.schema is not None and loaded.grammars is not None:
             row.hold_to(loaded.grammars, question.schema, room)
         return row
@@ -202,6 +211,23 @@ class HuggingFaceChat(BaseChatModel):
             ),
             response_metadata={"finish_reason": "length" if cut else "stop", "model_name": self.path},
         )
+
+
+def _grow(model: Any, prompt: torch.Tensor, row: HeldReply) -> list[int]:
+    """Draw one reply to a prompt of shape (1, T); tokens that must come are read in one go with the next pass."""
+    new: list[int] = []
+    given, past = prompt, None
+    while True:
+        if ahead := row.forced():
+            new += ahead
+            given = torch.cat([given, torch.tensor([ahead], device=given.device)], dim=1)
+        if row.done:
+            return new
+        out = model(input_ids=given, past_key_values=past, use_cache=True, logits_to_keep=1)
+        past = out.past_key_values
+        token = row.draw(out.logits[0, -1].float())
+        new.append(token)
+        given = torch.tensor([[token]], device=given.device)
 
 
 def open_model(path: str, settings: CallSettings | None = None) -> HuggingFaceChat:

@@ -41,11 +41,13 @@ class Wanted(Generic[Reply]):
         reply: The type.
         variables: What the prompt was filled with.
         held: Whether the reply must name and count what the variables say; the offline model is taken at its word.
+        brief: Whether it is to be short.
     """
 
     reply: type[Reply]
     variables: Mapping[str, Any]
     held: bool = True
+    brief: bool = False
 
     @cached_property
     def objects(self) -> dict[str, dict[str, ObjectMap]]:
@@ -55,7 +57,7 @@ class Wanted(Generic[Reply]):
     @cached_property
     def enforced(self) -> dict[str, Any]:
         """The schema that a backend is given to hold the reply to; empty where it need not be held."""
-        return enforced_schema(self.reply, self.variables) if self.held else {}
+        return enforced_schema(self.reply, self.variables, brief=self.brief) if self.held else {}
 
     @property
     def shown(self) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 from coopera.core.household import ObjectMap
 from coopera.core.people import Frozen
 from coopera.models.reading.names import nearest
+from coopera.models.small.short import shortened
 
 _OBJECTS = {
     "PickPlace": {"object": "movable", "receptacle": "fixed"},
@@ -70,12 +71,13 @@ def objects_of(variables: Mapping[str, Any]) -> dict[str, dict[str, ObjectMap]]:
     return {kind: fields for kind, fields in known.items() if fields}
 
 
-def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any]) -> dict[str, Any]:
+def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any], *, brief: bool = False) -> dict[str, Any]:
     """What constrained decoding, or a server's `response_format`, holds a reply to.
 
     Args:
         reply: The reply type.
         variables: What the prompt was filled with.
+        brief: Whether the reply is to be short (`coopera.models.small.short`).
 
     Returns:
         A schema in which every object lists all its fields as required and allows no other.
@@ -83,6 +85,7 @@ def enforced_schema(reply: type[Frozen], variables: Mapping[str, Any]) -> dict[s
     schema: dict[str, Any] = _bare(_schema_of(reply), {*_NOTES, "default"})
     objects = objects_of(variables)
     _leave_to_code(schema, objects)
+    schema = shortened(schema) if brief else schema
     definitions = schema.get("$defs", {})
     for part in (schema, *definitions.values()):
         if "properties" in part:

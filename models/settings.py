@@ -9,6 +9,7 @@ from pydantic import Field
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
+from coopera.models.small.manner import PLAIN, Manner
 
 OWN, SHARED = "own", "shared"
 """Household files that the setting `household` names by a word: the robot's own, and the person's."""
@@ -86,6 +87,50 @@ class CallSettings(Frozen):
             unset="16 on a GPU, else 1",
         ),
     ] = None
+    brief: Annotated[
+        Annotated[bool, Field(strict=True)] | None,
+        Setting(
+            "Replies that are held to a schema have no reasons, and short texts.",
+            "true or false",
+            unset="false; true for smol",
+        ),
+    ] = None
+    least_temperature: Annotated[
+        Annotated[float, Field(ge=0, le=2, allow_inf_nan=False)] | None,
+        Setting(
+            "Temperature at which weights of this process draw free text, where the prompt's own is lower.",
+            "a number from 0 to 2",
+            unset="0; 0.7 for smol",
+        ),
+    ] = None
+    top_p: Annotated[
+        Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)] | None,
+        Setting(
+            "These weights draw free text from the likeliest tokens that together have this share.",
+            "a number above 0, at most 1",
+            unset="1; 0.9 for smol",
+        ),
+    ] = None
+    repetition_penalty: Annotated[
+        Annotated[float, Field(ge=1, le=10, allow_inf_nan=False)] | None,
+        Setting(
+            "What these weights' logits of tokens that a reply's free text has said are divided by.",
+            "a number from 1 to 10",
+            unset="1; 1.15 for smol",
+        ),
+    ] = None
+    no_repeat: Annotated[
+        Annotated[int, Field(strict=True, ge=0, le=64)] | None,
+        Setting(
+            "So many tokens in a row are not said twice in a reply's free text; 0 allows it.",
+            unset="0; 4 for smol",
+        ),
+    ] = None
+
+    def manner(self, otherwise: Manner = PLAIN) -> Manner:
+        """How free text is drawn: as said here, and where nothing is said in the model's own manner."""
+        given = {name: value for name in Manner._fields if (value := getattr(self, name)) is not None}
+        return otherwise._replace(**given)
 
 
 class Budget(Frozen):

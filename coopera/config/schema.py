@@ -15,13 +15,13 @@ from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
 from coopera.config.sections import Models as Models
 from coopera.config.sections import Text
-from coopera.config.sections import default_data_dir as default_data_dir
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.hour import SearchSizes
 from coopera.core.household import Collab, PerceptErrors
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
+from coopera.core.setting import default_data_dir as default_data_dir
 from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.given import by_role
 from coopera.models.settings import OWN, SHARED, Budget, CallSettings

@@ -1,8 +1,7 @@
-"""Parts of the configuration that have fields of their own, and where its data lies."""
+"""Parts of the configuration that have fields of their own."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -50,12 +49,3 @@ class Files(Frozen):
 
     humans: Annotated[dict[str, Path], Setting("Persona files by id.", "a mapping of ids to files")] = {}
     scenes: Annotated[dict[str, Path], Setting("Files of homes by id.", "a mapping of ids to files")] = {}
-
-
-def default_data_dir() -> Path:
-    """Where imported people and homes live: COOPERA_DATA_DIR, else the user's own data folder."""
-    given = os.environ.get("COOPERA_DATA_DIR")
-    if given:
-        return Path(given).expanduser()
-    base = os.environ.get("XDG_DATA_HOME")
-    return (Path(base) if base else Path.home() / ".local" / "share") / "coopera"

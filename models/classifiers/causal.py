@@ -18,6 +18,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.hour import CandidateKind
 from coopera.core.lazy import made_once
 from coopera.models.classifiers.instruction import TAIL, InstructRecipe
+from coopera.models.small.weights import folder_of
 
 KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
 
@@ -133,10 +134,11 @@ def _load(recipe: InstructRecipe) -> tuple[Any, Any]:
     if recipe.devices.startswith("cuda") and not gpu:
         raise ConfigError(f"devices: there is no {recipe.devices} here; choose auto or cpu.")
     place = {"device_map": recipe.devices} if gpu else {}
+    folder = folder_of(recipe.base)
     try:
-        tokenizer: Any = AutoTokenizer.from_pretrained(recipe.base, **safe)
+        tokenizer: Any = AutoTokenizer.from_pretrained(folder, **safe)
         model = AutoModelForCausalLM.from_pretrained(
-            recipe.base, dtype=torch.bfloat16 if gpu else torch.float32, use_safetensors=True, **place, **safe
+            folder, dtype=torch.bfloat16 if gpu else torch.float32, use_safetensors=True, **place, **safe
         )
     except (OSError, ValueError, KeyError, ImportError, RuntimeError) as err:
         raise ConfigError(f"base: {recipe.base} cannot be loaded: {' '.join(str(err).split())}") from err
