@@ -120,10 +120,10 @@ def offered(
                 ctx = HumanContext(nobody, persona, plan, home, nobody, embeddings, nobody, sizes=sizes)
                 for way in ways:
                     here = found(sample, way, ctx)
-                    classes = [{home.class_of(name).replace("_", " ") for name in part} for part in (here.fixed, here.movable)]
-                    text = "\n".join(listed(part) for part in (here.fixed, here.movable) if part)
-                    count = len(here.fixed) + len(here.movable)
-                    yield way, Offered(scene, sample, classes[0], classes[1], count, len(text))
+                    parts = (here.fixed, here.movable)
+                    furniture, things = ({home.class_of(name).replace("_", " ") for name in part} for part in parts)
+                    text = "\n".join(listed(part) for part in parts if part)
+                    yield way, Offered(scene, sample, furniture, things, sum(map(len, parts)), len(text))
 
 
 def figures(rows: Sequence[Offered]) -> dict[str, float]:
@@ -175,7 +175,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             )
         for row in mine if given.missed else []:
             if row.missed:
-                print(f"  {row.home}, type {row.sample.type}: {row.sample.intention}: no {', '.join(sorted(row.missed))}")
+                print(f"  {row.home}: {row.sample.intention}: no {', '.join(sorted(row.missed))}")
     if given.json:
         print(json.dumps(answer))
     return 0
