@@ -39,6 +39,15 @@ def show(
 
 
 @app.command()
+def page(prompts: PromptFolder = None) -> None:
+    """Print all prompts on one page of Markdown, each filled with an example and with its length in tokens."""
+    from coopera.commands import prompt_page
+    from coopera.prompts import PromptLibrary
+
+    typer.echo(prompt_page.page(PromptLibrary(prompts)), nl=False)
+
+
+@app.command()
 def check(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", help="A folder of replacing prompt files.")] = None,
     as_json: AsJson = False,

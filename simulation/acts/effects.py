@@ -107,7 +107,11 @@ def _in_words(ground: Ground, state: HomeState, agent: AgentId) -> str:
     thing = state.find(ground.scene, held)
     words = state.box[held].text.lower() if held in state.box else plain(thing.cls) if thing is not None else ""
     kept = [word for word in words.split() if word not in _VESSELS]
+    while kept and kept[0] in _BETWEEN:
+        kept = kept[1:]
     return " ".join(kept) or "water"
 
 
 _VESSELS = ("bag", "bottle", "can", "carton", "jar", "jug", "kettle", "pot", "teapot", "glass", "mug", "cup")
+_BETWEEN = ("a", "an", "the", "of", "with", "some")
+"""What a vessel's name leaves before that of what is in it: "a mug of ginger tea"."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 
+import pytest
+
 from coopera.simulation import PersonAgent, RobotAgent, World, load_scene
 from coopera.simulation.acts.plans import Handle, Open
 from tests.simulation.flat import bring, move, put
@@ -90,6 +92,12 @@ def test_eating_dirties_the_plate_washing_cleans_it_and_both_last(home) -> None:
     assert home.states() == {"kitchen_sink_1": "on"}  # the water runs
     assert home.perform("human", moves("sofa_1", "book", "sit and read")).ok
     assert home.states() == {}
+
+
+@pytest.mark.parametrize("poured", ["ginger tea jug", "jug of ginger tea", "a jug with some ginger tea"])
+def test_what_is_poured_is_told_apart_from_what_it_is_poured_out_of(home, poured: str) -> None:
+    assert home.perform("human", moves("dining_table_1", poured, "pour a drink")).ok
+    assert home.states() == {"mug_1": "with ginger tea in it"}
 
 
 def test_a_poured_drink_is_in_the_cup_until_it_is_drunk(home) -> None:
