@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from coopera.core.asks import ASKS, PROMPTS
 from coopera.core.replies import REPLIES
-from coopera.models.schemas import schema_of
+from coopera.models.schemas import objects_of, schema_of
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 
@@ -60,7 +60,7 @@ def page(library: PromptLibrary) -> str:
 
 def _entry(library: PromptLibrary, name: str) -> Entry:
     head, text = library.head(name), library.fill(name, examples(name)[0])
-    schema = schema_of(REPLIES[head.reply]) if name in ASKS else ""
+    schema = schema_of(REPLIES[head.reply], frozenset(objects_of(examples(name)[0]))) if name in ASKS else ""
     return Entry(name, PROMPTS[name].role, head.reply, head.paper, _tokens(text), _tokens(schema), text)
 
 
