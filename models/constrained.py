@@ -19,7 +19,8 @@ from llguidance.hf import from_tokenizer
 from transformers import LogitsProcessor
 
 from coopera.core.errors import ModelCallError
-from coopera.models.small.manner import PLAIN, FreeText, Manner, nucleus
+from coopera.models.small.free_text import FreeText, nucleus
+from coopera.models.small.manner import PLAIN, Manner
 
 _COMPILED = 256  # schemas kept: one differs from another by the objects that it names
 _ESCAPES = 'nt"\\'  # no \uXXXX: half a surrogate pair would be no text

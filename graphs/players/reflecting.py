@@ -74,7 +74,7 @@ def agreed(
     A change of one reflection stands where the other leaves the task as it was. Where both change it, what the person
     wants (the first) stands if code finds nothing wrong with it, else what the second makes of it: the second has only
     mended a task that the person would not do. Missing tasks are added while there are fewer than `count`, the person's
-    first, and none twice.
+    first, and none twice. Where the two together would leave nothing to do, the draft stands.
 
     Args:
         shown: The draft that all were shown.
@@ -88,6 +88,8 @@ def agreed(
     for task in (task for one in opinions.values() for task in one.add):
         if len(tasks) < count and task.act.describe() not in {other.act.describe() for other in tasks}:
             tasks.append(task)
+    if not tasks:
+        chosen, tasks = list(shown), list(shown)
     reflections = [_record(node, one, shown, chosen, tasks) for node, one in opinions.items()]
     return Agreed(numbered(tasks, clock), reflections)
 

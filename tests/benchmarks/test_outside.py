@@ -200,7 +200,7 @@ def test_requests_that_are_none_are_refused(
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("[", "line 1: is not YAML"),
+        ("[", "is not YAML"),
         ("a: 1", "expected a list of 1 to"),
         ("- 3", "scenario 0: expected a mapping"),
         ("- {seen_placements: [[a, b]], unseen_placements: [[c]]}", "expected pairs of thing and receptacle"),

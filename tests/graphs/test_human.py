@@ -155,6 +155,15 @@ def test_missing_tasks_are_added_as_far_as_there_is_room_and_none_twice(make_ser
     assert len(hour.reflections[1].overruled) == 2
 
 
+def test_reflections_that_would_leave_nothing_to_do_are_overruled(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    for node in ("profile", "scene"):
+        answers[f"human/reflect_{node}_type2"] = lambda v: {"reviews": [{"yes": False, "task": None}] * len(v["tasks"])}
+    hour = live(person(make_services, ask=ScriptedAsk(answers)))
+    assert len(hour.tasks) == 5
+    assert [(len(r.changes), len(r.overruled)) for r in hour.reflections] == [(0, 5), (0, 5)]
+
+
 def test_a_day_at_once_is_asked_for_once_and_neither_remembers_nor_reflects(make_services: MakeServices) -> None:
     answers = type2_answers()
     plan = ["Sleep", "Cook", "Read"]

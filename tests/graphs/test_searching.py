@@ -58,7 +58,7 @@ def found(
     answers["human/tasks_type1"] = lambda v: {"tasks": [placing("book_1", "stove_1", 100, 0)]}
     answers["human/tasks_type2"] = lambda v: {"tasks": STIR[: v["n_tasks"]]}
     for node in ("profile", "scene"):
-        done = {"verdicts": [{"yes": True}], "tasks": [placing("book_1", "stove_1", 100, 0)]}
+        done = {"reviews": [{"yes": True}], "add": []}
         answers[f"human/reflect_{node}_type1"] = lambda v, done=done: done  # type: ignore[misc]
     plan = DayPlan(day=0, episode_day=0, person=MARA.id, scene=SceneId("toy"), hours=[9], collab=collab)  # type: ignore[arg-type]
     more: dict[str, Any] = {"player": player} if player else {}

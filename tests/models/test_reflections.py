@@ -9,7 +9,7 @@ from tests.models.test_door import AT, door_to
 
 
 def test_a_reflection_reviews_each_task_once_and_names_objects_of_the_prompt_in_what_it_changes() -> None:
-    act = {"target_id": 2, "target": "sofa_9", "in_hand": "book", "motion": "sit and read"}
+    act = {"target": "stove_9", "in_hand": "book", "motion": "sit and read"}
     change = {"reason": "no stove", "yes": False, "task": {"thought": "I sit.", "act": act}}
     stays = {"reason": "fine", "yes": True, "task": None}
     right = {**change, "task": {**change["task"], "act": {**act, "target": "sofa_2"}}}  # type: ignore[dict-item]
@@ -18,7 +18,7 @@ def test_a_reflection_reviews_each_task_once_and_names_objects_of_the_prompt_in_
     reply = door("judge/tasks", FreeMotionReflectionReply, at=AT, variables=variables)
     assert [review.task is None for review in reply.reviews] == [True, False]
     assert "reviews: there must be 2 of them, not 1" in model.asked[1][-1].text
-    assert 'reviews.1.task.act.target: there is no "sofa_9"' in model.asked[2][-1].text
+    assert 'reviews.1.task.act.target: there is no "stove_9"' in model.asked[2][-1].text
 
 
 def test_calls_of_parallel_nodes_come_out_in_the_order_of_the_prompts() -> None:

@@ -11,7 +11,8 @@ import torch
 from coopera.models.constrained import HeldReply
 from coopera.models.huggingface import HuggingFaceChat, open_model
 from coopera.models.settings import CallSettings
-from coopera.models.small.manner import PLAIN, SMALL, FreeText, Manner, nucleus
+from coopera.models.small.free_text import FreeText, nucleus
+from coopera.models.small.manner import PLAIN, SMALL, Manner
 from tests.tiny import byte_tokenizer, random_llama
 
 QUOTE = 7

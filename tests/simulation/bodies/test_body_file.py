@@ -89,9 +89,9 @@ def test_a_wrong_field_is_named_with_its_file(mine: Path, field: str, value: Any
             "lift: 0\nlift: 1",
             "mine.yaml, line 2: this is not valid YAML ('lift' stands twice).",
         ),
-        ("mine.yaml", "!!python/object:os.system {}", "mine.yaml, line 1: this is not valid YAML (could not determine"),
+        ("mine.yaml", "!!python/object:os.system {}", "mine.yaml, line 1: this is not valid YAML (a tag"),
         ("mine.yaml", "a robot", "mine.yaml: Input should be a valid dictionary"),
-        ("mine.yaml", "[" * 9999, "mine.yaml: this is not valid YAML (it is nested too deeply)."),
+        ("mine.yaml", "[" * 9999, "mine.yaml, line 1: this is not valid YAML (it is nested more than 64 deep)."),
         ("mine.urdf", "<robot>", "mine.urdf, line 1: this is not valid XML."),
     ],
 )
