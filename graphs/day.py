@@ -99,7 +99,7 @@ def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
 def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Live one hour, with the home and the classifiers as the state says. Writes `position` and `worlds`.
 
-    An hour that stands in the trace is taken over from there.
+    An hour that stands in the trace is taken over from there, as an evening is by the nodes after it.
     """
     services, plan, position = runtime.context, state["plan"], state["position"]
     if lived := services.recorder.read_hour(plan.day, plan.hours[position]):
@@ -132,6 +132,8 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     are answered, and how many answers are slips, is set by `Services.answering` (the paper: all, and none).
     """
     services, plan = runtime.context.here(), state["plan"]
+    if services.recorder.read_evening(plan.day):
+        return {"feedback": []}
     ctx = services.human(plan)
     measures = [partial(_measure_late, services, plan, hour) for hour in _unmeasured(services, plan)]
     if measures:
@@ -157,6 +159,8 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     Writes `beliefs` and `traits_reasons`; adds to `calls`. A reply that cannot be read leaves the belief as it was.
     """
     services, plan = runtime.context, state["plan"]
+    if services.recorder.read_evening(plan.day):
+        return {"traits_reasons": {}}
     past = accounts(_told(services, plan), plan.episode_day * 24)
     belief = state["beliefs"].get(plan.person, Belief())
     if not services.method.traits or not past:
@@ -177,7 +181,7 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     """Keep the day's truth as history and train who learns. Writes `learned` and `measured`."""
     services, plan = runtime.context, state["plan"]
-    if not services.method.robot:
+    if services.recorder.read_evening(plan.day) or not services.method.robot:
         return {"measured": {}}
     hours = _told(services, plan)
     remember_day(services, plan, hours)
@@ -221,7 +225,8 @@ def _as_it_was(services: Services, state: DayState, past: Evening) -> dict[str, 
     plan, method = state["plan"], services.method
     if method.robot:
         remember_day(services, plan, _told(services, plan))
-    learned = [*state["learned"], plan.day] if method.robot and method.learns else state["learned"]
+    learned = [day for day in state["learned"] if day != plan.day]
+    learned += [plan.day] if method.robot and method.learns else []
     return {"beliefs": {**state["beliefs"], plan.person: past.belief}, "learned": learned}
 
 

@@ -13,9 +13,9 @@ from coopera.core.asks import INSTRUCTION, PROMPTS
 from coopera.core.big_five_test import ITEMS
 
 _ACTS_1 = [
-    {"object_id": 52, "object": "book_2", "receptacle_id": 3, "receptacle": "coffee_table_1", "relation": "on"},
-    {"object_id": 47, "object": "blanket_1", "receptacle_id": 2, "receptacle": "armchair_1", "relation": "on"},
-    {"object_id": 61, "object": "teapot_1", "receptacle_id": 3, "receptacle": "coffee_table_1", "relation": "on"},
+    {"object_id": 52, "object": "book_2", "receptacle_id": 3, "receptacle": "coffee_table_1"},
+    {"object_id": 47, "object": "blanket_1", "receptacle_id": 2, "receptacle": "armchair_1"},
+    {"object_id": 61, "object": "teapot_1", "receptacle_id": 3, "receptacle": "coffee_table_1"},
 ]
 _TEXTS_1 = [
     "put the book on the coffee table",

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 
 from coopera.core.errors import ModelOutputError
-from coopera.core.hour import DayPlan, Example
+from coopera.core.hour import DayPlan, Evening, Example
 from coopera.core.household import SceneId
 from coopera.graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
-from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, reviewed, type2_answers
+from tests.fakes import MARA, FakeHome, FolderRecorder, ScriptedAsk, placing, reviewed, type2_answers
 from tests.graphs.conftest import MakeServices
 
 
@@ -312,3 +313,45 @@ def test_an_hour_that_is_lived_again_knows_nothing_of_what_came_after_it(
     ]
     assert not any(told[:3]), "nobody had told it anything on the first day"
     assert all(told[3:])
+
+
+class Stopping(FolderRecorder):
+    """Is killed right after it has written an evening, the first time."""
+
+    killed = False
+
+    def write_evening(self, evening: Evening) -> None:
+        super().write_evening(evening)
+        if not self.killed:
+            self.killed = True
+            raise KeyboardInterrupt
+
+
+def test_an_evening_that_stands_in_the_trace_is_learned_once_though_its_checkpoint_is_lost(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    recorder = Stopping(tmp_path)
+    services = make_services()
+    services = replace(services, recorder=recorder, learner=replace(services.learner, recorder=recorder))
+    with pytest.raises(KeyboardInterrupt):
+        run_saved(services, tmp_path)
+    run_saved(services, tmp_path, go_on=True)
+    assert [evening.learned["intention"]["examples"] for evening in recorder.evenings.values()] == [9, 18]
+
+
+@pytest.mark.parametrize("node", ["infer_traits", "learn"])
+def test_an_evening_under_way_in_the_checkpoint_is_not_asked_for_again_if_it_stands_in_the_trace(
+    make_services: MakeServices, tmp_path: Path, node: str
+) -> None:
+    whole = make_services(folder=tmp_path / "whole")
+    run_study(whole, n=1)
+    ask = ScriptedAsk({})
+    late = replace(make_services(folder=tmp_path / "late", ask=ask), recorder=whole.recorder)
+    day = build_day_graph(InMemorySaver())
+    config: Any = {"configurable": {"thread_id": "day"}}
+    state = {**first_day(days(1)[0]), "position": 3, "feedback": [], "traits_reasons": {}}
+    day.update_state(config, state, as_node={"infer_traits": "feedback", "learn": "infer_traits"}[node])
+    done = day.invoke(None, config, context=late)
+    assert ask.asked == []
+    assert done["beliefs"][MARA.id].profile == "Cooks a lot."
+    assert done["learned"] == [0]
