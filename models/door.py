@@ -33,9 +33,7 @@ from coopera.models.talk import Picture, Talk, Turn
 from coopera.models.transport import Sleep, wait
 
 SEEDS = 2**31  # servers take seeds of 31 bits
-_AGAIN = (
-    "This answer cannot be used: {reason}.\nAnswer again with one whole JSON object, put right, and nothing else."
-)
+_AGAIN = "This answer cannot be used: {reason}.\nAnswer again with one whole JSON object, put right, and nothing else."
 _ORDER = {prompt: n for n, prompt in enumerate(ASKS)}
 _PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from coopera.models.reading.loose_json import nested
-from coopera.models.reading.words import is_nothing, is_placeholder
+from coopera.models.reading.words import is_blank
 
 HINTS = frozenset({"wants"})
 """Lists of words that decide nothing: what cannot be used of one is left out, and never costs the whole reply."""
@@ -53,7 +53,7 @@ def words_in(value: Any, levels: int = _LEVELS) -> Iterator[str]:
         value = value["name"]
     if isinstance(value, str):
         said = value.encode("utf-8", "ignore").decode().strip()
-        if not is_nothing(said) and not is_placeholder(said):
+        if not is_blank(said, "wants"):
             yield said
     elif isinstance(value, dict | list) and levels:
         for part in value.values() if isinstance(value, dict) else value:

@@ -14,7 +14,7 @@ _NUMBER = re.compile(r"[+-]?\d{1,12}(?:[.,]\d{1,12})?")
 _OF = re.compile(r"(?P<part>\S+?)\s*(?:/|out of|of)\s*(?P<whole>\d{1,12})", re.IGNORECASE)
 _EXPLAINS = re.compile(r"reasons?(_\w+)?|comment|thought|seen")
 
-_THINGS = {"in_hand", "object"}
+_THINGS = {"in_hand", "object", "wants"}
 _RELATIONS = {"in": "inside", "into": "inside", "on top of": "on", "onto": "on"}
 
 
@@ -59,7 +59,7 @@ def is_placeholder(said: str) -> bool:
 
 
 def is_blank(said: str, field: str) -> bool:
-    """Whether a text that must say something says nothing; a piece of string, though, is a thing to hold or bring."""
+    """Whether a text that must say something says nothing; a piece of string, though, is a thing, to hold or bring."""
     return (is_nothing(said) or is_placeholder(said)) and not (field in _THINGS and said.strip() == "string")
 
 
