@@ -41,11 +41,9 @@ def as_verdict(value: Any) -> bool | None:
 
 def contradict(one: Any, other: Any) -> bool:
     """Whether two values of a field by several names mean yes and no, or two numbers."""
-    for read in (as_verdict, lambda value: as_number(str(value), None)):
-        meanings = [read(value) for value in (one, other)]
-        if None not in meanings and meanings[0] != meanings[1]:
-            return True
-    return False
+    verdicts = [as_verdict(value) for value in (one, other)]
+    numbers = [as_number(str(value), None) for value in (one, other)]
+    return any(None not in pair and pair[0] != pair[1] for pair in (verdicts, numbers))
 
 
 def is_nothing(said: str) -> bool:
