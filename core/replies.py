@@ -1,6 +1,6 @@
 """What a language model may answer: one type per prompt, named in the prompt's front matter.
 
-Code appends the JSON schema to the prompt and parses the answer with these types, so a reworded
+Code shows or enforces the JSON schema and parses the answer with these types, so a reworded
 prompt cannot break parsing. Every text and list is bounded, so that constrained decoding ends.
 """
 

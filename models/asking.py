@@ -33,6 +33,8 @@ class Request:
     name: str = "reply"
 
 
+ENFORCED = frozenset[Structure](("json_schema", "tools"))
+"""Structures by which a server, or a decoder, that keeps its word holds a reply to its schema."""
 Options = Callable[[Request, Structure], dict[str, Any]]
 """A backend's way to say a request to its client, besides the messages."""
 Note = Callable[[str], None]
@@ -103,9 +105,10 @@ class Backend:
         first = next((one for one in self.structures if one not in self._seen.refused), self.structures[-1])
         return self.structures[self.structures.index(first) :]
 
-    def enforces(self, structure: Structure) -> bool:
-        """Whether a reply keeps to its schema though the prompt does not show it, as far as was seen."""
-        return structure in {"json_schema", "tools"} and self._seen.strayed <= self._seen.kept
+    @property
+    def ignores(self) -> bool:
+        """Whether the server was seen to ignore the schemas that it was given: in two replies more than it kept to."""
+        return self._seen.strayed > self._seen.kept + 1
 
     def notice(self, *, kept: bool) -> None:
         """Note whether a reply whose prompt did not show the schema kept to it."""

@@ -239,26 +239,39 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
 def _by_tools(spec: str, model: Any, settings: CallSettings, line: Line, weights: str = "") -> Backend:
     """Any chat model of LangChain, which is held to a schema by a tool that it must call, where it can call tools."""
     structures = tuple(one for one in _structures(settings) if one in {"tools", "text"}) or ("text",)
-    takes_tools = type(model).bind_tools is not BaseChatModel.bind_tools
     tempered = "temperature" in type(model).model_fields
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
         drawn = {"temperature": request.temperature} if tempered else {}
         if structure != "tools" or request.schema is None:
             return drawn
-        bound = model.bind_tools([_tool(request)], tool_choice=request.name)
-        return {**drawn, **bound.kwargs}
+        return {**drawn, **_bound(model, request)}
 
     return Backend(
         str(spec),
         model,
         sees=_sees(spec, model),
         options=options,
-        structures=structures if takes_tools else ("text",),
+        structures=structures if _takes_tools(model) else ("text",),
         line=line,
         weights=weights,
         brief=bool(settings.brief),
     )
+
+
+def _bound(model: Any, request: Request) -> dict[str, Any]:
+    """The arguments by which a chat model must answer with a tool."""
+    return dict(model.bind_tools([_tool(request)], tool_choice=request.name).kwargs)
+
+
+def _takes_tools(model: Any) -> bool:
+    """Whether a chat model can be made to call a tool: its class may say so and yet fail, so it is tried once."""
+    form = {"type": "object", "properties": {"yes": {"type": "boolean"}}, "required": ["yes"]}
+    trial = Request(messages=lambda _: (), temperature=0, seed=0, max_tokens=1, schema=form)
+    try:
+        return bool(_bound(model, trial))
+    except (NotImplementedError, TypeError, ValueError, AttributeError):
+        return False
 
 
 def _line(server: str, settings: CallSettings, sleep: Sleep, unreachable: tuple[type[Exception], ...]) -> Line:

@@ -1,7 +1,8 @@
 """The one door to language models: prompt name and variables in, a validated reply out, and a record of the call.
 
-Every call renders a prompt file, says which JSON is wanted, parses the answer strictly, shows the model what is wrong
-with a bad one and asks again, a bounded number of times. Nothing else in coopera touches a chat model.
+Every call renders a prompt file, says which JSON is wanted, reads the answer leniently in form and strictly in meaning,
+shows the model what is wrong with a bad one and asks again, a bounded number of times. Nothing else in coopera touches
+a chat model.
 """
 
 from __future__ import annotations
@@ -32,9 +33,7 @@ from coopera.models.talk import Picture, Talk, Turn
 from coopera.models.transport import Sleep, wait
 
 SEEDS = 2**31  # servers take seeds of 31 bits
-_AGAIN = (
-    "This answer cannot be used: {reason}.\nAnswer again with one JSON object that fits the schema, and nothing else."
-)
+_AGAIN = "This answer cannot be used: {reason}.\nAnswer again with one whole JSON object, put right, and nothing else."
 _ORDER = {prompt: n for n, prompt in enumerate(ASKS)}
 _PICTURES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 
@@ -193,7 +192,7 @@ class Door:
                 reason = f"it was cut off at the length limit; {err}" if answer.cut else str(err)
                 talk.bad(reason, more=not last)
                 if unseen and not answer.cut:
-                    talk.strayed = True
+                    talk.shown = True
                     talk.backend.notice(kept=False)
                 continue
             if unseen:
@@ -228,13 +227,17 @@ class Door:
         return answer
 
     def _remembered(self, talk: Talk, seed: int) -> Answer | None:
-        """The answer that the cache has, however the model was held to the schema for it."""
+        """The answer that the cache has, however the model was held to the schema, or shown it at first, for it."""
         if self.cache is None or talk.backend.reads_variables:
             return None
-        for structure in talk.backend.ways:
-            reply = self.cache.get(self._key(talk, structure, seed))
-            if reply is not None:
-                return Answer(reply, structure)
+        chosen = talk.shown
+        for shown in (chosen, not chosen) if len(talk.turns) == 1 else (chosen,):
+            talk.shown = shown
+            for structure in talk.backend.ways:
+                reply = self.cache.get(self._key(talk, structure, seed))
+                if reply is not None:
+                    return Answer(reply, structure)
+        talk.shown = chosen
         return None
 
     def _ask(self, talk: Talk, seed: int) -> Answer:

@@ -89,9 +89,12 @@ def read_reply(text: str, wanted: Wanted[Reply]) -> Read[Reply]:
     aloud before "</think>". What would change the meaning is not guessed.
 
     Raises:
-        BadReplyError: If there is no answer, or there are several different ones.
+        BadReplyError: If there is no answer, there are several different ones, or it was still thinking when it ended.
     """
-    pieces = list(_pieces(text.rpartition("</think>")[2][:MAX_TEXT]))
+    said = text.rpartition("</think>")[2]
+    if "<think>" in said:
+        raise BadReplyError("its thinking never ended")
+    pieces = list(_pieces(said[:MAX_TEXT]))
     problems = [(piece.length, piece.problem) for piece in pieces if piece.problem]
     found: list[Read[Reply]] = []
     for kind in (dict, list):  # a list stands for its object only where no object is an answer

@@ -10,7 +10,7 @@ from typing import Any
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
 
 from coopera.core.protocols import Rendered
-from coopera.models.asking import Backend
+from coopera.models.asking import ENFORCED, Backend
 from coopera.models.cache import CachedReply
 from coopera.models.parsing import Wanted
 from coopera.models.recorded import ASKED_FOR
@@ -39,7 +39,12 @@ class Turn:
 
 @dataclass(slots=True)
 class Talk:
-    """One call as it goes: what was said so far, and what it took."""
+    """One call as it goes: what was said so far, and what it took.
+
+    Attributes:
+        shown: Whether the prompt ends with the schema though the model is held to it, since its server ignores schemas
+            or this call's first reply did. Fixed between two turns, whatever other calls find out meanwhile.
+    """
 
     rendered: Rendered
     backend: Backend
@@ -47,7 +52,7 @@ class Talk:
     settings: CallSettings
     turns: list[Turn] = field(default_factory=list)
     way: Structure = "text"
-    strayed: bool = False
+    shown: bool = field(init=False)
     reply: str = ""
     tokens_in: int = 0
     tokens_out: int = 0
@@ -57,10 +62,14 @@ class Talk:
     leniencies: dict[str, int] = field(default_factory=dict)
     fresh: list[tuple[str, CachedReply]] = field(default_factory=list)
 
+    def __post_init__(self) -> None:
+        """Decide by what is known of the server at the first turn."""
+        self.shown = self.backend.ignores
+
     def shows_schema(self, structure: Structure) -> bool:
         """Whether the prompt ends with the schema: where nothing else tells the model, or holds it to it."""
         if self.settings.show_schema == "auto":
-            return self.strayed or not self.backend.enforces(structure)
+            return self.shown or structure not in ENFORCED
         return self.settings.show_schema == "always"
 
     def texts(self, structure: Structure) -> list[str]:

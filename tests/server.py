@@ -114,7 +114,10 @@ def spoilt(kind: str, text: str) -> str:
     if kind == "prose":
         return "Certainly! As for your question, I should say yes to all of it."
     reply = json.loads(text)
-    return json.dumps({**reply, next(iter(reply)): 7} if kind == "types" else _astray(reply))
+    if kind == "types":  # what was seen may be any text, so a field that decides something
+        field = next((name for name, part in reply.items() if not isinstance(part, str)), next(iter(reply)))
+        return json.dumps({**reply, field: 7})
+    return json.dumps(_astray(reply))
 
 
 def _astray(value: Any) -> Any:

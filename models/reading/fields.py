@@ -10,6 +10,7 @@ _TYPO = 0.85
 _ALIASES = {
     "yes": ("answer", "verdict", "ok", "decision", "judgement", "judgment"),
     "act": ("action",),
+    "task": ("new_task", "revised_task", "changed_task", "revised", "revision", "replacement", "change"),
     "reason": ("reasoning", "explanation", "rationale", "comment", "why"),
     "comment": ("reason",),
     "in_hand": ("thing_in_hand", "object_in_hand"),

@@ -4,24 +4,24 @@
 |---|---|
 | `json` | quotes, commas, comments, words of Python |
 | `wrapper` | an object around the answer, or a level too many or too few |
-| `list` | a list without its object, a single item without its list, items under numbers |
+| `list` | a list without its object, a single item without its list, items under numbers; no words among words |
 | `extra field` | a field that was not asked for: dropped |
 | `field name` | another spelling, or a usual other name |
-| `null` | nothing, where a text or list was asked for: empty, or what the field says by default |
+| `null` | nothing, where a text, list or task was asked for: empty, or what the field says by default |
 | `number` | a number in quotes, a share in percent, "4/5" |
 | `yes/no` | a word for true or false |
-| `text` | a text that was a number or a list, or one of several choices with other capitals |
-| `cut` | a reason longer than there is room for |
+| `text` | a text that was a number or a list, a choice with other capitals, or a changed task's thought: the reason |
+| `cut` | a reason, or a list of what is wanted, longer than there is room for |
 | `name` | an object's name with other capitals or spaces, or without its number |
 | `id` | a name that was missing or wrong, found by the id |
 
 What is still wrong after that, validation finds. What would be a guess is a problem here: a verdict said twice and
-differently, items numbered in another order, a score that is not there, an object unlike its id.
+differently, items numbered in another order, a score that is not there, an object unlike its id, a task that is
+turned down without a word of what becomes of it.
 """
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -29,22 +29,24 @@ from typing import Any
 
 from coopera.core.household import ObjectMap
 from coopera.models.reading.fields import WRAPPERS, is_spelling, meant, same
+from coopera.models.reading.lists import HINTS, ITEM_NUMBER, is_in_order, out_of_order, split, words_in
 from coopera.models.reading.loose_json import nested
-from coopera.models.reading.names import mended, parts
+from coopera.models.reading.names import agrees, id_in, mended, name_in
 from coopera.models.reading.words import (
     as_boolean,
     as_choice,
     as_number,
+    as_verdict,
+    contradict,
     cut,
     explains,
+    is_blank,
     is_nothing,
-    is_placeholder,
 )
 
 UNKNOWN = -1
 """The id of an object that is not there."""
 _LEVELS = 4
-_ITEM_NUMBER = re.compile(r"(?:.*\D)?(\d{1,3})\D*", re.DOTALL)
 _MISSING = object()
 
 
@@ -75,13 +77,13 @@ class Fit:
             schema = self.schema["$defs"][kind]
         if options := schema.get("anyOf"):
             return self._option(value, options, name, place)
-        if "enum" in schema or "const" in schema:
-            return self._choice(value, schema.get("enum", [schema.get("const")]))
+        if "enum" in schema:
+            return self._choice(value, schema["enum"])
         match schema.get("type"):
             case "object":
                 return self._object(value, schema, kind, place)
             case "array":
-                return self._array(value, schema["items"], name, place)
+                return self._hints(value, schema) if name in HINTS else self._array(value, schema["items"], name, place)
             case "string":
                 return self._text(value, schema, name, place)
             case "boolean":
@@ -93,9 +95,9 @@ class Fit:
 
     def _option(self, value: Any, options: list[dict[str, Any]], name: str, place: str) -> Any:
         wanted = [one for one in options if one.get("type") != "null"]
-        if len(wanted) < len(options) and (value is None or value == {}):
+        if len(wanted) < len(options) and value is None:
             return None
-        if len(wanted) < len(options) and isinstance(value, str) and is_nothing(value):
+        if len(wanted) < len(options) and (value == {} or (isinstance(value, str) and is_nothing(value))):
             self.counted["null"] += 1
             return None
         return self._fit(value, wanted[0], name, place) if len(wanted) == 1 else value
@@ -118,7 +120,7 @@ class Fit:
             self.counted["text"] += 1
         if not isinstance(said, str):
             return said
-        if schema.get("minLength") and is_placeholder(said):
+        if said and schema.get("minLength") and is_blank(said, name):
             self.problems.append(f"{place}: {said.strip()[:40]} only holds the place of what should stand there")
         if said and explains(name) and not schema.get("minLength") and is_nothing(said):
             self.counted["null"] += 1
@@ -130,8 +132,8 @@ class Fit:
         return said
 
     def _boolean(self, value: Any) -> Any:
-        said = as_boolean(value) if isinstance(value, str) else None
-        if said is None:
+        said = as_verdict(value)
+        if said is None or said is value:
             return value
         self.counted["yes/no"] += 1
         return said
@@ -151,16 +153,28 @@ class Fit:
             return value
         if items is not value:
             self.counted["list"] += 1
-        self._in_order(items, item, place)
+        if out_of_order(items, self._properties(item)):
+            self.problems.append(f"{place}: the items are numbered in another order than the one asked for")
         return [self._fit(one, item, name, f"{place}.{n}") for n, one in enumerate(items)]
+
+    def _hints(self, value: Any, schema: Mapping[str, Any]) -> list[str]:
+        """Short texts that decide nothing: those with a meaning, as many as there is room for."""
+        given = split(value) if isinstance(value, str) else value
+        found = list(words_in(given))
+        made = [cut(said, most) if len(said) > (most := schema["items"]["maxLength"]) else said for said in found]
+        made = made[: schema["maxItems"]]
+        if found != value:
+            self.counted["list"] += 1
+        if made != found:
+            self.counted["cut"] += 1
+        return made
 
     def _listed(self, value: Any, item: Mapping[str, Any]) -> Any:
         """A list that was written otherwise: inside a text, in another list, under numbers, or as its only item."""
         if isinstance(value, str):
             if (inside := self._nested(value)) is not None:
                 return self._listed(inside, item)
-            parts_said = [part.strip() for part in re.split("[,;\n]", value) if part.strip()]
-            return parts_said if item.get("type") in ("string", "integer") else value
+            return split(value) if item.get("type") in ("string", "integer") else value
         if isinstance(value, list) and len(value) == 1 and isinstance(value[0], list):
             return value[0]
         if not isinstance(value, dict):
@@ -168,25 +182,14 @@ class Fit:
         known = self._properties(item)
         if any(meant(key, known) for key in value):
             return [value]
-        if len(value) == 1 and isinstance(inside := next(iter(value.values())), list):
+        (key, inside), *others = value.items() or [("", None)]
+        if not others and isinstance(inside, list):
             return inside
-        numbers = [_ITEM_NUMBER.fullmatch(key) for key in value]
+        if not others and isinstance(inside, dict) and same(key) in WRAPPERS:
+            return self._listed(inside, item)
+        numbers = [ITEM_NUMBER.fullmatch(key) for key in value]
         counted = [int(found[1]) for found in numbers if found]
-        return list(value.values()) if len(counted) == len(value) and _is_in_order(counted) else value
-
-    def _in_order(self, items: list[Any], item: Mapping[str, Any], place: str) -> None:
-        """Find items whose own numbers say that they stand in another order."""
-        known = self._properties(item)
-        objects = [one for one in items if isinstance(one, dict)]
-        if not objects or len(objects) < len(items):
-            return
-        for key in objects[0]:
-            if meant(key, known) or not all(key in one for one in objects):
-                continue
-            found = [_ITEM_NUMBER.fullmatch(str(one[key])) for one in objects]
-            numbers = [int(one[1]) for one in found if one]
-            if len(numbers) == len(items) and _is_in_order(sorted(numbers)) and not _is_in_order(numbers):
-                self.problems.append(f"{place}: the items are numbered in another order than the one asked for")
+        return list(value.values()) if len(counted) == len(value) and is_in_order(counted) else value
 
     def _object(self, value: Any, schema: Mapping[str, Any], kind: str, place: str) -> Any:
         known: Mapping[str, Any] = schema.get("properties", {})
@@ -198,8 +201,12 @@ class Fit:
         fields = self._named(given, known, place)
         self._gather(fields, given, known)
         self._name_objects(fields, kind, place)
+        if "yes" in known and "task" in known:
+            self._review(fields, known["task"], place)
         made: dict[str, Any] = {}
         for one, part in known.items():
+            if "const" in part:
+                continue  # code knows it
             if one not in fields:
                 self._refuse_missing(one, part, place)
             elif fields[one] is None and not _may_be_null(part):
@@ -258,11 +265,13 @@ class Fit:
             if one not in fields:
                 self.counted["field name"] += 1
                 fields[one] = value
-            elif fields[one] != value and (is_spelling(key, one) or _contradict(fields[one], value)):
+            elif fields[one] != value and (
+                is_spelling(key, one) or contradict(fields[one], value) or (one == "task" and isinstance(value, dict))
+            ):
                 self.problems.append(f"{place or 'the object'}: {one} and {key[:40]} say different things")
             else:
                 self.counted["extra field"] += 1
-        if "yes" in fields and as_boolean(str(given.get("no"))) not in (None, not as_boolean(str(fields["yes"]))):
+        if "yes" in fields and as_boolean(str(given.get("no"))) not in (None, not as_verdict(fields["yes"])):
             self.problems.append(f"{place or 'the object'}: it says yes and no at once")
         return fields
 
@@ -282,17 +291,36 @@ class Fit:
         if over:
             self.counted["extra field"] += len(over)
 
+    def _review(self, fields: dict[str, Any], part: Mapping[str, Any], place: str) -> None:
+        """See that a no says what becomes of the task; a changed one without a thought takes the reason for it.
+
+        Only a null that was written drops a task: one under an unknown name, or a bare act, may be what it becomes.
+        """
+        task, reason, draft = fields.get("task"), fields.get("reason"), self._properties(part)
+        said = as_verdict(fields.get("yes"))
+        if said and not isinstance(task, dict | None):  # such as "no change needed", which counts for nothing
+            fields["task"] = None
+            self.counted["null"] += 1
+        elif said is False and fields.get("task", {}) == {}:
+            self.problems.append(f"{place}: its task is missing: say the task as it should be, or null where it goes")
+        elif isinstance(task, dict) and isinstance(reason, str) and not is_nothing(reason):
+            act = task["act"] if isinstance(task.get("act"), dict) else task
+            bare = any(meant(key, self._properties(draft["act"])) for key in act)
+            if bare and not any(meant(key, draft) == "thought" for key in task):
+                fields["task"] = {"thought": reason, **task}
+                self.counted["text"] += 1
+
     def _name_objects(self, fields: dict[str, Any], kind: str, place: str) -> None:
         """Mend names of objects, from their ids where they are missing, and fill in the ids."""
         for one, objects in self.objects.get(kind, {}).items():
-            said, key = _name_in(fields.get(one)), f"{one}_id"
-            number = _id_in(fields.get(key))
+            said, key = name_in(fields.get(one)), f"{one}_id"
+            number = id_in(fields.get(key))
             by_id = next((name for name, where in objects.items() if where[0] == number), None)
-            if _id_in(said) is not None:  # an id in the name's place
-                number = _id_in(said)
+            if id_in(said) is not None:  # an id in the name's place
+                number = id_in(said)
                 said, by_id = None, next((name for name, where in objects.items() if where[0] == number), None)
             name = mended(said, objects) if isinstance(said, str) else None
-            if name is None and by_id is not None and _agrees(said, by_id):
+            if name is None and by_id is not None and agrees(said, by_id):
                 name = by_id
                 self.counted["id"] += 1
             elif name is not None and name != fields.get(one):
@@ -353,15 +381,6 @@ def _wraps(key: str, value: Any, known: Mapping[str, Any]) -> bool:
     return key not in known and same(key) in WRAPPERS and isinstance(value, dict)
 
 
-def _contradict(one: Any, other: Any) -> bool:
-    """Whether two values of a field by several names mean yes and no, or two numbers."""
-    for read in (as_boolean, lambda said: as_number(said, None)):
-        meanings = [read(str(value)) for value in (one, other)]
-        if None not in meanings and meanings[0] != meanings[1]:
-            return True
-    return False
-
-
 def _may_be_null(schema: Mapping[str, Any]) -> bool:
     return any(one.get("type") == "null" for one in schema.get("anyOf", ()))
 
@@ -369,30 +388,8 @@ def _may_be_null(schema: Mapping[str, Any]) -> bool:
 def _is_one_of(value: Any, schema: Mapping[str, Any]) -> bool:
     """Whether a bare value can be the only field that an object needs."""
     if schema.get("type") == "boolean":
-        return isinstance(value, bool) or (isinstance(value, str) and as_boolean(value) is not None)
+        return isinstance(value, bool | str) and as_verdict(value) is not None
     if schema.get("type") in ("number", "integer"):
-        return not isinstance(value, bool) and (not isinstance(value, str) or as_number(value, None) is not None)
+        most = schema.get("maximum")
+        return not isinstance(value, bool) and (not isinstance(value, str) or as_number(value, most) is not None)
     return isinstance(value, str) and schema.get("type") == "string"
-
-
-def _is_in_order(numbers: list[int]) -> bool:
-    return bool(numbers) and numbers[0] in (0, 1) and numbers == list(range(numbers[0], numbers[0] + len(numbers)))
-
-
-def _name_in(value: Any) -> Any:
-    if isinstance(value, dict):
-        return value.get("name", value.get("id"))
-    return value[0] if isinstance(value, list) and len(value) == 1 else value
-
-
-def _id_in(value: Any) -> int | None:
-    if isinstance(value, str) and value.strip().isdecimal() and len(value) < 10:
-        return int(value)
-    return value if isinstance(value, int) and not isinstance(value, bool) else None
-
-
-def _agrees(said: Any, name: str) -> bool:
-    """Whether a name that is missing or unknown may be that of the object with the id: nothing said, or its class."""
-    if said is None or (isinstance(said, str) and is_nothing(said)):
-        return True
-    return isinstance(said, str) and parts(said)[0] == parts(name)[0]

@@ -75,7 +75,7 @@ class _Reader:
         self.text, self.start, self.at = text, at, at
         self.begun = False
 
-    def value(self, depth: int) -> Any:
+    def value(self, depth: int, *, listed: bool = False) -> Any:
         if depth > MAX_DEPTH:
             self._fail("it is nested too deeply")
         begins = self._next()
@@ -84,7 +84,7 @@ class _Reader:
         if begins == "[":
             return self._list(depth)
         if begins in _QUOTES:
-            return self._string(",，}]")
+            return self._string(",，}]", listed=listed)
         if number := _NUMBER.match(self.text, self.at):
             return self._number(number)
         if word := _WORD.match(self.text, self.at):
@@ -114,7 +114,7 @@ class _Reader:
         items: list[Any] = []
         self.at += 1
         while self._next() != "]":
-            items.append(self.value(depth + 1))
+            items.append(self.value(depth + 1, listed=True))
             self._comma("]")
         self.at += 1
         return items
@@ -139,8 +139,11 @@ class _Reader:
         self.at = word.end()
         return word.group()
 
-    def _string(self, terminators: str) -> str:
-        """Read a text in quotes; quotes inside it that do not end it are its own."""
+    def _string(self, terminators: str, *, listed: bool = False) -> str:
+        """Read a text in quotes; quotes inside it that do not end it are its own.
+
+        In a list, a quote that another text follows ends its own: a comma is missing, and is mended at a line's end.
+        """
         ends, at = _QUOTES[self.text[self.at]], self.at + 1
         parts: list[str] = []
         own_quotes = 0
@@ -152,7 +155,7 @@ class _Reader:
             at = found.end()
             if found.group() == "\\":
                 at = self._escape(at, parts)
-            elif self._ends(at, terminators):
+            elif self._ends(at, terminators) or (listed and self._another_follows(at)):
                 break
             else:
                 parts.append(found.group())
@@ -170,6 +173,12 @@ class _Reader:
         assert after is not None  # it matches the empty text
         following = self.text[after.end() : after.end() + 1]
         return not following or following in terminators or bool(_NEXT_KEY.match(self.text, at))
+
+    def _another_follows(self, at: int) -> bool:
+        """Whether a further text begins after a quote; two quotes without a space between are those of one text."""
+        after = _SPACE.match(self.text, at)
+        assert after is not None  # it matches the empty text
+        return after.end() > at and self.text[after.end() : after.end() + 1] in _QUOTES
 
     def _escape(self, at: int, parts: list[str]) -> int:
         mark = self.text[at : at + 1]

@@ -5,6 +5,9 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from coopera.models.reading.words import is_nothing
 
 _NUMBERED = re.compile(r"(?P<word>.*?)_?0*(?P<number>\d+)")
 _IN_BRACKETS = re.compile(r"(?P<name>[^()]+)\((?:id:?\s*)?(?P<said>[^()]+)\)")
@@ -54,6 +57,27 @@ def nearest(said: object, names: Iterable[str], count: int = 3) -> list[str]:
     spelt = [(difflib.SequenceMatcher(None, _plain(said)[:120], _plain(name)).ratio(), name) for name in known]
     alike = [name for near, name in sorted(spelt, key=lambda one: (-one[0], one[1])) if near >= _NEAR]
     return list(dict.fromkeys([*own, *alike]))[:count]
+
+
+def name_in(value: Any) -> Any:
+    """What stands for an object's name: also inside an object with name and id, or alone in a list."""
+    if isinstance(value, dict):
+        return value.get("name", value.get("id"))
+    return value[0] if isinstance(value, list) and len(value) == 1 else value
+
+
+def id_in(value: Any) -> int | None:
+    """The id that a value is, also as a text."""
+    if isinstance(value, str) and value.strip().isdecimal() and len(value) < 10:
+        return int(value)
+    return value if isinstance(value, int) and not isinstance(value, bool) else None
+
+
+def agrees(said: Any, name: str) -> bool:
+    """Whether a name that is missing or unknown may be that of the object with the id: nothing said, or its class."""
+    if said is None or (isinstance(said, str) and is_nothing(said)):
+        return True
+    return isinstance(said, str) and parts(said)[0] == parts(name)[0]
 
 
 def _plain(name: str) -> str:

@@ -14,6 +14,7 @@ _NUMBER = re.compile(r"[+-]?\d{1,12}(?:[.,]\d{1,12})?")
 _OF = re.compile(r"(?P<part>\S+?)\s*(?:/|out of|of)\s*(?P<whole>\d{1,12})", re.IGNORECASE)
 _EXPLAINS = re.compile(r"reasons?(_\w+)?|comment|thought|seen")
 
+_THINGS = {"in_hand", "object", "wants"}
 _RELATIONS = {"in": "inside", "into": "inside", "on top of": "on", "onto": "on"}
 
 
@@ -31,6 +32,20 @@ def as_boolean(said: str) -> bool | None:
     return _BOOLEANS.get(said.strip(" \t\n\"'*_.!,`").casefold())
 
 
+def as_verdict(value: Any) -> bool | None:
+    """What a value means as yes or no: a word for it, 1 or 0; None for all else."""
+    if isinstance(value, str):
+        return as_boolean(value) if value.strip() not in ("0", "1") else value.strip() == "1"
+    return bool(value) if isinstance(value, int) and value in (0, 1) else None
+
+
+def contradict(one: Any, other: Any) -> bool:
+    """Whether two values of a field by several names mean yes and no, or two numbers."""
+    verdicts = [as_verdict(value) for value in (one, other)]
+    numbers = [as_number(str(value), None) for value in (one, other)]
+    return any(None not in pair and pair[0] != pair[1] for pair in (verdicts, numbers))
+
+
 def is_nothing(said: str) -> bool:
     """Whether a word stands for a text that is not there."""
     return said.strip(" \t\n\"'*.").casefold() in _NOTHING
@@ -39,6 +54,11 @@ def is_nothing(said: str) -> bool:
 def is_placeholder(said: str) -> bool:
     """Whether a text is the form that was to be filled in, such as "string" or "..."."""
     return _PLACEHOLDER.fullmatch(said.strip()) is not None
+
+
+def is_blank(said: str, field: str) -> bool:
+    """Whether a text that must say something says nothing; a piece of string, though, is a thing, to hold or bring."""
+    return (is_nothing(said) or is_placeholder(said)) and not (field in _THINGS and said.strip() == "string")
 
 
 def as_number(said: str, most: float | None) -> float | int | None:

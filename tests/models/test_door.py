@@ -127,7 +127,7 @@ def test_a_valid_object_is_found_in_whatever_stands_around_it(text: str) -> None
         ('["perhaps"]', "verdicts.0: Input should be"),
         (YES[:-4], "it is not valid JSON"),
         ('{"verdicts": [{"yes": "perhaps"}]}', "verdicts.0.yes: Input should be a valid boolean"),
-        ('{"verdicts": [{"yes": 1}]}', "verdicts.0.yes: Input should be a valid boolean"),
+        ('{"verdicts": [{"yes": 2}]}', "verdicts.0.yes: Input should be a valid boolean"),
         ('{"verdicts": [{"yes": NaN}]}', "NaN is not a JSON number"),
         ('{"verdicts": [{}]}', "verdicts.0.yes: Field required"),
         ('{"verdicts": [{"yes": true, "no": true}]}', "it says yes and no at once"),

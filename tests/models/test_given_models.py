@@ -13,7 +13,7 @@ from langchain_core.callbacks import CallbackManagerForLLMRun
 from langchain_core.language_models import BaseChatModel
 from langchain_core.messages import AIMessage, BaseMessage
 from langchain_core.outputs import ChatGeneration, ChatResult
-from langchain_core.runnables import Runnable
+from langchain_core.runnables import Runnable, RunnableLambda
 from pydantic import PrivateAttr
 
 from coopera import Config, RunDir, resume_study, run_studies, run_study
@@ -83,6 +83,19 @@ class WithTools(Plain):
         return AIMessage(content="", tool_calls=[call], usage_metadata=USAGE)
 
 
+class ToolsFail(Plain):
+    """One whose class says that it takes tools, which then fails."""
+
+    failure: Any = None
+
+    def bind_tools(
+        self, tools: Sequence[dict[str, Any] | type | Callable[..., Any] | Any], **kwargs: Any
+    ) -> Runnable[Any, AIMessage]:
+        if self.failure is not None:
+            raise self.failure
+        return RunnableLambda(lambda _: AIMessage(content=""))
+
+
 class Broken(Plain):
     """One whose client fails."""
 
@@ -99,6 +112,13 @@ def door_to(model: Any, **settings: Any) -> Door:
 
 def judge(door: Door) -> VerdictsReply:
     return door("judge/tasks", VerdictsReply, at=AT, variables=examples("judge/tasks")[0])
+
+
+@pytest.mark.parametrize("failure", [None, NotImplementedError(), TypeError("tools"), ValueError("no tools")])
+def test_a_chat_model_whose_tools_fail_is_told_the_form_in_words(failure: Exception | None) -> None:
+    model = ToolsFail(failure=failure)
+    assert all(one.yes for one in judge(door_to(model)).verdicts)
+    assert "JSON schema" in model.asked[0][0][0].text
 
 
 def test_a_chat_model_without_tools_is_told_the_form_in_words() -> None:

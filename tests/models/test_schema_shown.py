@@ -56,14 +56,47 @@ def test_a_way_that_holds_to_no_schema_shows_it(structure: Structure) -> None:
 
 
 def test_a_server_that_only_seems_to_hold_replies_to_the_schema_is_noticed() -> None:
-    door, model = enforcing('{"first": true}', YES, YES)
-    ask(door)
-    ask(door)
-    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, True, True]
-    door, model = enforcing(YES, "I am sorry.", YES, YES)
+    door, model = enforcing("Yes.", YES, "I am sorry.", YES, YES)
     for _ in range(3):
         ask(door)
-    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, False, True, False]
+    shown = ["JSON schema" in asked[0].text for asked in model.asked]
+    assert shown == [False, True, False, True, True], "two bad replies more than good ones"
+    door, model = enforcing(YES, "I am sorry.", YES, "I am sorry.", YES, YES)
+    for _ in range(4):
+        ask(door)
+    assert ["JSON schema" in asked[0].text for asked in model.asked] == [False, False, True, False, True, False]
+
+
+def test_a_call_shows_the_schema_or_not_whatever_other_calls_find_out_meanwhile(cache: ReplyCache) -> None:
+    door, model = enforcing(YES, cache=cache)
+    told = model._generate
+
+    def meanwhile(*given: Any, **options: Any) -> Any:
+        for _ in range(2):
+            door.backends["judge"].notice(kept=False)
+        return told(*given, **options)
+
+    object.__setattr__(model, "_generate", meanwhile)
+    ask(door)
+    (call,) = door.take_calls()
+    assert "JSON schema" not in call.messages[0]["content"], "the trace has what was sent"
+    again, model = enforcing(cache=cache)
+    ask(again)
+    assert model.asked == [], "the answer is kept under what was sent"
+
+
+def test_an_answer_is_found_again_though_the_server_is_trusted_otherwise_by_now(cache: ReplyCache) -> None:
+    for trusted in (False, True):
+        say = f"Judge {trusted}!"
+        first, model = enforcing(YES, cache=cache)
+        again, unasked = enforcing(cache=cache)
+        for door in (first, again):
+            for _ in range(2):
+                door.backends["judge"].notice(kept=(door is first) == trusted)
+        ask(first, say=say)
+        assert ("JSON schema" in model.asked[0][0].text) == (not trusted)
+        ask(again, say=say)
+        assert unasked.asked == []
 
 
 @pytest.mark.parametrize(("chosen", "shown"), [("always", True), ("never", False)])
