@@ -65,7 +65,7 @@ class Shelves:
 
 
 def _stem(words: str) -> str:
-    """Words in lower case with one ending for one and for many: "books", "boxes", "knives", and "glass" beside "glasses".
+    """Words in lower case that end alike for one and for many, such as "box" and "boxes", "knife" and "knives".
 
     It is for comparing alone. Where a plural does not tell what its singular ends in, all that it may be end alike
     ("stove" and "shelf").

@@ -20,7 +20,7 @@ from coopera.graphs.robots.sight import in_words
 
 
 class Past(NamedTuple):
-    """An hour as the robot knows it: from an account, or from its own guesses beside what it has `seen` of the first task."""
+    """An hour as the robot knows it: from an account, or from its guesses and what it has `seen` of the first task."""
 
     now: int
     intention: str

@@ -119,7 +119,7 @@ def test_an_hour_is_remembered_with_what_was_seen_of_its_first_task(make_service
     [past] = guesses([(10, hour)], 24)
     first = {
         "type 1": "put the mug on the stove",
-        "type 2 with a percept": "In the kitchen, the person seems to dance at the stove, holding something like a pot.",
+        "type 2 with a percept": PERCEPT.caption(),
         "type 2 with pictures": SAW,
     }[sight]
     marked = past.done(Clock(day=1, hour=12), "guessed")
