@@ -16,7 +16,7 @@ from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 
 SIDES = [
-    "I bake my own bread.",
+    "I bake rye bread.",
     "I sail on Saturdays!",
     "Who would not love cats?",
     "I nap at weekends.",
@@ -36,9 +36,9 @@ def test_each_side_of_a_life_gets_its_turn_once_in_a_round_in_ever_new_order() -
     ("life", "sides"),
     [
         ("I work at St. Mary's, e.g. Mr. Smith helps.", ["I work at St. Mary's, e.g. Mr. Smith helps."]),
-        ("I sew, knit etc. in bed. I get up at 6 a.m. and bake.", ["I sew, knit etc. in bed.", "I get up at 6 a.m. and bake."]),
-        ("I sleep from 10 p.m. Then my cat J. J. Abrams hunts.", ["I sleep from 10 p.m.", "Then my cat J. J. Abrams hunts."]),
-        ("I bake. I nap. I sew. I run. I am a nurse. Really!", ["I bake. I nap.", "I sew. I run.", "I am a nurse. Really!"]),
+        ("I sew, knit etc. here. I rise at 6 a.m. to sew.", ["I sew, knit etc. here.", "I rise at 6 a.m. to sew."]),
+        ("I sleep from 10 p.m. My cat J. Abrams hunts.", ["I sleep from 10 p.m.", "My cat J. Abrams hunts."]),
+        ("I bake. I nap. I sew. I run. I am a nurse. Yes!", ["I bake. I nap.", "I sew. I run.", "I am a nurse. Yes!"]),
         ("I nap.", ["I nap."]),
     ],
 )  # fmt: skip
