@@ -153,7 +153,7 @@ _FULL: dict[str, Any] = {
     "may_leave": True,
     "n_tasks": 5,
     "steps": ["get my book from the shelf", "sit in the armchair and read"],
-    "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 5 tasks, not 4."],
+    "findings": ['Task 14.2: There is no fixed object "armchair_2".', "There must be 5 tasks, not 4."],
     "hours": ["9 am", "10 am", "11 am", "12 pm", "1 pm", "2 pm"],
     "tasks": _TASKS[2],
     "guesses": ["Unwind with a book", "Clean the living room", "Prepare for tomorrow's work"],
@@ -216,6 +216,9 @@ _INSTRUCTION: dict[str, Any] = {
     "place": 1,
 }
 _ROBOT_PROFILE = "Likes calm, indoor pastimes. Keeps the rooms in order. Reads in the afternoon."
+_WIPING = (
+    "In the living room, the person seems to wipe the surface at the coffee table, holding something like a cloth."
+)
 _ROBOTS_INTENTIONS = [
     {"when": "day 2, 2 pm", "hours_ago": 24, "text": "Read for pleasure", "source": "told"},
     {"when": "1 pm", "hours_ago": 1, "text": "Tidy the living room", "source": "guessed"},
@@ -223,10 +226,11 @@ _ROBOTS_INTENTIONS = [
 
 
 def _robots_tasks(collab: int) -> list[dict[str, Any]]:
-    """What a robot recalls: told, offered today without knowing whether it was right, and in type 1 seen."""
+    """What a robot recalls: told, seen, and offered today without knowing whether it was right."""
     if collab == 2:
         return [
             {"when": "day 2, 2 pm", "hours_ago": 24, "text": _TEXTS_2[1], "source": "told"},
+            {"when": "1 pm", "hours_ago": 1, "text": _WIPING, "source": "seen"},
             {"when": "1 pm", "hours_ago": 1, "text": "bring the sponge", "source": "guessed"},
         ]
     return [
@@ -253,7 +257,7 @@ def _of_type(collab: int) -> dict[str, Any]:
             {"when": "9 am", "hours_ago": 5, "text": "put the bowl on the dining table"},
         ],
         "first_task": _TEXTS_1[0],
-        "findings": ['Task 14.2: "armchair_1" has the id 2, not 7.', "There must be 3 tasks, not 2."],
+        "findings": ['Task 14.2: There is no fixed object "armchair_2".', "There must be 3 tasks, not 2."],
     }
 
 

@@ -132,8 +132,13 @@ def _record(
     for before, wanted, became in zip(shown, said.tasks, chosen, strict=True):
         if wanted is not before:
             after = "dropped" if wanted is None else wanted.act.describe()
-            (made if became is wanted else overruled).append(f"{before.id}: {before.act.describe()} -> {after}")
+            (made if _same(became, wanted) else overruled).append(f"{before.id}: {before.act.describe()} -> {after}")
     for task in said.add:
-        stands = any(task is one for one in left)
+        stands = any(_same(task, one) for one in left if one not in chosen)
         (made if stands else overruled).append(f"added: {task.act.describe()}")
     return Reflection(node=node, verdicts=said.verdicts, changes=made, overruled=overruled)
+
+
+def _same(one: Task | None, other: Task | None) -> bool:
+    """Whether both say the same is to be done, or both say nothing is."""
+    return (one and one.act) == (other and other.act)

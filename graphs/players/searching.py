@@ -13,7 +13,12 @@ from coopera.graphs.players.player import HumanContext
 
 LEAST = 0.55
 """The least cosine at which words that name nothing in the home stand for what is nearest to them ("couch": sofa)."""
-_PLURAL = re.compile(r"(?<=\w\w)s\b")
+_SINGULARS = (
+    (re.compile(r"(?<=\w)(?:ves?|fe)\b"), "f"),
+    (re.compile(r"(?<=\w)(?:ies?|(?<=[^\Waeiou])y)\b"), "i"),
+    (re.compile(r"(?:(?<=\w[sxzo])|(?<=[cs]h))es?\b"), ""),
+    (re.compile(r"(?<=\w\w)s\b"), ""),
+)
 
 
 class Shelves:
@@ -60,5 +65,12 @@ class Shelves:
 
 
 def _stem(words: str) -> str:
-    """Words in lower case without their plurals' s, so that "books" are a "book"."""
-    return _PLURAL.sub("", " ".join(re.findall(r"\w+", words.lower())))
+    """Words in lower case that end alike for one and for many, such as "box" and "boxes", "knife" and "knives".
+
+    It is for comparing alone. Where a plural does not tell what its singular ends in, all that it may be end alike
+    ("stove" and "shelf").
+    """
+    stems = " ".join(re.findall(r"\w+", words.lower()))
+    for ending, one in _SINGULARS:
+        stems = ending.sub(one, stems)
+    return stems

@@ -17,6 +17,9 @@ from coopera.graphs.players.changes import Change
 from coopera.graphs.players.player import HumanContext
 
 _SENTENCE_END = re.compile(r"(?<=[.!?])\s+")
+_ABBREVIATED = re.compile(r"(?<![\w.])(?:mr|mrs|ms|dr|st|prof|vs|approx|e\.g|i\.e|[a-z])\.$", re.IGNORECASE)
+_MAY_END = re.compile(r"(?<![\w.])(?:etc|jr|sr|inc|a\.m|p\.m)\.$", re.IGNORECASE)  # a sentence as well as not
+_SHORT = 4  # words: fewer say no side of a life
 _FREE = WEEKDAYS[5:]
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
 _OF_FREE_DAYS = re.compile(r"\bweek-?ends?\b", re.IGNORECASE)
@@ -37,7 +40,7 @@ def variety(ctx: HumanContext, clock: Clock, turn: int) -> dict[str, Any]:
 
 def side(profile: str, seed: int, persona: Persona, turn: int) -> str:
     """The side of a life whose turn it is: a sentence of the profile, each once in a round, in an order drawn anew."""
-    sides = list(dict.fromkeys(_SENTENCE_END.split(" ".join(profile.split()))))
+    sides = list(dict.fromkeys(_sentences(profile)))
     lap, place = divmod(turn, len(sides))
     order = rng_at(seed, persona.id, lap, "side").permutation(len(sides))
     return sides[int(order[place])]
@@ -46,7 +49,7 @@ def side(profile: str, seed: int, persona: Persona, turn: int) -> str:
 def rhythm(profile: str, clock: Clock, changes: Sequence[Change]) -> str:
     """What day it is in the week, and what profile and changes say of such a day; nothing is made up."""
     day, place = clock.weekday, clock.day % 7
-    said = [one for one in _SENTENCE_END.split(" ".join(profile.split())) if _speaks_of(day, one)][:_SAID]
+    said = [one for one in _sentences(profile) if _speaks_of(day, one)][:_SAID]
     parts = [f"{day}, the {_ORDINALS[place]} day of the week" + (", the weekend" if day in _FREE else "")]
     parts += [f'you say: "{sentence}"' for sentence in said]
     parts += [_work(change, place) for change in changes if change.work is not None]
@@ -63,6 +66,24 @@ def earlier_days(ctx: HumanContext, clock: Clock) -> str:
             known.add(record.text)
             days.setdefault(clock.day - record.hour // 24, []).append(record.text)
     return "; ".join(f"{_ago(day)}: {', '.join(reversed(texts))}" for day, texts in days.items())
+
+
+def _sentences(profile: str) -> list[str]:
+    """The sentences of a profile; what is too short to be one stands with its neighbour."""
+    found: list[str] = []
+    for piece in _SENTENCE_END.split(" ".join(profile.split())):
+        if found and _goes_on(found[-1], piece):
+            found[-1] += f" {piece}"
+        else:
+            found.append(piece)
+    if len(found) > 1 and len(found[-1].split()) < _SHORT:
+        found[-2:] = [" ".join(found[-2:])]
+    return found
+
+
+def _goes_on(before: str, piece: str) -> bool:
+    unfinished = _ABBREVIATED.search(before) or (_MAY_END.search(before) and piece[:1].islower())
+    return bool(unfinished) or len(before.split()) < _SHORT
 
 
 def _speaks_of(day: str, sentence: str) -> bool:

@@ -148,7 +148,7 @@ class Memories(NamedTuple):
         self.tasks.forget_from(now)
 
     def add(self, intention: str, tasks: Sequence[str], now: int, *, seen: Sequence[str] = ()) -> None:
-        """Append one hour; tasks that a robot has `seen` are marked as such, and come first."""
+        """Append one hour; what a robot has `seen` of its tasks is marked as such, and comes first."""
         self.intentions.extend([Record(intention, now, {})])
         known = [Record(task, now, {"source": "seen"}) for task in seen]
         self.tasks.extend([*known, *(Record(task, now, {}) for task in tasks)])

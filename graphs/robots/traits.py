@@ -16,10 +16,11 @@ from coopera.core.protocols import Ask
 from coopera.core.randomness import Address
 from coopera.core.replies import TraitsReply
 from coopera.graphs.robots.recall import Source, as_memory
+from coopera.graphs.robots.sight import in_words
 
 
 class Past(NamedTuple):
-    """An hour as the robot knows it: from an account, or from its own guesses beside the task that it has `seen`."""
+    """An hour as the robot knows it: from an account, or from its guesses and what it has `seen` of the first task."""
 
     now: int
     intention: str
@@ -27,7 +28,7 @@ class Past(NamedTuple):
     seen: Sequence[str] = ()
 
     def done(self, now: Clock, source: Source) -> list[dict[str, Any]]:
-        """The tasks as prompts read them: the seen one first, the others from that source."""
+        """The tasks as prompts read them: what was seen first, the others from that source."""
         seen = [as_memory(task, self.now, now, "seen") for task in self.seen]
         return [*seen, *(as_memory(task, self.now, now, source) for task in self.tasks)]
 
@@ -42,7 +43,7 @@ def accounts(hours: Sequence[HourRecord], dawn: int) -> list[Past]:
 
 
 def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
-    """The robot's guesses for some hours of a day: its likeliest intention, the first task, and its accepted tasks.
+    """The robot's guesses for some hours of a day: its likeliest intention, what it saw, and its accepted tasks.
 
     Hours in which it accepted no intention are left out.
     """
@@ -51,9 +52,9 @@ def guesses(hours: Sequence[tuple[int, RobotHour]], dawn: int) -> list[Past]:
         accepted = [candidate for candidate in robot.intentions if candidate.accepted]
         if accepted:
             guess = max(accepted, key=lambda candidate: candidate.probability or 0.0)
-            seen = [robot.observation.first_task] if robot.observation.first_task else []
+            words = in_words(robot.observation, robot.seen)
             tasks = [t.act.describe() for t in robot.tasks if t.accepted and t.intention == guess.text]
-            past.append(Past(dawn + hour, guess.text, tasks, seen))
+            past.append(Past(dawn + hour, guess.text, tasks, [words] if words else []))
     return past
 
 

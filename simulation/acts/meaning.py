@@ -5,6 +5,9 @@ A caption means itself. Other words are compared in meaning with every caption, 
 
 from __future__ import annotations
 
+import re
+from itertools import zip_longest
+
 from coopera.core.affordances import affordances
 from coopera.core.household import Act, AgentId, FreeMotion, HandOver, PickPlace, plain
 from coopera.simulation.acts.fitting import (
@@ -29,7 +32,12 @@ _SURE, _LESS = 0.6, 0.25
 """Words that mean one motion this surely, and those that fit the furniture so much less, are at the wrong place."""
 _COUNTS = 0.1
 """What it counts that a motion is done with the thing in hand, needs another, or has not the posture that is said."""
-_POSTURES: dict[str, Posture] = {"sit": "sit", "seated": "sit", "lie": "lie", "stand": "stand"}
+_SAID: dict[Posture, str] = {
+    "sit": "sit sits sitting seated",
+    "lie": "lie lies lying laid",
+    "stand": "stand stands standing",
+}
+_POSTURES = {word: posture for posture, words in _SAID.items() for word in words.split()}
 _SEATED = "sit and rest"
 _NAMED = 4
 
@@ -116,5 +124,7 @@ def _fitness(ground: Ground, state: HomeState, act: FreeMotion, caption: str) ->
 
 
 def _posture(text: str) -> Posture | None:
-    """The first posture that words name."""
-    return next((_POSTURES[word] for word in text.lower().replace(",", " ").split() if word in _POSTURES), None)
+    """The first posture that words name; who does sit-ups does not sit."""
+    words = re.findall(r"[\w-]+", text.lower())
+    named = (word for word, after in zip_longest(words, words[1:]) if word != "sit" or after not in ("up", "ups"))
+    return next((_POSTURES[word] for word in named if word in _POSTURES), None)

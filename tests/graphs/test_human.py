@@ -117,6 +117,17 @@ def test_where_both_change_a_task_what_the_person_wants_stands_unless_it_cannot_
         assert (len(hour.tasks), hour.repairs) == (5, [])
 
 
+def test_what_both_reflections_want_is_made_by_both_and_overruled_of_neither(make_services: MakeServices) -> None:
+    answers = type2_answers()
+    read, wipe = moving("sofa_1", "novel", "sit and read", 2), moving("desk_1", "cloth", "wipe the surface", 1)
+    for node, thought in (("profile", "I rest."), ("scene", "There is a sofa.")):
+        said = reviewed({**read, "thought": thought}, None, drop=[1], add=[wipe])
+        answers[f"human/reflect_{node}_type2"] = lambda v, said=said: said  # type: ignore[misc]
+    hour = live(person(make_services, ask=ScriptedAsk(answers)))
+    assert hour.tasks[0].thought == "I rest."
+    assert [(len(r.changes), r.overruled) for r in hour.reflections] == [(3, []), (3, [])]
+
+
 def test_the_second_reflection_comes_again_while_code_finds_something_wrong_but_not_for_ever(
     make_services: MakeServices,
 ) -> None:
@@ -152,7 +163,8 @@ def test_missing_tasks_are_added_as_far_as_there_is_room_and_none_twice(make_ser
     assert [task.act.in_hand for task in hour.tasks] == ["whisk", "fork", "spatula", "novel", "cloth"]
     assert [task.id for task in hour.tasks] == ["9.1", "9.2", "9.3", "9.4", "9.5"]
     assert hour.reflections[0].changes[-1] == "added: sit and read at the sofa with the novel in hand"
-    assert len(hour.reflections[1].overruled) == 2
+    assert hour.reflections[1].changes[0] == "added: sit and read at the sofa with the novel in hand"
+    assert len(hour.reflections[1].overruled) == 1
 
 
 def test_reflections_that_would_leave_nothing_to_do_are_overruled(make_services: MakeServices) -> None:

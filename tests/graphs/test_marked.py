@@ -18,6 +18,7 @@ from coopera.core.replies import IntentionsReply
 from coopera.graphs import RobotContext, build_robot_graph
 from coopera.graphs.hour import robot_view
 from coopera.graphs.robot import robot_hour
+from coopera.graphs.robots.traits import guesses
 from coopera.prompts import PromptLibrary
 from tests.fakes import MARA, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
@@ -31,6 +32,7 @@ SIGHTS: dict[str, tuple[Collab, Observation]] = {
     "type 2 with a percept": (2, Observation(percept=PERCEPT)),
     "type 2 with pictures": (2, Observation(frames=["robot-0.webp"])),
 }
+BEGAN = {1: "put the book on the desk", 2: "In the hall, the person is at the shelf, holding something like a book."}
 SAW = "At the stove in the kitchen, the person holds a ladle."
 
 
@@ -72,12 +74,11 @@ def watch(
     ask = Reader(saw, looks=seen.percept is None)
     plan = DayPlan(day=1, episode_day=1, person=MARA.id, scene=SceneId("toy"), hours=[10], collab=collab)
     services = make_services(ask=ask, method=method)
-    history, guesses = (services.memories(kept, 0, MARA.id) for kept in ("history", "guesses"))
-    for kept in (history, guesses):
+    history, guessed = (services.memories(kept, 0, MARA.id) for kept in ("history", "guesses"))
+    for kept in (history, guessed):
         kept.forget_from(0)
     history.extend((now, wanted, done) for now, (wanted, done) in TOLD.items())
-    began = ["put the book on the desk"] if collab == 1 else []
-    guesses.add("Tidy the home", ["bring the broom"], 33, seen=began)
+    guessed.add("Tidy the home", ["bring the broom"], 33, seen=[BEGAN[collab]])
     view = robot_view(services, plan, Clock(day=1, hour=10), seen, Belief(), MARA.id)
     ctx = RobotContext(view, services.home(plan.scene), services.method, services.learner)
     done = build_robot_graph().invoke({}, context=ctx)
@@ -108,9 +109,24 @@ def test_what_was_seen_told_and_guessed_stands_in_lists_of_its_own(
         assert "Cook a meal" in known["Told"]
         assert not any(mine in known["Told"] for mine in ("Tidy the home", "broom", "book"))
         assert "day 1" not in known["Guessed"] + known.get("Seen", "")
-        if sight == "type 1":
-            assert "9 am: put the book on the desk" in known["Seen"]
-            assert "put the book" not in known["Guessed"]
+        assert f"9 am: {BEGAN[SIGHTS[sight][0]]}" in known["Seen"]
+        assert "book" not in known["Guessed"]
+
+
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_an_hour_is_remembered_with_what_was_seen_of_its_first_task(make_services: MakeServices, sight: str) -> None:
+    hour, _, _ = watch(make_services, sight)
+    [past] = guesses([(10, hour)], 24)
+    first = {
+        "type 1": "put the mug on the stove",
+        "type 2 with a percept": PERCEPT.caption(),
+        "type 2 with pictures": SAW,
+    }[sight]
+    marked = past.done(Clock(day=1, hour=12), "guessed")
+    assert (marked[0]["text"], marked[0]["source"]) == (first, "seen")
+    assert {task["source"] for task in marked[1:]} <= {"guessed"}
+    nothing = hour.model_copy(update={"observation": Observation(), "seen": ""})
+    assert [past.seen for past in guesses([(10, nothing)], 24)] == [[]]
 
 
 def test_what_was_told_of_like_intentions_stands_in_the_task_prompt_of_ours(make_services: MakeServices) -> None:

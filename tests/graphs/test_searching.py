@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.clock import Clock
@@ -97,6 +98,29 @@ def test_words_around_a_name_plurals_and_the_last_word_alone_are_understood(make
         "couch": {"sofa_1"},
     }.items():
         assert set(names(found(make_services, where, want, objects=len(meant)).fixed)) == meant, want
+
+
+@pytest.mark.parametrize(
+    ("wants", "name"),
+    [
+        ("storage boxes", "storage_box_1"),
+        ("boxes", "storage_box_1"),
+        ("dishes", "dish_1"),
+        ("a glass", "reading_glasses_1"),
+        ("wine glasses", "wine_glass_1"),
+        ("knives", "bread_knife_1"),
+        ("the shelves", "wall_shelf_1"),
+        ("stoves", "stove_2"),
+        ("vases", "vase_1"),
+        ("batteries", "battery_1"),
+        ("shoe", "shoes_1"),
+        ("toys", "toy_1"),
+    ],
+)
+def test_one_and_many_of_a_kind_have_the_same_name(make_services: MakeServices, wants: str, name: str) -> None:
+    where = home(["wardrobe_1", "wardrobe_2"], ["book_1", "pen_1", name])
+    offered = names(found(make_services, where, wants, collab=1, objects=1).movable)
+    assert offered == [name]
 
 
 def test_furniture_and_things_are_found_apart_and_a_thing_is_not_the_furniture_nearest_to_it(

@@ -15,7 +15,13 @@ from coopera.graphs.players.variety import rhythm, side
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices
 
-SIDES = ["I bake.", "I sail on Saturdays!", "Who would not love cats?", "I nap at weekends.", "I run on working days."]
+SIDES = [
+    "I bake rye bread.",
+    "I sail on Saturdays!",
+    "Who would not love cats?",
+    "I nap at weekends.",
+    "I run on working days.",
+]
 LIFE = " ".join(SIDES)
 HOURS = [9, 10, 11]
 
@@ -24,6 +30,20 @@ def test_each_side_of_a_life_gets_its_turn_once_in_a_round_in_ever_new_order() -
     rounds = [[side(LIFE, 7, MARA, 5 * lap + n) for n in range(5)] for lap in range(4)]
     assert all(sorted(one) == sorted(SIDES) for one in rounds)
     assert len({tuple(one) for one in rounds}) > 1
+
+
+@pytest.mark.parametrize(
+    ("life", "sides"),
+    [
+        ("I work at St. Mary's, e.g. Mr. Smith helps.", ["I work at St. Mary's, e.g. Mr. Smith helps."]),
+        ("I sew, knit etc. here. I rise at 6 a.m. to sew.", ["I sew, knit etc. here.", "I rise at 6 a.m. to sew."]),
+        ("I sleep from 10 p.m. My cat J. Abrams hunts.", ["I sleep from 10 p.m.", "My cat J. Abrams hunts."]),
+        ("I bake. I nap. I sew. I run. I am a nurse. Yes!", ["I bake. I nap.", "I sew. I run.", "I am a nurse. Yes!"]),
+        ("I nap.", ["I nap."]),
+    ],
+)  # fmt: skip
+def test_a_side_does_not_end_at_an_abbreviation_and_is_not_a_scrap(life: str, sides: list[str]) -> None:
+    assert sorted(side(life, 7, MARA, turn) for turn in range(len(sides))) == sorted(sides)
 
 
 def test_whose_turn_it_is_depends_on_the_seed_the_person_and_the_turn_alone() -> None:

@@ -81,6 +81,36 @@ def test_a_person_reads_of_their_home_once_room_by_room_and_without_ids(shipped:
     assert not any("(id" in line for line in lines)
 
 
+@pytest.mark.parametrize("name", ["human/intention", "human/day"])
+def test_a_list_that_is_cut_says_so(shipped: PromptLibrary, name: str) -> None:
+    def home(count: int) -> str:
+        names = {f"kind{chr(97 + n % 26)}{chr(97 + n // 26)}_1": [n, "hall"] for n in range(count)}
+        return shipped.render(name, {**examples(name)[0], "fixed": names, "movable": names}).text
+
+    assert "and others" not in home(25)
+    for line in ("- hall: kindaa, ", "The small things in it: kindaa, "):
+        [cut] = [one for one in home(151).splitlines() if one.startswith(line)]
+        assert cut.removesuffix(".").endswith(" and others")
+
+
+@pytest.mark.parametrize("name", ["human/intention", "human/day"])
+def test_the_day_of_the_week_is_said_once(shipped: PromptLibrary, name: str) -> None:
+    assert shipped.render(name, examples(name)[0]).text.count("Wednesday") == 1
+
+
+def test_motions_are_shown_for_inspiration_only_where_nothing_is_known_of_the_furniture(shipped: PromptLibrary) -> None:
+    for name in ("human/tasks_type2", "human/reflect_scene_type2"):
+        full = examples(name)[0]
+        assert "walk in a circle" not in shipped.render(name, full).text
+        assert "walk in a circle" in shipped.render(name, {**full, "can": {}}).text
+
+
+def test_what_was_seen_earlier_stands_in_the_prompts_of_either_type(shipped: PromptLibrary) -> None:
+    for name in ("robot/intentions", "robot/tasks_type1", "robot/tasks_type2"):
+        text = shipped.render(name, examples(name)[0]).text
+        assert "Seen: what the person began earlier hours of today with:\n- 1 pm: " in text
+
+
 def test_the_home_of_an_intention_stays_short_however_much_stands_in_it(shipped: PromptLibrary) -> None:
     few = examples("human/intention")[0]
     fixed = {f"kind{chr(97 + n % 26)}{n}_1": [n, "hall"] for n in range(500)}
