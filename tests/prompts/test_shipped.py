@@ -171,5 +171,5 @@ def test_what_differs_between_the_guesses_of_an_hour_stands_behind_what_does_not
 def test_a_robot_without_a_belief_does_not_say_that_it_was_told_nothing(shipped: PromptLibrary) -> None:
     for name in ("robot/intentions", "robot/tasks_type1", "robot/tasks_type2"):
         text = shipped.render(name, {**examples(name)[0], "profile": None, "big_five": None}).text
-        assert "You have no picture of the person yet." in text
+        assert "You do not know yet what this person is like." in text
         assert "know nothing" not in text.replace("Leave empty what you know nothing about.", "")
