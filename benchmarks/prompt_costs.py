@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import random
 import re
 import tempfile
@@ -32,8 +33,8 @@ from coopera import Config, run_study
 from coopera.config.schema import Models
 from coopera.core.affordances import affordances
 from coopera.core.hour import ModelCall
+from coopera.models.specs import LETTERS
 from coopera.rundir.directory import RunDir
-from coopera.simulation import load_scene
 
 LENGTHS = {
     "intention": 50,
@@ -76,24 +77,13 @@ class Asked(NamedTuple):
 class Writer:
     """Writes replies that fit a schema; what it writes depends on the prompt alone."""
 
-    def __init__(self, ids: Mapping[str, int]) -> None:
-        self._ids = ids
-
     def reply(self, schema: Mapping[str, Any], prompt: str) -> dict[str, Any]:
         """One reply."""
         written: dict[str, Any] = self._value("", schema, schema.get("$defs", {}), random.Random(prompt), 0)
         return written
 
-    def _value(
-        self,
-        name: str,
-        part: Mapping[str, Any],
-        known: Mapping[str, Any],
-        rng: random.Random,
-        n: int,
-        listed: Mapping[str, int] = _LISTED,
-    ) -> Any:
-        """A value; `n` is its place in the list that it stands in, `listed` how long lists are that may be longer."""
+    def _value(self, name: str, part: Mapping[str, Any], known: Mapping[str, Any], rng: random.Random, n: int) -> Any:
+        """A value; `n` is its place in the list that it stands in."""
         if "$ref" in part:
             return self._value(name, known[part["$ref"].rpartition("/")[2]], known, rng, n)
         if "anyOf" in part:
@@ -108,22 +98,16 @@ class Writer:
             return self._object(part, known, rng, n)
         if kind == "array":
             open_end = part.get("minItems", 0) < part.get("maxItems", 64)
-            count = listed.get(name, part.get("minItems", 0)) if open_end else part["minItems"]
+            count = _LISTED.get(name, part.get("minItems", 0)) if open_end else part["minItems"]
             return [self._value(name, part["items"], known, rng, m) for m in range(count)]
         if kind == "boolean":
             return name == "yes" and n % _FAULTY != 1
         return self._text(name, rng, n) if kind == "string" else 3
 
     def _object(self, part: Mapping[str, Any], known: Mapping[str, Any], rng: random.Random, n: int) -> dict[str, Any]:
-        fields = part["properties"]
-        # a reflection that judges five tasks gives five back
-        listed = {**_LISTED, "tasks": fields.get("verdicts", {}).get("minItems", _LISTED["tasks"])}
-        found = {name: self._value(name, one, known, rng, n, listed) for name, one in fields.items()}
+        found = {name: self._value(name, one, known, rng, n) for name, one in part["properties"].items()}
         if found.get("yes") is True and "task" in found:
             found["task"] = None
-        for name in found:
-            if name.removesuffix("_id") in found and name.endswith("_id"):
-                found[name] = self._ids[found[name.removesuffix("_id")]]
         if {"target", "motion", "in_hand"} <= set(found):
             self._can_be_done(found, n)
         return found
@@ -226,8 +210,7 @@ def serving(scripted: Scripted) -> Iterator[str]:
 
 def live(collab: int, days: int, hours: int, scene: str, tokens: Tokens, quiet: float) -> dict[str, Any]:
     """Live some days of one type and count."""
-    ids = {one.name: one.id for one in load_scene(scene).objects}
-    scripted = Scripted(Writer(ids), tokens, quiet)
+    scripted = Scripted(Writer(), tokens, quiet)
     with tempfile.TemporaryDirectory() as folder, serving(scripted) as url:
         root = Path(folder)
         config = Config(
@@ -292,7 +275,7 @@ def _mean(found: list[Counter[str]]) -> dict[str, float]:
 def counter(file: Path | None) -> Tokens:
     """How tokens are counted."""
     if file is None:
-        return lambda text: -(-len(text) // 4)
+        return lambda text: math.ceil(len(text) / LETTERS)
     from tokenizers import Tokenizer  # noqa: PLC0415 - not needed without a file
 
     tokenizer = Tokenizer.from_file(str(file))

@@ -32,7 +32,7 @@ from coopera.core.protocols import Role
 from coopera.models.asking import Backend as Backend
 from coopera.models.asking import Request as Request
 from coopera.models.asking import one_line
-from coopera.models.given import OBJECT, Chosen, GivenModel, as_spec, by_role
+from coopera.models.given import IMAGES, OBJECT, Chosen, GivenModel, as_spec, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
@@ -41,7 +41,6 @@ from coopera.models.small.manner import PLAIN, SMALL, Manner
 from coopera.models.transport import Line, Sleep, gate_to, wait
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
-_PICTURES = "+images"
 _HELP = (
     "offline, offline:HOUSEHOLD.yaml, openai:MODEL (with --base-url for a server of your own), "
     "huggingface:REPO-OR-FOLDER, smol, recorded:RUN, "
@@ -120,10 +119,10 @@ def open_backend(
         return _offline(spec, role, embeddings, household)
     if spec == "smol":
         return _smol(calls)
-    provider, colon, name = spec.removesuffix(_PICTURES).partition(":")
+    provider, colon, name = spec.removesuffix(IMAGES).partition(":")
     if not colon or not provider or not name.strip():
         raise ConfigError(f'the model "{spec}" is unknown: it may be {_HELP}')
-    if run := recorded_run(spec.removesuffix(_PICTURES)):
+    if run := recorded_run(spec.removesuffix(IMAGES)):
         past = Past(run)
         return Backend(spec, None, sees=past.sees(role), past=past)
     if provider == "huggingface":
@@ -313,4 +312,4 @@ def _package(module: str, spec: str, package: str, *, unless_known: bool = False
 
 def _sees(spec: str, model: BaseChatModel) -> bool:
     profile: Mapping[str, Any] = model.profile or {}
-    return spec.endswith(_PICTURES) or bool(profile.get("image_inputs"))
+    return spec.endswith(IMAGES) or bool(profile.get("image_inputs"))

@@ -21,9 +21,11 @@ def for_nothing(model: str, tokens_in: int, tokens_out: int) -> float:
 class Meter:
     """Counts what models were asked for; replies from the cache and from a recorded run cost nothing. Thread-safe."""
 
-    def __init__(self, budget: Budget, spent: Spent | None = None, charge: Charge = for_nothing) -> None:
-        """Go on from what was spent before."""
-        self._budget, self._charge = budget, charge
+    def __init__(
+        self, budget: Budget, spent: Spent | None = None, charge: Charge = for_nothing, currency: str = "money"
+    ) -> None:
+        """Go on from what was spent before; `currency` is that of what `charge` says."""
+        self._budget, self._charge, self._currency = budget, charge, currency
         self._spent = spent or Spent()
         self._lock = threading.Lock()
 
@@ -43,8 +45,7 @@ class Meter:
             for name, used in self._spent:
                 limit = getattr(self._budget, name)
                 if limit is not None and used >= limit:
-                    so_far = f"{self._spent.calls} calls, {self._spent.tokens} tokens"
-                    raise BudgetError(f"the budget of {limit} {name} is spent ({so_far})")
+                    raise BudgetError(f"the budget of {limit} {self._unit(name)} is spent ({self._so_far()})")
             self._spent = self._spent.model_copy(update={"calls": self._spent.calls + 1})
 
     def end(self, model: str, tokens_in: int, tokens_out: int) -> None:
@@ -53,3 +54,10 @@ class Meter:
             tokens = self._spent.tokens + tokens_in + tokens_out
             money = self._spent.money + self._charge(model, tokens_in, tokens_out)
             self._spent = self._spent.model_copy(update={"tokens": tokens, "money": money})
+
+    def _unit(self, name: str) -> str:
+        return self._currency if name == "money" else name
+
+    def _so_far(self) -> str:
+        counted = f"{self._spent.calls} calls, {self._spent.tokens} tokens"
+        return f"{self._spent.money:.4f} {self._currency}, {counted}" if self._spent.money else counted

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 OBJECT = "object"
 """What a spec of this kind begins with."""
+IMAGES = "+images"
+"""What a spec ends with whose model looks at pictures and does not say so itself."""
 Chosen: TypeAlias = Union[str, "BaseChatModel"]
 """A model: by its spec, or the object itself."""
 _NAMES = ("model_name", "model", "model_id", "deployment_name", "path")
@@ -41,13 +43,13 @@ class GivenModel(str):
         """
         named = next((said for name in _NAMES if isinstance(said := getattr(model, name, None), str) and said), "")
         spec = ":".join(part for part in (OBJECT, type(model).__name__, "_".join(named.split())) if part)
-        made = super().__new__(cls, f"{spec}+images" if images else spec)
+        made = super().__new__(cls, f"{spec}{IMAGES}" if images else spec)
         made.model = model
         return made
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let a copy have the same object."""
-        return _again, (self.model, self.endswith("+images"))
+        return _again, (self.model, self.endswith(IMAGES))
 
 
 def _again(model: BaseChatModel, images: bool) -> GivenModel:

@@ -41,7 +41,7 @@ class Past:
         self._run = run
         self._calls: dict[_Key, deque[ModelCall]] = defaultdict(deque)
         self._seeing: set[Role] = set()
-        self._late: set[Role] = set()
+        self._instant: set[Role] = set()
         files = sorted((run / "trace").glob("day-*/*.json"))
         if not files:
             raise ConfigError(f"the model recorded:{run} cannot be opened: this folder holds no run with a trace")
@@ -57,16 +57,16 @@ class Past:
                 self._calls[person, day, call.node, call.prompt, said].append(call)
                 if call.messages[0].get("images"):
                     self._seeing.add(ASKS[call.prompt].role)
-                if call.late:
-                    self._late.add(ASKS[call.prompt].role)
+                if path.stem.startswith("hour") and not call.late:
+                    self._instant.add(ASKS[call.prompt].role)
 
     def sees(self, role: Role) -> bool:
         """Whether a role's model looked at pictures."""
         return role in self._seeing
 
     def was_instant(self, role: Role) -> bool:
-        """Whether a role's model was asked in the hour itself, whatever it was asked."""
-        return role not in self._late
+        """Whether a role's model was asked in an hour itself, and not in the evening, which may be missing yet."""
+        return role in self._instant
 
     def find(self, prompt: str, text: str, at: Address) -> ModelCall:
         """The record of a call; of several alike, each in its turn.

@@ -144,7 +144,6 @@ class Budget(Frozen):
         Count | None,
         Setting("Stop, to be resumed, after N tokens.", flag="--budget-tokens", unset="no limit"),
     ] = None
-
     money: Annotated[
         Annotated[float, Field(gt=0, allow_inf_nan=False)] | None,
         Setting(

@@ -19,7 +19,6 @@ from coopera.models.recorded import PREFIXES
 from coopera.models.settings import Budget
 from coopera.report.progress import days_table
 from coopera.rundir.directory import RunDir
-from coopera.simulation import load_scene
 from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
 from tests.test_household import truth
@@ -73,6 +72,26 @@ def test_a_budget_of_nothing_is_refused(flag: str, capsys: pytest.CaptureFixture
     assert f"{flag} must be a whole number from 1 up, not 0." in capsys.readouterr().err
 
 
+def test_money_that_nobody_can_count_limits_no_run(
+    lived: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prices = tmp_path / "prices.yaml"
+    prices.write_text('as_of: 2026-05-01\ncurrency: EUR\nmodels: {"openai:dear-*": {in: 1, out: 10}}\n')
+    out = ["--out", str(tmp_path / "run"), "--budget-money", "1"]
+    assert main(["run", *out]) == 2
+    assert "--prices FILE that it began with, and has none" in capsys.readouterr().err
+    assert main(["run", *out, "--robot-model", "openai:m", "--prices", str(prices)]) == 2
+    assert "the model openai:m has no price in" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()
+    begun = tmp_path / "begun"
+    assert main(["run", str(study_like(lived)), "--out", str(begun), "--budget-calls", "1"]) == 1
+    before = truth(begun)
+    capsys.readouterr()
+    assert main(["resume", str(begun), "--budget-money", "1"]) == 2
+    assert "--prices FILE that it began with, and has none" in capsys.readouterr().err
+    assert truth(begun) == before, "a run that cannot go on is left as it is"
+
+
 @pytest.mark.parametrize("prefix", PREFIXES)
 def test_a_recorded_run_is_the_same_without_any_model(
     prefix: str, lived: Path, capsys: pytest.CaptureFixture[str]
@@ -110,11 +129,10 @@ def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     folder = tmp_path_factory.mktemp("asked")
     prices = folder / "prices.yaml"
     prices.write_text('as_of: 2026-05-01\ncurrency: EUR\nmodels: {"openai:*": {in: 1, out: 10}}\n')
-    ids = {one.name: one.id for one in load_scene("maple").objects}
     models = Models(human="openai:scripted", robot="openai:scripted", judge="openai:scripted")
     budget = Budget(prices=prices)
     given = {**SMALL, "collab": request.param, "scenes": ["maple"], "models": models, "budget": budget}
-    with scripted(Scripted(Writer(ids), counter(None), 0.0)) as url:
+    with scripted(Scripted(Writer(), counter(None), 0.0)) as url:
         run_study(Config(**given, base_url=url, out=folder / "run", cache=folder / "c.sqlite", data_dir=data_dir))
     return folder / "run"
 

@@ -35,12 +35,12 @@ from coopera.models.backends import ROLES, Backend, Request, open_backend
 from coopera.models.door import Door
 from coopera.models.recorded import recorded_run
 from coopera.models.settings import Budget, CallSettings, Structure
+from coopera.models.specs import LETTERS, runs_here
 from coopera.prompts import PromptLibrary
 from coopera.studies.assemble import model_specs, open_embeddings
 from coopera.studies.study import new_run, plan_days
 
 _TRIED = 2, 4  # days, since a robot that was told of a day is asked more; and hours of each
-_LETTERS = 4  # characters of English that make a token, about
 _NOTE = (
     "Measured on {days} x {hours} hours of {person}'s life as the offline model lives it; {letters} characters count "
     "as a token, also of the schema that a model is held to. A talkative model writes more, at most max_tokens a "
@@ -75,7 +75,7 @@ def estimate(config: Config) -> dict[str, Any]:
     for call, times, longer in _weighed(_live(trial, config, looks), trial, plans):
         if not _is_asked(config, call):
             continue
-        words = len(str(call.messages[0]["content"])) / _LETTERS
+        words = len(str(call.messages[0]["content"])) / LETTERS
         total[ASKS[call.prompt].role] += Counter(
             {
                 "calls": times,
@@ -91,7 +91,7 @@ def estimate(config: Config) -> dict[str, Any]:
         days=trial.days,
         hours=trial.hours,
         person=(config.humans or [""])[0],
-        letters=_LETTERS,
+        letters=LETTERS,
         attempts=config.calls.attempts,
     )
     found = {"hours": sum(len(plan.hours) for plan in plans), "roles": roles, **sums, "note": note}
@@ -145,7 +145,8 @@ def _live(trial: Config, config: Config, looks: bool) -> list[tuple[int, bool, M
         with new_run(trial.model_copy(update={"out": out}), resumable=False) as (run, services):
             specs = model_specs(config)
             standing_in = {role: _stand_in(specs[role], role, services.ask, config.calls, looks) for role in ROLES}
-            ask = _Told(Door(prompts=PromptLibrary(config.prompts), backends=standing_in, seed=trial.seed))
+            prompts = PromptLibrary(config.prompts)
+            ask = _Told(Door(prompts=prompts, backends=standing_in, seed=trial.seed, settings=config.calls))
             counting = replace(services, ask=ask, score=Measure(ask, services.embeddings))
             build_study_graph().invoke({"schedule": plan_days(run.config)}, context=counting)
             found = [(hour.episode_day, False, call) for hour in run.hours() for call in hour.calls]
@@ -216,7 +217,7 @@ class _StandIn(BaseChatModel):
         text = json.dumps(_asked_for(data, schema, schema.get("$defs", {})), ensure_ascii=False)
         told = sum(len(str(message.content)) for message in messages)
         told += len(json.dumps(schema, ensure_ascii=False)) if kwargs["counts"] else 0
-        tokens = {"input_tokens": told // _LETTERS, "output_tokens": len(text) // _LETTERS}
+        tokens = {"input_tokens": told // LETTERS, "output_tokens": len(text) // LETTERS}
         usage: Any = {**tokens, "total_tokens": sum(tokens.values())}
         return ChatResult(generations=[ChatGeneration(message=AIMessage(content=text, usage_metadata=usage))])
 
@@ -229,7 +230,9 @@ def _asked_for(value: Any, schema: Mapping[str, Any], known: Mapping[str, Any]) 
         schema = next((one for one in schema["anyOf"] if (one.get("type") == "null") == (value is None)), {})
         return _asked_for(value, schema, known) if value is not None else None
     if isinstance(value, list):
-        return [_asked_for(item, schema.get("items", {}), known) for item in value]
+        return [_asked_for(item, schema.get("items", {}), known) for item in value[: schema.get("maxItems")]]
+    if isinstance(value, str):
+        return value[: schema.get("maxLength")]
     if not isinstance(value, dict) or "properties" not in schema:
         return value
     return {name: _asked_for(value[name], part, known) for name, part in schema["properties"].items() if name in value}
@@ -240,10 +243,16 @@ def _stand_in(spec: str, role: Role, ask: Any, settings: CallSettings, looks: bo
 
     def options(request: Request, structure: Structure) -> dict[str, Any]:
         # weights in this process are held by a mask, which costs no token
-        return {"schema": request.schema, "counts": structure != "text" and not spec.startswith("huggingface:")}
+        return {"schema": request.schema, "counts": structure in {"json_schema", "tools"} and not here}
 
-    form: Structure = "json_schema" if settings.structure == "auto" else settings.structure
-    return Backend(spec, _StandIn(ask), sees=looks and role == "robot", options=options, structures=(form,))
+    here = runs_here(spec)
+    form: Structure = settings.structure
+    if form == "auto" or (here and form != "text"):
+        form = "json_schema"
+    brief = spec == "smol" if settings.brief is None else settings.brief
+    return Backend(
+        spec, _StandIn(ask), sees=looks and role == "robot", options=options, structures=(form,), brief=brief
+    )
 
 
 def _looks(config: Config) -> bool:
@@ -254,6 +263,8 @@ def _looks(config: Config) -> bool:
     if spec.startswith("huggingface:"):
         form = Path(spec.partition(":")[2]) / "config.json"
         return form.is_file() and "vision_config" in json.loads(form.read_text(encoding="utf-8"))
+    if spec == "smol":
+        return False
     try:
         with open_embeddings(config) as embeddings:
             return open_backend(spec, "robot", embeddings, config.base_url, config.calls).sees

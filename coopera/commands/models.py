@@ -23,7 +23,8 @@ def check(
     spec: Annotated[
         str,
         typer.Argument(
-            metavar="SPEC", help="Such as offline, offline:HOUSEHOLD.yaml, openai:MODEL or huggingface:REPO-OR-FOLDER."
+            metavar="SPEC",
+            help="Such as offline, offline:HOUSEHOLD.yaml, smol, openai:MODEL or huggingface:REPO-OR-FOLDER.",
         ),
     ],
     base_url: BaseUrl = None,

@@ -11,11 +11,10 @@ from typing import NamedTuple
 from coopera.core.asks import ASKS, PROMPTS
 from coopera.core.replies import REPLIES
 from coopera.models.schemas import objects_of, schema_of
+from coopera.models.specs import LETTERS
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 
-_LETTERS = 4
-"""Characters of English that make a token, about; a fixed measure, so that the page is the same everywhere."""
 _HEAD = """\
 # Prompts
 
@@ -55,7 +54,7 @@ def page(library: PromptLibrary) -> str:
         f"{_FENCE}text\n{one.text.strip()}\n{_FENCE}\n"
         for one in entries
     ]
-    return "\n".join([_HEAD.format(letters=_LETTERS), *lines, "", *texts])
+    return "\n".join([_HEAD.format(letters=LETTERS), *lines, "", *texts])
 
 
 def _entry(library: PromptLibrary, name: str) -> Entry:
@@ -65,4 +64,4 @@ def _entry(library: PromptLibrary, name: str) -> Entry:
 
 
 def _tokens(text: str) -> int:
-    return math.ceil(len(text) / _LETTERS)
+    return math.ceil(len(text) / LETTERS)

@@ -20,10 +20,13 @@ from coopera.config.files import read_yaml
 from coopera.core.errors import ConfigError
 from coopera.core.hour import ModelCall
 from coopera.core.people import Frozen
+from coopera.models.given import IMAGES
+from coopera.models.recorded import recorded_run
+from coopera.models.settings import Budget
+from coopera.models.specs import runs_here
 
 _MILLION = 1_000_000
 _DIGITS = 6
-_FREE = ("offline", "huggingface:", "recorded:", "replay:")
 _EXPECTED = {
     "as_of": "a day such as 2026-05-01",
     "currency": "a word such as EUR",
@@ -57,9 +60,9 @@ class Prices(Frozen):
 
     def of(self, spec: str) -> Price | None:
         """The price of a model; what runs in this process costs nothing here, and None is one without a price."""
-        if spec.startswith(_FREE):
+        if runs_here(spec) or recorded_run(spec) is not None:
             return Price(tokens_in=0, tokens_out=0)
-        name = spec.removesuffix("+images")
+        name = spec.removesuffix(IMAGES)
         return next((price for pattern, price in self.models.items() if fnmatchcase(name, pattern)), None)
 
     def money(self, spec: str, tokens_in: float, tokens_out: float) -> float:
@@ -96,10 +99,31 @@ def read_prices(path: Path) -> Prices:
         place = [str(part) for part in first["loc"]]
         field = ".".join(place)
         if first["type"] == "extra_forbidden":
-            raise ConfigError(f"{path}: there is no field {field!r} (known are as_of, currency and models).") from None
+            known = "in and out" if len(place) > 1 else "as_of, currency and models"
+            raise ConfigError(f"{path}: there is no field {field!r} (known are {known}).") from None
         wanted = "a price of a million tokens, from 0 up" if len(place) > 1 else _EXPECTED[place[0]]
         given = "missing" if first["type"] == "missing" else repr(first["input"])
         raise ConfigError(f"{path}: {field} must be {wanted}, not {given}.") from None
+
+
+def check_money(budget: Budget, prices: Prices | None, specs: Iterable[str]) -> None:
+    """Refuse a limit to the money that would never be reached, since what models cost is not known.
+
+    Args:
+        budget: What the run may spend.
+        prices: Those that the run was told when it began.
+        specs: The models that play its roles.
+
+    Raises:
+        ConfigError: Naming a model that has no price.
+    """
+    if budget.money is None:
+        return
+    if prices is None:
+        raise ConfigError("budget.money: a run counts money by the --prices FILE that it began with, and has none.")
+    unpriced = next((spec for spec in specs if prices.of(spec) is None), None)
+    if unpriced is not None:
+        raise ConfigError(f"budget.money: the model {unpriced} has no price in the run's file of prices.")
 
 
 def in_words(bill: dict[str, Any]) -> str:

@@ -2,7 +2,7 @@
 
 A round trip is a wait for one reply. Calls that are made at once share one, as this version of the graphs makes them:
 both reflections, the robot's questions about its intentions, and in the evening all feedback and the judge's calls.
-Each further attempt at a reply is a trip more. Replies from the cache take none.
+Each further attempt at a reply is a trip more. Replies from the cache, and those of an offline model, take none.
 """
 
 from __future__ import annotations
@@ -77,9 +77,10 @@ def _spent(calls: Sequence[ModelCall], prices: Prices | None) -> dict[str, Any]:
         turn = seen[call.node] if call.node in _IN_TURN else 1
         steps[_AT_ONCE.get(call.node, call.node), turn].append(call)
     asked = [[call for call in step if not call.cached] for step in steps.values()]
+    sent = [[call for call in step if not call.model.startswith("offline")] for step in asked]
     return {
         **_sums(calls, prices),
-        "round_trips": sum(max((call.attempts for call in step), default=0) for step in asked),
+        "round_trips": sum(max((call.attempts for call in step), default=0) for step in sent),
         "seconds": round(sum(max((call.seconds for call in step), default=0.0) for step in asked), 3),
     }
 

@@ -32,7 +32,7 @@ from coopera.graphs.robots.learning import KINDS, Learner
 from coopera.graphs.robots.own_robot import MakeRobot, OwnRobot
 from coopera.memory import CachedEmbeddings, MemoryStream, Search, bundled
 from coopera.memory.ram import RamClient
-from coopera.models.budget import Meter, for_nothing
+from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
@@ -138,7 +138,8 @@ def open_services(
     """
     with ExitStack() as stack:
         embeddings = stack.enter_context(open_embeddings(config))
-        meter = Meter(config.budget, run.spent(), run.prices.money if run.prices else for_nothing)
+        priced = (run.prices.money, run.prices.currency) if run.prices else ()
+        meter = Meter(config.budget, run.spent(), *priced)
         stack.callback(lambda: run.note_spent(meter.spent))
         prompts = prompts or PromptLibrary(config.prompts)
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)

@@ -108,21 +108,22 @@ def find_person(config: Config, person: str) -> Persona:
 
 
 def tuned_model(config: Config) -> str | None:
-    """The Hugging Face model that the method finetunes itself, if it does."""
+    """The language model in this process that the method finetunes itself, if it does."""
     from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
 
-    provider, _, name = config.models.robot.partition(":")
-    return name if provider == "huggingface" and find_method(config.method).tunes else None
+    robot = config.models.robot
+    kind, _, name = robot.partition(":")
+    return {"huggingface": name, "smol": robot}.get(kind) if find_method(config.method).tunes else None
 
 
 def _refuse_online(config: Config) -> None:
     """Refuse a method that finetunes the robot's model where that model is on a server."""
     from coopera.evaluation import find_method  # noqa: PLC0415 - slow to import
 
-    here = config.models.robot.startswith(("offline", "huggingface:"))
+    here = config.models.robot.startswith("offline") or tuned_model(config)
     if find_method(config.method).tunes and not here:
         raise ConfigError(
-            f"method: {config.method} finetunes the robot's model in this process, which can be offline or "
+            f"method: {config.method} finetunes the robot's model in this process, which can be offline, smol or "
             f"huggingface:REPO-OR-FOLDER, and the robot model here is {config.models.robot}."
         )
 

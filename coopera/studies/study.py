@@ -13,6 +13,7 @@ from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.graph.state import CompiledStateGraph
 
 from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.prices import check_money, read_prices
 from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError, RunError, WaitingError
 from coopera.core.hour import DayPlan
@@ -114,6 +115,7 @@ def resume_study(
     """
     if (found := RunDir.open(path)).state == "finished":
         return _completed(found)
+    check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
     with RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)
         prompts = PromptLibrary(run.config.prompts)
@@ -158,6 +160,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
     homes = {name: text for path in own for name, text in home_files(load_scene(path)).items()}
     logs = open_logs(config, plan_days(config))
     specs = model_specs(config)
+    check_money(config.budget, read_prices(config.budget.prices) if config.budget.prices else None, specs.values())
     made = RunDir.create(
         config,
         people=people,

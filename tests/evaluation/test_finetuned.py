@@ -14,7 +14,7 @@ from coopera.evaluation.baselines import Occasion
 from coopera.evaluation.finetuned import BringReply, lesson
 from coopera.models.parsing import Wanted, read_reply
 from coopera.rundir.directory import RunDir
-from coopera.studies.catalogues import resolve
+from coopera.studies.catalogues import resolve, tuned_model
 from coopera.studies.study import run_study
 from tests.tiny import random_llama
 
@@ -35,6 +35,11 @@ def test_a_model_on_a_server_cannot_be_finetuned(tmp_path: Path) -> None:
     models = Models(robot="openai:some-model")
     with pytest.raises(ConfigError, match="direct_finetuning finetunes the robot's model in this process"):
         resolve(Config(method="direct_finetuning", models=models, out=tmp_path / "run"))
+
+
+def test_the_model_in_the_box_can_be_finetuned(tmp_path: Path) -> None:
+    config = Config(method="direct_finetuning", models=Models(robot="smol"), out=tmp_path / "run")
+    assert tuned_model(resolve(config)) == "smol"
 
 
 @pytest.mark.slow

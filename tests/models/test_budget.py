@@ -27,10 +27,10 @@ def test_a_budget_of_tokens_ends_with_the_call_that_reaches_it() -> None:
 
 
 def test_a_budget_of_money_ends_with_the_call_that_reaches_it() -> None:
-    meter = Meter(Budget(money=0.5), charge=lambda model, tokens_in, tokens_out: 0.25 if model == "m" else 0.0)
+    meter = Meter(Budget(money=0.5), charge=lambda model, *_: 0.25 if model == "m" else 0.0, currency="EUR")
     for model in ("m", "free", "m"):
         meter.begin()
         meter.end(model, 1, 1)
-    with pytest.raises(BudgetError, match=r"the budget of 0.5 money is spent \(3 calls, 6 tokens\)"):
+    with pytest.raises(BudgetError, match=r"the budget of 0.5 EUR is spent \(0.5000 EUR, 3 calls, 6 tokens\)"):
         meter.begin()
     assert meter.spent == Spent(calls=3, tokens=6, money=0.5)

@@ -5,9 +5,10 @@ from typing import Any
 
 import pytest
 
-from coopera.config.prices import Prices, in_words, read_prices
+from coopera.config.prices import Prices, check_money, in_words, read_prices
 from coopera.core.errors import ConfigError
 from coopera.core.hour import ModelCall
+from coopera.models.settings import Budget
 
 GOOD = """
 as_of: 2026-05-01
@@ -44,6 +45,33 @@ def test_a_bill_says_what_has_no_price_and_leaves_out_what_was_not_paid(tmp_path
 
 
 @pytest.mark.parametrize(
+    "spec",
+    [
+        "offline:words",
+        "smol",
+        "huggingface:a/b+images",
+        "recorded:runs/a",
+        "object:HuggingFaceChat:a",
+        "object:OfflineChatModel",
+    ],
+)
+def test_what_runs_in_this_process_costs_nothing(spec: str, tmp_path: Path) -> None:
+    bill = prices(tmp_path).bill([call(spec)])
+    assert (bill["spent"], bill["unpriced"]) == (0.0, [])
+
+
+@pytest.mark.parametrize("spec", ["mistral:b", "smollm:1", "object:ChatOpenAI:gpt-4o"])
+def test_a_limit_of_money_that_a_model_would_never_reach_is_refused(spec: str, tmp_path: Path) -> None:
+    known, limit = prices(tmp_path), Budget(money=1.0)
+    check_money(limit, known, ["openai:a", "smol", "offline"])
+    check_money(Budget(calls=1), None, [spec])
+    with pytest.raises(ConfigError, match=f"^budget.money: the model {spec} has no price in "):
+        check_money(limit, known, ["openai:a", spec])
+    with pytest.raises(ConfigError, match="--prices FILE that it began with, and has none"):
+        check_money(limit, None, ["openai:a"])
+
+
+@pytest.mark.parametrize(
     ("old", "new", "said"),
     [
         ("in: 1,", "in: a,", "models.openai:*.in must be a price of a million tokens, from 0 up, not 'a'."),
@@ -51,6 +79,7 @@ def test_a_bill_says_what_has_no_price_and_leaves_out_what_was_not_paid(tmp_path
         ("in: 1, ", "", "models.openai:*.in must be a price of a million tokens, from 0 up, not missing."),
         ("as_of: 2026-05-01", "as_of: May", "as_of must be a day such as 2026-05-01, not 'May'."),
         ("currency: EUR", "", "currency must be a word such as EUR, not missing."),
+        ("in: 1,", "foo: 1, in: 1,", "there is no field 'models.openai:*.foo' (known are in and out)."),
         ("currency:", "money: 3\ncurrency:", "there is no field 'money' (known are as_of, currency and models)."),
     ],
 )

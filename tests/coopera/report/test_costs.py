@@ -15,8 +15,8 @@ from tests.coopera.fake_run import fake_run
 
 
 def call(node: str, seconds: float, **more: Any) -> ModelCall:
-    given = {"prompt": "judge/tasks", "tokens_in": 100, "tokens_out": 10, **more}
-    return ModelCall(node=node, prompt_sha="0", model="openai:m", messages=[], reply="", seconds=seconds, **given)
+    given = {"prompt": "judge/tasks", "model": "openai:m", "tokens_in": 100, "tokens_out": 10, **more}
+    return ModelCall(node=node, prompt_sha="0", messages=[], reply="", seconds=seconds, **given)
 
 
 def run(hour: list[ModelCall], evening: list[ModelCall]) -> Any:
@@ -51,6 +51,17 @@ def test_what_is_asked_at_once_takes_one_round_trip_and_as_long_as_its_slowest_r
 def test_replies_from_the_cache_take_nothing() -> None:
     found = costs_of(run([call("propose", 1.0, cached=True)], []))
     assert {found["hours"][0][name] for name in ("calls", "round_trips", "tokens_in", "seconds")} == {0}
+
+
+def test_nobody_waits_for_an_offline_model() -> None:
+    hour = [
+        call("propose", 1.0),
+        call("reflect_profile", 2.0, model="offline"),
+        call("score", 3.0, model="offline:words", attempts=2),
+    ]
+    found = costs_of(run(hour, [call("feedback", 1.0, model="offline:home.yaml")]))
+    assert (found["hours"][0]["calls"], found["hours"][0]["round_trips"]) == (3, 1)
+    assert found["evenings"][0]["round_trips"] == 0
 
 
 def test_the_command_says_what_a_run_asked_and_what_it_cost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
