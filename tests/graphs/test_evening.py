@@ -160,6 +160,7 @@ def test_an_evening_done_again_asks_only_for_what_is_still_missing(make_services
     services.recorder.write_hour(
         second.model_copy(update={"success": second.success.model_copy(update={"judge": None})})
     )
+    services.recorder.evenings.clear()  # type: ignore[attr-defined]
     ask.asked.clear()
     services.ask.take_calls()
     state = DayState(plan=days(1, HOURS)[0], worlds={}, beliefs={}, learned=[])

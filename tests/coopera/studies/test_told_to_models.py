@@ -34,7 +34,7 @@ def test_the_told_tasks_stand_in_the_task_prompt_that_a_server_gets_and_in_the_p
             hour = RunDir.open(tmp_path / method).read_day(1)[0]
             said = asked(hour, "robot/tasks_type2")
             assert (f'when they wanted "{lived.intention.text}": ' in said) is told
-            assert ("when they wanted something more or less like this" in said) is told
+            assert ("when they wanted something like this, the most alike first" in said) is told
             if told and hour.robot:
                 percept = hour.robot.observation.percept
                 held = percept.in_hand if percept else None
