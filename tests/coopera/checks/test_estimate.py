@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -24,7 +23,7 @@ def _letters() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def foretold(tmp_path_factory: pytest.TempPathFactory, data_dir: Path) -> Any:
+def foretold(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """Estimates an hour of a person whom a model plays, and of a robot that another one plays."""
     folder = tmp_path_factory.mktemp("estimates")
 
@@ -38,7 +37,7 @@ def foretold(tmp_path_factory: pytest.TempPathFactory, data_dir: Path) -> Any:
             calls=CallSettings(**calls),
             budget=Budget(prices=folder / "prices.yaml"),
             out=folder / "run",
-            data_dir=data_dir,
+            data_dir=folder / "data",
         )
         (folder / "prices.yaml").write_text('as_of: 2026-05-01\ncurrency: EUR\nmodels: {"openai:*": {in: 1, out: 1}}\n')
         found = estimate(resolve(config))
