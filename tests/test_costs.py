@@ -35,6 +35,12 @@ def _letters() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of their own: an encoder stays open for all who name the same one."""
+    return tmp_path_factory.mktemp("letters")
+
+
+@pytest.fixture(scope="module")
 def lived(tmp_path_factory: pytest.TempPathFactory, data_dir: Path) -> Path:
     out = tmp_path_factory.mktemp("costs") / "whole"
     run_study(Config(**SMALL, out=out, data_dir=data_dir))

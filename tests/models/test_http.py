@@ -51,6 +51,12 @@ def _letters() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of their own: an encoder stays open for all who name the same one."""
+    return tmp_path_factory.mktemp("letters")
+
+
 def door_to(base_url: str, **settings: Any) -> Door:
     calls = CallSettings(**{**QUICK, **settings})
     backend = open_backend("openai:tiny", "judge", LetterEmbeddings(), base_url, calls)
