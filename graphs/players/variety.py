@@ -10,9 +10,10 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-from coopera.core.clock import WEEKDAYS, Clock, hour_label
+from coopera.core.clock import Clock, hour_label
 from coopera.core.people import Persona
 from coopera.core.randomness import rng_at
+from coopera.core.time_use import day_type
 from coopera.graphs.players.changes import Change
 from coopera.graphs.players.player import HumanContext
 
@@ -20,7 +21,6 @@ _SENTENCE_END = re.compile(r"(?<=[.!?])\s+")
 _ABBREVIATED = re.compile(r"(?<![\w.])(?:mr|mrs|ms|dr|st|prof|vs|approx|e\.g|i\.e|[a-z])\.$", re.IGNORECASE)
 _MAY_END = re.compile(r"(?<![\w.])(?:etc|jr|sr|inc|a\.m|p\.m)\.$", re.IGNORECASE)  # a sentence as well as not
 _SHORT = 4  # words: fewer say no side of a life
-_FREE = WEEKDAYS[5:]
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
 _OF_FREE_DAYS = re.compile(r"\bweek-?ends?\b", re.IGNORECASE)
 _OF_WORKDAYS = re.compile(r"\b(?:week-?days?|work(?:ing)?[ -]?days?|(?:during|in) the week)\b", re.IGNORECASE)
@@ -49,8 +49,10 @@ def side(profile: str, seed: int, persona: Persona, turn: int) -> str:
 def rhythm(profile: str, clock: Clock, changes: Sequence[Change]) -> str:
     """What day it is in the week, and what profile and changes say of such a day; nothing is made up."""
     day, place = clock.weekday, clock.day % 7
-    said = [one for one in _sentences(profile) if _speaks_of(day, one)][:_SAID]
-    parts = [f"{day}, the {_ORDINALS[place]} day of the week" + (", the weekend" if day in _FREE else "")]
+    said = [one for one in _sentences(profile) if _speaks_of(clock, one)][:_SAID]
+    parts = [
+        f"{day}, the {_ORDINALS[place]} day of the week" + (", the weekend" if day_type(clock.day) == "weekend" else "")
+    ]
     parts += [f'you say: "{sentence}"' for sentence in said]
     parts += [_work(change, place) for change in changes if change.work is not None]
     return "; ".join(parts)
@@ -86,9 +88,9 @@ def _goes_on(before: str, piece: str) -> bool:
     return bool(unfinished) or len(before.split()) < _SHORT
 
 
-def _speaks_of(day: str, sentence: str) -> bool:
-    kind = _OF_FREE_DAYS if day in _FREE else _OF_WORKDAYS
-    return bool(kind.search(sentence) or re.search(rf"\b{day}s?\b", sentence))
+def _speaks_of(clock: Clock, sentence: str) -> bool:
+    kind = _OF_FREE_DAYS if day_type(clock.day) == "weekend" else _OF_WORKDAYS
+    return bool(kind.search(sentence) or re.search(rf"\b{clock.weekday}s?\b", sentence))
 
 
 def _work(change: Change, weekday: int) -> str:

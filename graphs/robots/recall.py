@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeAlias
 
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
+from coopera.core.time_use import day_type
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories, RobotView
 from coopera.memory import MemoryStream
@@ -18,7 +19,6 @@ FADING = 0.97  # per day: half after three weeks
 OTHER_KIND = 0.7  # an hour of a working day counts so much on a free one, and the reverse
 NARROW, WIDE = 1.5, 3.0  # hours of day: for what is wanted, and for what is used for it
 _AT_ANY_HOUR = {NARROW: 0.15, WIDE: 0.4}  # what an hour counts that is at quite another time of day
-_FREE_DAYS = ("Saturday", "Sunday")
 _ALL = 10**6
 
 Source: TypeAlias = Literal["told", "seen", "guessed"]
@@ -98,7 +98,7 @@ def weight(now: Clock, hour: int, width: float = NARROW) -> float:
     """How much a told hour (a global index) counts at this hour of this day, in (0, 1]."""
     then = Clock(day=hour // 24, hour=hour % 24)
     fade = FADING ** (now.day - then.day)
-    if (now.weekday in _FREE_DAYS) != (then.weekday in _FREE_DAYS):
+    if day_type(now.day) != day_type(then.day):
         fade *= OTHER_KIND
     any_hour = _AT_ANY_HOUR[width]
     return fade * (any_hour + (1 - any_hour) * math.exp(-(((then.hour - now.hour) / width) ** 2) / 2))

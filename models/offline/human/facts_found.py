@@ -57,7 +57,6 @@ _EATING = re.compile(
     r"(?:,| or| and)? ?$"
 )
 _ALLERGY = re.compile(r"^ (?:allerg(?:y|ies|ic)|intolerant|intolerance|disease|free(?: diet)?)\b")
-_CANNOT_EAT = re.compile(r"\b(?:celiac|coeliac|lactose intoleran(?:t|ce)|allergic to)\b")
 
 
 class Found(NamedTuple):
