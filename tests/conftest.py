@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+from tests.fakes import LetterEmbeddings
 
 settings.register_profile("coopera", deadline=None, derandomize=True)
 settings.load_profile("coopera")
@@ -15,3 +18,14 @@ settings.load_profile("coopera")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One data folder for real runs, so that a text is encoded once for all of them."""
     return tmp_path_factory.getbasetemp() / "data"
+
+
+@pytest.fixture(scope="module")
+def letters(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A data folder whose runs compare texts by letters, for what does not depend on meaning.
+
+    It is the module's own: an encoder stays open for all who name the same folder.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
+        yield tmp_path_factory.mktemp("letters")

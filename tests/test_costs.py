@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,25 +18,16 @@ from coopera.models.recorded import PREFIXES
 from coopera.models.settings import Budget
 from coopera.report.progress import days_table
 from coopera.rundir.directory import RunDir
-from tests.fakes import LetterEmbeddings
 from tests.serving import done, serving
 from tests.test_household import truth
 
 SMALL: dict[str, Any] = {"days": 1, "hours": 1, "pictures": "none"}
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _letters() -> Iterator[None]:
-    """What is paid does not depend on how texts are compared."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
-        yield
-
-
 @pytest.fixture(scope="module")
-def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of their own: an encoder stays open for all who name the same one."""
-    return tmp_path_factory.mktemp("letters")
+def data_dir(letters: Path) -> Path:
+    """What is paid does not depend on how texts are compared."""
+    return letters
 
 
 @pytest.fixture(scope="module")

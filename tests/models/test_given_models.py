@@ -194,12 +194,11 @@ def study(out: Path, data_dir: Path, **more: Any) -> Config:
 
 
 @pytest.fixture
-def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def begun(tmp_path: Path, letters: Path) -> Path:
     """A run that was begun with an object as its judge, and has stopped before its first hour was over."""
-    monkeypatch.setattr("coopera.studies.assemble.bundled", lambda path: EMBEDDINGS)
     out = tmp_path / "run"
     with pytest.raises(BudgetError):
-        run_study(study(out, tmp_path / "data", models={"judge": WithTools()}, budget=Budget(calls=1)))
+        run_study(study(out, letters, models={"judge": WithTools()}, budget=Budget(calls=1)))
     return out
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -43,18 +42,10 @@ SAID = {
 """What the trace says of each kind of fault."""
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _letters() -> Iterator[None]:
-    """What a server does wrong does not depend on how texts are compared."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
-        yield
-
-
 @pytest.fixture(scope="module")
-def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of their own: an encoder stays open for all who name the same one."""
-    return tmp_path_factory.mktemp("letters")
+def data_dir(letters: Path) -> Path:
+    """What a server does wrong does not depend on how texts are compared."""
+    return letters
 
 
 def door_to(base_url: str, **settings: Any) -> Door:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,20 +11,14 @@ from coopera.checks.estimate import estimate
 from coopera.config.schema import Config, Models
 from coopera.models.settings import Budget, CallSettings
 from coopera.studies.catalogues import resolve
-from tests.fakes import LetterEmbeddings
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _letters() -> Iterator[None]:
-    """What is foretold hardly depends on how texts are compared."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("coopera.studies.assemble.bundled", lambda path: LetterEmbeddings())
-        yield
 
 
 @pytest.fixture(scope="module")
-def foretold(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Estimates an hour of a person whom a model plays, and of a robot that another one plays."""
+def foretold(tmp_path_factory: pytest.TempPathFactory, letters: Path) -> Any:
+    """Estimates an hour of a person whom a model plays, and of a robot that another one plays.
+
+    What is foretold hardly depends on how texts are compared.
+    """
     folder = tmp_path_factory.mktemp("estimates")
 
     def person(spec: str = "openai:m", robot: str = "offline", **calls: Any) -> dict[str, Any]:
@@ -37,7 +31,7 @@ def foretold(tmp_path_factory: pytest.TempPathFactory) -> Any:
             calls=CallSettings(**calls),
             budget=Budget(prices=folder / "prices.yaml"),
             out=folder / "run",
-            data_dir=folder / "data",
+            data_dir=letters,
         )
         (folder / "prices.yaml").write_text('as_of: 2026-05-01\ncurrency: EUR\nmodels: {"openai:*": {in: 1, out: 1}}\n')
         found = estimate(resolve(config))
