@@ -3,8 +3,8 @@
     python -m benchmarks.learning --seeds 5 --collab 2 --methods ours,shuffled --out runs/learning
     python -m benchmarks.learning --humans spc-valid-0001,spc-valid-0002 --seeds 1 --methods ours:lora,frequency_prior
 
-Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home,
-without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
+Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home
+(with --scenes seed 0 in the first of these, and so on in turn), without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
 Finished runs are read, stopped runs go on, so another --household needs another --out. Prints a Markdown table: the
 mean need F1, predicate F1 and judge F1 of each day, the mean of the late days (the last third), and growth from the
 early days (2 to 5, those that are not late) to the late ones, each with a 95 % t interval over people; a person who
@@ -95,6 +95,7 @@ def main() -> None:
     )
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
     parser.add_argument("--people-per-seed", type=int, default=2)
+    parser.add_argument("--scenes", help="comma-separated homes, one per seed in turn; by default the first for all")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("runs/learning"))
     args = parser.parse_args()
@@ -118,9 +119,13 @@ def main() -> None:
             "| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | late days | growth |"
         )
         print("|---|---|" + "---|" * (args.days + 2))
-        for method in methods:
-            mine = [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
-            _print_rows(" ".join(method), args.days, mine)
+        of = {
+            " ".join(method): [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
+            for method in methods
+        }
+        for name, mine in of.items():
+            _print_rows(name, args.days, mine)
+        _print_differences({name: _late_need(mine, args.days) for name, mine in of.items()})
 
 
 def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
@@ -137,6 +142,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
     alone = job[:2] == ALONE
     config = Config(
         humans=people[first : first + args.people_per_seed],
+        scenes=[args.scenes.split(",")[job.seed % len(args.scenes.split(","))]] if args.scenes else None,
         collab=job.collab,
         days=args.days,
         method=job.method,
@@ -164,6 +170,19 @@ def _print_rows(method: str, days: int, summaries: list[dict[str, Any]]) -> None
         grown = [_mean(curve, late) - _mean(curve, early) for curve in curves] if len(early) else []
         cells = [*map(str, columns), str(mean_over_people(grown)) if grown else "–"]
         print(f"| {method} (n={len(curves)}) | {name} | " + " | ".join(cells) + " |")
+
+
+def _late_need(summaries: list[dict[str, Any]], days: int) -> list[float]:
+    return [_mean(curve, STATED.late_days(days)) for curve in _curves(summaries, "help")]
+
+
+def _print_differences(late: dict[str, list[float]]) -> None:
+    """The first method less each other, by the mean need F1 of the late days."""
+    (first, mine), *others = late.items()
+    print(f"\n| {first} less | late days | better for |\n|---|---|---|")
+    for name, theirs in others:
+        more = [one - other for one, other in zip(mine, theirs, strict=True)]
+        print(f"| {name} | {mean_over_people(more)} | {sum(x > 0 for x in more)} of {len(more)} |")
 
 
 def _mean(curve: Sequence[float], days: range) -> float:
