@@ -4,11 +4,11 @@
     python -m benchmarks.learning --humans spc-valid-0001,spc-valid-0002 --seeds 1 --methods ours:lora,frequency_prior
 
 Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home
-(with --scenes seed 0 in the first of these, and so on in turn), without pictures. They first live these days alone, as an earlier life; then each method's robot meets this life.
-Finished runs are read, stopped runs go on, so another --household needs another --out. Prints a Markdown table: the
-mean need F1, predicate F1 and judge F1 of each day, the mean of the late days (the last third), and growth from the
-early days (2 to 5, those that are not late) to the late ones, each with a 95 % t interval over people; a person who
-lives under several seeds is averaged first.
+(with --scenes seed 0 in the first of these, and so on in turn), without pictures. They first live these days alone, as
+an earlier life; then each method's robot meets this life. Finished runs are read, stopped runs go on, so another
+--household needs another --out. Prints a Markdown table: the mean need F1, predicate F1 and judge F1 of each day, the
+mean of the late days (the last third), and growth from the early days (2 to 5, those that are not late) to the late
+ones, each with a 95 % t interval over people; a person who lives under several seeds is averaged first.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
