@@ -347,4 +347,6 @@ class Example(Frozen):
     None where the robot did not imagine it, or where its order is not to be known.
     """
     evidence: dict[str, float] = Field({}, exclude_if=is_empty)
+    counts: float = Field(1.0, gt=0, le=1, exclude_if=lambda counts: counts == 1)
+    """How much it still counts, where the person has changed since. Classifiers that cannot weigh leave it out."""
     label: bool | None = None

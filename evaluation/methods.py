@@ -27,6 +27,7 @@ OURS = replace(
     skips_held=True,
     evidence=True,
     accepts="need",
+    turns=True,
     replay=(REHEARSED, 2_000),
 )
 """The best that we have: it counts what it was told, and remembers for weeks."""

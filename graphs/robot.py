@@ -353,7 +353,7 @@ def _recall(ctx: RobotContext, saw: str = "") -> dict[str, Any]:
     query = f"{view.clock.label}, {view.clock.weekday}. {in_words(view.observation, saw)}"
     return {
         "recalled": recall_weeks(view, query) if method.remembers == "days" else recall_hours(view, query),
-        "told": told_hours(view, saw) if method.told or method.evidence else [],
+        "told": told_hours(view, saw, turns=method.turns) if method.told or method.evidence else [],
     }
 
 

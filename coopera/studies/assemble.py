@@ -159,6 +159,7 @@ def open_services(
                 config.seed,
                 config.learning,
                 dict(zip(KINDS, method.replay, strict=True)),
+                turns=method.turns,
             ),
             identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",

@@ -66,18 +66,20 @@ def of_task(
     Args:
         act: The task.
         told: The told hours.
-        intentions: For each intention that the task was imagined for, how probable it is, and how much each told hour
-            counts for it (`weights_for`).
+        intentions: For each intention that tasks were imagined for, how probable it is, and how much each told hour
+            counts for it (`weights_for`). Alike ones may both be right, so their chances may sum to more than 1.
         own: Which of these is the candidate's own.
         collab: The collaboration type.
     """
     use, usual = _use(act), USUAL_TASK[collab]
     within = [share(told, weights, use, usual=usual, patience=PATIENCE) for _, weights in intentions]
-    prior = sum(p * s for (p, _), s in zip(intentions, within, strict=True))
     sight, hour = (
         share(told, weights, use, usual=ELSEWHERE, patience=PATIENCE)
         for weights in ([one.speaks for one in told], [one.near for one in told])
     )
+    total = sum(p for p, _ in intentions)
+    meant = sum(p * s for (p, _), s in zip(intentions, within, strict=True)) / max(1.0, total)
+    prior = meant + max(0.0, 1.0 - total) * sight  # if it is none of these intentions, it is an hour like this one
     return {
         "prior": _clip(prior),
         "told": _clip(within[own]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -24,15 +25,17 @@ from coopera.core.hour import (
     IntentionCandidate,
     Recalled,
 )
+from coopera.core.household import use_of
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Classifier, Recorder
 from coopera.core.randomness import seed_at
 from coopera.graphs.robots.rehearsal import REHEARSED, keep
+from coopera.graphs.robots.turns import still_counts, things_of
 
 __all__ = ["EXAMPLES", "KEPT", "KINDS", "Known", "Learner", "Mode", "example", "labelled", "account_of"]
 
 KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
-EXAMPLES, KEPT = "examples.jsonl", "kept.jsonl"
+EXAMPLES, KEPT, TOLD = "examples.jsonl", "kept.jsonl", "told.json"
 Mode: TypeAlias = Literal["warm", "fresh"]
 _LOG = logging.getLogger(__name__)
 
@@ -130,6 +133,7 @@ class Learner:
         mode: "warm" goes on from the evening before, with the day's examples and a fixed number of earlier ones, so
             that no evening takes longer than another. "fresh" starts anew on all examples, as the authors' code does.
         replay: That number, by kind.
+        turns: Whether examples from before a turn in their person's life count less (`graphs.robots.turns`).
         classifiers: The classifiers in use, by kind.
     """
 
@@ -138,6 +142,7 @@ class Learner:
     seed: int = 0
     mode: Mode = "warm"
     replay: Mapping[CandidateKind, int] = field(default_factory=lambda: dict.fromkeys(KINDS, REHEARSED))
+    turns: bool = False
     classifiers: dict[CandidateKind, Classifier] = field(init=False)
     _days: tuple[int, ...] | None = field(init=False, default=None)  # None: in no state that is on file
 
@@ -176,6 +181,8 @@ class Learner:
         self.be_at(earlier)
         self._days = None
         examples = labelled(account)
+        if self.turns:
+            _write_told(self.recorder.adapters_folder(day) / TOLD, account)
         learned: dict[str, Any] = {}
         for kind in KINDS:
             _write(self._folder(day, kind) / EXAMPLES, examples[kind])
@@ -211,6 +218,8 @@ class Learner:
             self.classifiers[kind] = self.fresh[kind]()
         else:
             _write(folder / KEPT, keep(known, self.replay[kind]))
+        if self.turns:
+            known = self._weighed(known, [*earlier, day])
         measured: dict[str, Any] = {"examples": len(known), "positives": sum(e.label is True for e in known)}
         try:
             measured |= self.classifiers[kind].train(known, seed=seed_at(self.seed, "learn", day, kind))
@@ -231,6 +240,15 @@ class Learner:
             today = _read(self._folder(day, kind) / EXAMPLES)
             every = [*_renewed(every, today), *today]
         return every if self.mode == "fresh" else keep(every, self.replay[kind])
+
+    def _weighed(self, examples: Sequence[Example], days: Sequence[int]) -> list[Example]:
+        """Give each example what its day still counts for its person."""
+        told: dict[PersonId, dict[int, frozenset[str]]] = {}
+        for day in days:
+            person, hours = _read_told(self.recorder.adapters_folder(day) / TOLD)
+            told.setdefault(person, {}).update(hours)
+        counts = {person: still_counts(tuple(sorted(hours.items()))) for person, hours in told.items()}
+        return [e.model_copy(update={"counts": counts.get(e.person, {}).get(e.day, 1.0)}) for e in examples]
 
     def _folder(self, day: int, kind: CandidateKind) -> Path:
         return self.recorder.adapters_folder(day) / kind
@@ -253,11 +271,32 @@ def _label(unlabelled: Example, yes: bool) -> Example:
     return unlabelled.model_copy(update={"label": yes})
 
 
+def _write_told(path: Path, account: DayAccount) -> None:
+    hours = [
+        (Clock(day=account.day, hour=hour.hour).now, [use for act in hour.tasks if (use := use_of(act.describe()))])
+        for hour in account.hours
+    ]
+    things = {now: sorted(used) for now, used in things_of(hours)}
+    _save(path, json.dumps({"person": account.person, "things": things}))
+
+
+def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
+    try:
+        said = json.loads(path.read_text(encoding="utf-8"))
+        return said["person"], {int(now): frozenset(map(str, used)) for now, used in said["things"].items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as err:
+        raise RunError(f"{path}: what was told on this day cannot be read: {err}") from err
+
+
 def _write(path: Path, examples: Sequence[Example]) -> None:
+    _save(path, "".join(f"{e.model_dump_json()}\n" for e in examples))
+
+
+def _save(path: Path, text: str) -> None:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        part.write_text("".join(f"{e.model_dump_json()}\n" for e in examples), encoding="utf-8")
+        part.write_text(text, encoding="utf-8")
         os.replace(part, path)
     except OSError as err:
         raise RunError(f"{path}: the training examples of this day cannot be saved: {err}") from err

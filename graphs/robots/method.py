@@ -41,6 +41,7 @@ class Method:
             robot goes by these until its first evening (the best guess and its tasks). Otherwise it then accepts all.
         accepts: "half": what is more probable than not, as the paper does; "need": what is worth it for the F1 over the
             person's needs (`graphs.robots.verdicts`).
+        turns: Whether what was told before a turn in the person's life counts less (`graphs.robots.turns`).
         replay: How many earlier examples of intentions and of tasks an evening goes over again.
         learns: Whether the evening trains the classifiers, or one's own robot.
         judge: Makes a classifier of one's own for a kind of candidate; by default the run's `classifier` is taken.
@@ -69,6 +70,7 @@ class Method:
     skips_held: bool = False
     evidence: bool = False
     accepts: Literal["half", "need"] = "half"
+    turns: bool = False
     replay: tuple[int, int] = (REHEARSED, REHEARSED)
     learns: bool = True
     other_backbone: bool = False

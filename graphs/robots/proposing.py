@@ -81,18 +81,11 @@ def with_evidence(
     imagined: Sequence[Imagined],
     superset: Sequence[TaskCandidate],
 ) -> list[TaskCandidate]:
-    """The tasks with what speaks for each, over all intentions that it was imagined for."""
+    """The tasks with what speaks for each, over all intentions that tasks were imagined for."""
     chance = {one.text: one.probability or 0.0 for one in intentions}
-    weighed = []
-    for task in superset:
-        said = task.act.describe()
-        of = {
-            batch["tasks"][0].intention: batch["weights"]
-            for batch in imagined
-            if any(one.act.describe() == said for one in batch["tasks"])
-        }
-        known = of_task(
-            task.act, told, [(chance[text], of[text]) for text in of], list(of).index(task.intention), view.collab
-        )
-        weighed.append(task.model_copy(update={"evidence": known}))
-    return weighed
+    of = {batch["tasks"][0].intention: batch["weights"] for batch in imagined if batch["tasks"]}
+    weighed, texts = [(chance[text], weights) for text, weights in of.items()], list(of)
+    return [
+        task.model_copy(update={"evidence": of_task(task.act, told, weighed, texts.index(task.intention), view.collab)})
+        for task in superset
+    ]

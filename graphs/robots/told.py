@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from coopera.core.clock import Clock
@@ -20,6 +20,7 @@ from coopera.core.household import Use, plain, use_of
 from coopera.graphs.robots.recall import DAYS, NARROW, WIDE, as_memory
 from coopera.graphs.robots.recall import weight as weight_of
 from coopera.graphs.robots.robot_view import RobotView
+from coopera.graphs.robots.turns import still_counts, things_of
 
 SAME_FIRST, SAME_ANY, OTHER_THING = 1.0, 0.5, 0.05  # what the thing in hand says of an hour, by its part in it
 SAME_PLACE, OTHER_PLACE = 0.6, 0.15  # and the furniture, where the thing was not recognised
@@ -54,11 +55,14 @@ class ToldHour:
         return self.near * self.looks
 
 
-def told_hours(view: RobotView, saw: str = "") -> list[ToldHour]:
+def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[ToldHour]:
     """Join what was told of the last `DAYS` days before today, oldest first.
 
-    `saw` is what a robot that looks at pictures says it saw; how well an hour fits goes by that where nothing else is
-    known of this one.
+    Args:
+        view: What the robot knows.
+        saw: What a robot that looks at pictures says it saw; how well an hour fits goes by that where nothing else is
+            known of this one.
+        turns: Whether hours from before a turn in the person's life count less (`graphs.robots.turns`).
     """
     clock = view.clock
     dawn, since = clock.day * 24, (clock.day - DAYS) * 24
@@ -66,7 +70,12 @@ def told_hours(view: RobotView, saw: str = "") -> list[ToldHour]:
     for record in view.history.tasks.records(since=since):
         tasks[record.hour].append(record.text)
     said = {record.hour: record.text for record in view.history.intentions.records(since=since)}
-    return [_told(view, saw, now, text, tasks[now]) for now, text in said.items() if now < dawn]
+    told = [_told(view, saw, now, text, tasks[now]) for now, text in said.items() if now < dawn]
+    if not turns:
+        return told
+    counts = still_counts(things_of((hour.now, hour.uses) for hour in told))
+    faded = [(hour, counts.get(hour.now // 24, 1.0)) for hour in told]
+    return [replace(hour, near=hour.near * count, wide=hour.wide * count) for hour, count in faded]
 
 
 def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[float]:

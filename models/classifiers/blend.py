@@ -1,8 +1,8 @@
 """From scores and counts to P(yes): a logistic regression that starts from what the robot believed already.
 
-The prior of each example (`Example.evidence`) is the offset: without any lesson P(yes) is the prior. What was learned
-from feedback (the score), and the counts of what was told, move it as far as feedback bears them out. A ridge holds
-each weight near 0, so that a first evening moves little. P(yes) is calibrated: nothing shifts it to a threshold.
+The prior of each example (`Example.evidence`) is the offset: without any lesson, and after a single day, P(yes) is the
+prior. What was learned from feedback (the score), and the counts of what was told, move it as far as feedback bears
+them out. A ridge holds each weight near 0. P(yes) is calibrated: nothing shifts it to a threshold.
 """
 
 from __future__ import annotations
@@ -18,13 +18,12 @@ from coopera.core.hour import Example
 Floats = npt.NDArray[np.float64]
 
 COUNTS = ("prior", "told", "sight", "hour")
-"""Shares that enter as log-odds."""
-PLAIN = ("support",)
-HOLD = 1.0
+"""Shares that enter as log-odds. How much they rest on grows from day to day, so no weight can be learned for it."""
+HOLD = 3.0
 """Ridge on each weight, for features of unit spread."""
+FIRST_WEIGHTS, FIRST_SCORE = 2, 3
+"""Days from which weights are learned at all, and one for the score: a score from one day says little of another."""
 BIASES = 2
-FADING = 0.98
-"""What an example counts per day of its age: half after five weeks, so that old habits give way."""
 _STEPS = 30
 
 
@@ -54,7 +53,7 @@ def read_blend(given: Mapping[str, Any]) -> Blend:
         KeyError, TypeError, ValueError: If they are none.
     """
     shifts, *of_features = (tuple(float(n) for n in given[name]) for name in Blend._fields)
-    if {len(one) for one in of_features} != {1 + len(COUNTS) + len(PLAIN)} or len(shifts) != BIASES:
+    if {len(one) for one in of_features} != {1 + len(COUNTS)} or len(shifts) != BIASES:
         raise ValueError("the blend has not one number per feature")
     mean, spread, weights = of_features
     return Blend(shifts, mean, spread, weights)
@@ -66,10 +65,8 @@ def features_of(scores: Floats, examples: Sequence[Example]) -> tuple[Floats, Fl
     A share that an example lacks, as an intention has no `sight`, counts as even.
     """
     odds = [[_logit(e.evidence.get(name, 0.5)) for name in COUNTS] for e in examples]
-    plain = [[e.evidence.get(name, 0.0) for name in PLAIN] for e in examples]
     log_odds = np.array(odds, np.float64).reshape(len(examples), len(COUNTS))
-    others = np.array(plain, np.float64).reshape(len(examples), len(PLAIN))
-    return np.column_stack([scores, log_odds, others]), log_odds[:, 0]
+    return np.column_stack([scores, log_odds]), log_odds[:, 0]
 
 
 def bias_of(examples: Sequence[Example]) -> Floats:
@@ -90,15 +87,15 @@ def blend(scores: Floats, examples: Sequence[Example], labels: npt.NDArray[np.bo
         examples: The same, each with evidence; at least one.
         labels: Shape (n,); one label alone will do.
     """
-    features, offset = features_of(scores, examples)
+    days = len({e.day for e in examples})
+    features, offset = features_of(scores if days >= FIRST_SCORE else np.zeros_like(scores), examples)
     mean, spread = features.mean(axis=0), features.std(axis=0)
     spread = np.where(spread > 1e-6, spread, 1.0)
     x = np.column_stack([bias_of(examples), (features - mean) / spread])
-    newest = max(e.day for e in examples)
-    counts = FADING ** np.array([newest - e.day for e in examples], np.float64)
+    counts = np.array([e.counts for e in examples], np.float64)
     hold = np.diag([*[2 * HOLD] * BIASES, *[HOLD] * (x.shape[1] - BIASES)])
     weights = np.zeros(x.shape[1])
-    for _ in range(_STEPS):
+    for _ in range(_STEPS if days >= FIRST_WEIGHTS else 0):
         chance = _sigmoid(offset + x @ weights)
         slope = x.T @ (counts * (labels - chance)) - hold @ weights
         bend = (x * (counts * chance * (1 - chance))[:, None]).T @ x + hold

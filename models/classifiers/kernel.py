@@ -116,7 +116,8 @@ class KernelClassifier:
         lower = cholesky(among + 1e-6 * np.eye(len(landmarks)), lower=True)
         features = solve_triangular(lower, similarity.gram(standing, points), lower=True).T
         n_days = len(np.unique(hours // 24))
-        weights, unseen = _ridge(features, labels, hours // 24 if n_days > 1 else hours)
+        counts = np.array([example.counts for example in taught.examples])
+        weights, unseen = _ridge(features, labels, counts, hours // 24 if n_days > 1 else hours)
         asked = batch.rank >= 0
         if len(set(labels[asked])) < 2:
             asked[:] = True
@@ -216,12 +217,15 @@ def _landmarks(labels: npt.NDArray[np.bool_], rng: np.random.Generator) -> npt.N
     return np.sort(np.concatenate(picked))
 
 
-def _ridge(features: Floats, labels: npt.NDArray[np.bool_], group: npt.NDArray[np.int64]) -> tuple[Floats, Floats]:
+def _ridge(
+    features: Floats, labels: npt.NDArray[np.bool_], counts: Floats, group: npt.NDArray[np.int64]
+) -> tuple[Floats, Floats]:
     """Fit +1/-1 by ridge regression with balanced classes.
 
     Args:
         features: Shape (n, m).
         labels: Shape (n,); both labels occur.
+        counts: How much each example counts, shape (n,).
         group: Shape (n,); examples of one group are left out together.
 
     Returns:
@@ -230,7 +234,8 @@ def _ridge(features: Floats, labels: npt.NDArray[np.bool_], group: npt.NDArray[n
         Without the only group nothing is known: all scores are 0.
     """
     target = np.where(labels, 1.0, -1.0)
-    importance = np.where(labels, 0.5 / labels.mean(), 0.5 / (1 - labels.mean()))
+    yes = float(np.average(labels, weights=counts))
+    importance = counts * np.where(labels, 0.5 / yes, 0.5 / (1 - yes))
     root = np.sqrt(importance)
     weighted = features * root[:, None]
     normal = weighted.T @ weighted

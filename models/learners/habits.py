@@ -21,7 +21,7 @@ FOLDS = 5
 _FIRST_THRESHOLD = 0.275
 """F1 is best where yes is said above half of the F1 reached (Lipton et al. 2014), and some 0.5 is reached at first."""
 _THRESHOLDS = np.arange(0.15, 0.51, 0.025)
-_TEMPER = 0.3
+TEMPER = 0.3
 """What a day's log-likelihood counts for a change: what is observed in an hour hangs together, so rows say less."""
 _TINY = 1e-4
 _SEED = 0  # only splits held-out rows within boosting, which is switched off: nothing here is random
@@ -81,7 +81,7 @@ class Habits:
         return yes
 
 
-def faded(seen: Observations, *, hazard: float = HAZARD) -> Fading:
+def faded(seen: Observations, *, hazard: float = HAZARD, temper: float = TEMPER) -> Fading:
     """Find how much each day still counts, from how well counts since each day foretold the days after.
 
     Foretelling uses the hour's rates and those of the other single contexts; see `Fading`.
@@ -104,7 +104,7 @@ def faded(seen: Observations, *, hazard: float = HAZARD) -> Fading:
             since_met = met[day][at] - (1 - REMNANT) * met[starts][:, at]
             foretold += (since_yes + 0.05) / (since_met + 1.0)
         chance = np.clip(foretold / len(summed), _TINY, 1 - _TINY)
-        fading.learn(_TEMPER * np.where(label, np.log(chance), np.log1p(-chance)).sum(1))
+        fading.learn(temper * np.where(label, np.log(chance), np.log1p(-chance)).sum(1))
     return fading
 
 

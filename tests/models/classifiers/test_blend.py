@@ -27,18 +27,27 @@ def chances(fitted: Blend, *examples: Example, score: float = 0.0) -> list[float
     return [float(p) for p in fitted.probabilities(np.full(len(examples), score), examples)]
 
 
-def test_a_single_answer_leaves_the_prior_about_where_it_was() -> None:
-    fitted = blend(np.zeros(1), [shown(0, prior=0.3)], np.array([True]))
-    low, high = chances(fitted, shown(1, prior=0.1), shown(2, prior=0.8))
-    assert 0.1 < low < 0.18
-    assert 0.8 < high < 0.9
+def test_a_single_evening_leaves_the_prior_where_it_was() -> None:
+    fitted = blend(np.ones(40), [shown(n, prior=0.3) for n in range(40)], np.ones(40, bool))
+    assert chances(fitted, shown(1, prior=0.1), shown(2, prior=0.8)) == pytest.approx([0.1, 0.8])
+
+
+def test_a_score_is_heard_from_the_third_day_on() -> None:
+    """By then it has foretold days from more than one other."""
+    for days, heard in ((2, False), (3, True)):
+        examples = [shown(n, day=n % days) for n in range(90)]
+        labels = np.arange(90) // days % 2 == 0
+        low, high = (chances(blend(labels * 2.0 - 1, examples, labels), shown(0), score=score)[0] for score in (-1, 1))
+        assert (high - low > 0.3) is heard
+        assert (high == low) is not heard
 
 
 def test_it_believes_in_counts_that_feedback_bears_out_and_not_in_those_that_say_nothing() -> None:
     rng = np.random.default_rng(0)
     told, hour = rng.uniform(0.05, 0.95, 400), rng.uniform(0.05, 0.95, 400)
     labels = rng.random(400) < told
-    examples = [shown(n, told=float(t), hour=float(h)) for n, (t, h) in enumerate(zip(told, hour, strict=True))]
+    pairs = enumerate(zip(told, hour, strict=True))
+    examples = [shown(n, day=n % 5, told=float(t), hour=float(h)) for n, (t, h) in pairs]
     fitted = blend(np.zeros(400), examples, labels)
     low, high = chances(fitted, shown(0, told=0.1, hour=0.5), shown(0, told=0.9, hour=0.5))
     assert low < 0.25
@@ -47,10 +56,12 @@ def test_it_believes_in_counts_that_feedback_bears_out_and_not_in_those_that_say
     assert abs(one - other) < 0.15
 
 
-def test_a_hopeless_first_day_says_nothing_against_what_is_told_on_the_next() -> None:
+def test_a_hopeless_first_day_says_little_against_what_is_told_on_the_next() -> None:
     """On the first day nothing is told, and common sense is mostly wrong; then the robot is told something."""
     untold = [shown(n, prior=0.35, support=0.0) for n in range(120)]
-    fitted = blend(np.zeros(120), untold, np.arange(120) % 10 == 0)
+    next_day = [shown(n, day=1, prior=0.7, support=2.0) for n in range(40)]
+    labels = np.array([n % 10 == 0 for n in range(120)] + [n % 10 < 7 for n in range(40)])
+    fitted = blend(np.zeros(160), [*untold, *next_day], labels)
     alone, told = chances(fitted, shown(0, prior=0.35, support=0.0), shown(0, prior=0.7, support=2.0))
     assert alone < 0.2
     assert told > 0.5
@@ -60,7 +71,7 @@ def test_its_probabilities_are_shares() -> None:
     rng = np.random.default_rng(1)
     prior = rng.uniform(0.05, 0.95, 600)
     labels = rng.random(600) < prior**2  # the prior is too sure of itself
-    examples = [shown(n, prior=float(p)) for n, p in enumerate(prior)]
+    examples = [shown(n, day=n % 5, prior=float(p)) for n, p in enumerate(prior)]
     fitted = blend(np.zeros(600), examples, labels)
     said = np.array(chances(fitted, *examples))
     for low in (0.0, 0.25, 0.5):
@@ -68,12 +79,14 @@ def test_its_probabilities_are_shares() -> None:
         assert abs(said[part].mean() - labels[part].mean()) < 0.1
 
 
-def test_what_is_new_counts_more_than_what_is_months_old() -> None:
-    old = [shown(n, day=0, told=0.9) for n in range(40)]
-    new = [shown(n, day=120, told=0.9) for n in range(40)]
-    labels = np.array([True] * 40 + [False] * 40)
-    fitted = blend(np.zeros(80), [*old, *new], labels)
-    assert chances(fitted, shown(0, told=0.9))[0] < 0.3
+def test_what_is_from_before_a_turn_counts_little() -> None:
+    def told_no_more(before: float) -> float:
+        old = [shown(n, day=0, told=0.9).model_copy(update={"counts": before}) for n in range(40)]
+        new = [shown(n, day=1, told=0.9) for n in range(40)]
+        return chances(blend(np.zeros(80), [*old, *new], np.arange(80) < 40), shown(0, told=0.9))[0]
+
+    assert told_no_more(1.0) == pytest.approx(0.5, abs=0.01)
+    assert told_no_more(0.05) < 0.25
 
 
 def taught(n: int = 60) -> list[Example]:

@@ -265,9 +265,10 @@ def test_scores_of_what_was_left_out_equal_those_of_fits_without_it(seed: int) -
     rng = rng_at(seed, "ridge")
     features, labels = rng.normal(size=(24, 30)), rng.random(24) < 0.4
     labels[:2] = True, False
-    group = np.repeat(np.arange(6), 4)
-    _, unseen = _ridge(features, labels, group)
-    importance = np.where(labels, 0.5 / labels.mean(), 0.5 / (1 - labels.mean()))
+    group, counts = np.repeat(np.arange(6), 4), rng.uniform(0.1, 1.0, 24)
+    _, unseen = _ridge(features, labels, counts, group)
+    yes = (counts * labels).sum() / counts.sum()
+    importance = counts * np.where(labels, 0.5 / yes, 0.5 / (1 - yes))
     for name in range(6):
         rest, out = group != name, group == name
         weighted = features[rest].T * importance[rest]
