@@ -13,7 +13,8 @@ ones, each with a 95 % t interval over people; a person who lives under several 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
 and no reach the classifiers in random order. All else stays: the retrieved days, the belief, the number of yes. Its
-gain cannot come from feedback.
+gain cannot come from feedback. The method "unturned" is ours that takes no notice of turns in a life; --changes gives
+everybody some, in a file as for `coopera run --changes`.
 """
 
 from __future__ import annotations
@@ -93,6 +94,7 @@ def main() -> None:
     parser.add_argument(
         "--household", default="own", help="what the robot knows of life at home: own, shared or a file"
     )
+    parser.add_argument("--changes", default="none", help="what changes in the lives: none, seeded or a file")
     parser.add_argument("--humans", help="comma-separated ids, by default the ten shipped people")
     parser.add_argument("--people-per-seed", type=int, default=2)
     parser.add_argument("--scenes", help="comma-separated homes, one per seed in turn; by default the first for all")
@@ -135,6 +137,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         found: dict[str, Any] = json.loads((folder / "summary.json").read_text())
         return found
     register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
+    register(replace(METHODS["ours"], name="unturned", turns=False))
     if (folder / "config.yaml").is_file():
         return resume_study(folder)
     people = args.humans.split(",") if args.humans else list(shipped_ids())
@@ -149,6 +152,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         seed=job.seed,
         classifier=job.classifier,
         household=args.household,
+        changes=args.changes,
         classifier_config=args.classifier_config if job.classifier == "lora-instruct" else None,
         pictures="none",
         earlier_life=None if alone else _folder(args.out, Job(*ALONE, job.collab, job.seed)),
