@@ -14,8 +14,8 @@ from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories, R
 from coopera.memory import MemoryStream
 
 DAYS = 60
-"""How many days back a robot recalls what it was told; by then an hour counts a sixth of a new one."""
-FADING = 0.97  # per day: half after three weeks
+"""How many days back a robot recalls what it was told."""
+FADING = 0.99  # per day: half after ten weeks; what was told before a turn fades by itself (`graphs.robots.turns`)
 OTHER_KIND = 0.7  # an hour of a working day counts so much on a free one, and the reverse
 NARROW, WIDE = 1.5, 3.0  # hours of day: for what is wanted, and for what is used for it
 _AT_ANY_HOUR = {NARROW: 0.15, WIDE: 0.4}  # what an hour counts that is at quite another time of day
