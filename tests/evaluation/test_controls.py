@@ -17,6 +17,9 @@ from coopera.evaluation import METHODS
 from coopera.evaluation.controls.ceiling import knower
 from coopera.graphs import build_study_graph
 from coopera.models.offline.household.knowledge import shipped
+from coopera.models.offline.household.reading import Surroundings, class_of
+from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.human.person import PrivateLife
 from coopera.rundir.earlier_life import LivedDays
 from coopera.studies.catalogues import resolve
 from tests.fakes import MARA, ScriptedAsk, type2_answers
@@ -49,6 +52,19 @@ def test_a_ceiling_goes_by_the_person_and_by_what_it_sees_and_offers_nothing_tha
         assert all(0 <= (task.probability or 0) <= 1 for task in said.tasks)
     assert helped(make_services, "cereal box", profile=retired) == eating
     assert helped(make_services, None, profile="I write poems.") != helped(make_services, None)
+
+
+def test_a_ceiling_knows_where_this_person_wants_their_things(make_services: MakeServices) -> None:
+    view = robot(make_services, collab=1).view
+    fixed = Surroundings(view.home.fixed)
+    for number in range(6):
+        profile = f"I am person number {number}. I love to read."
+        life = PrivateLife(CommonSense(shipped(), WORDS), profile, MARA.big_five)
+        said = knower({MARA.id: profile}, {MARA.id: MARA}, shipped(), WORDS).help(view)
+        wished = {place for activity in shipped().activities for place in life.at_home(activity, fixed).places}
+        acts = [task.act for task in said.tasks]  # type: ignore[union-attr]
+        assert acts
+        assert {(class_of(act.object), class_of(act.receptacle)) for act in acts} <= wished  # type: ignore[union-attr]
 
 
 def test_a_ceiling_is_declared_to_be_told_the_truth_and_nothing_else_is_but_the_oracle() -> None:
