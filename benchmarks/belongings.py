@@ -1,6 +1,6 @@
 """Where do people want things to be? `python -m benchmarks.belongings RANKS.csv > models/offline/human/belongings.csv`.
 
-RANKS.csv is Housekeep's table (github.com/yashkant/housekeep, MIT): ten people's ranks of the places of each room for 269
+RANKS.csv is Housekeep's table (github.com/yashkant/housekeep, MIT): ten people's ranks of each room's places for 269
 objects, above 0 for a right place, below 0 for a wrong one, 0 for an implausible one. `KIN` says which of these objects
 are such a thing as ours, `PLACES` which of their furniture is such a one as ours, room by room. For each pair of ours
 in which the thing fits, the output has the weight that people give it: 1 / rank of a right place, meant over people,

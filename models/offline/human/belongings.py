@@ -1,7 +1,7 @@
-"""Where a person wants things to be: in their own order of places, which is drawn once for each thing. Person's side only.
+"""Where a person wants things to be: in their own order of places, drawn once for each thing. Person's side only.
 
-How much people differ stands in belongings.csv: thing, place, and the weight that Housekeep's ten people give it, which
-`python -m benchmarks.belongings` derives from their ranks (Kant et al. 2022, github.com/yashkant/housekeep; MIT License,
+How much people differ stands in belongings.csv: thing, place, and the weight that Housekeep's ten people give it, made
+of their ranks by `python -m benchmarks.belongings` (Kant et al. 2022, github.com/yashkant/housekeep; MIT License,
 Copyright (c) 2022 Yash Kant and others). DEVIATES: in the paper a language model says where a person puts things.
 """
 
@@ -20,8 +20,8 @@ from coopera.models.offline.household.reading import Surroundings, room_kind
 
 _FILE = Path(__file__).with_suffix(".csv")
 CUSTOM = 0.35
-"""Share of the other weights that custom adds to the place where the household file puts a thing for an activity. So two
-people agree as often as Housekeep's: `python -m benchmarks.belongings RANKS.csv --agreement`."""
+"""What custom adds to the place where the household file puts a thing for an activity, as a share of all weights. So
+two people agree as often as Housekeep's: `python -m benchmarks.belongings RANKS.csv --agreement`."""
 
 
 class Belongings:
