@@ -108,10 +108,10 @@ class Knower:
 
     def _drawn(self, life: PrivateLife, index: int, view: RobotView) -> list[list[Use]]:
         """What this person uses in `HOURS` drawn hours of an activity, in the order in which it is done."""
-        activity = life.own(self.sense.household.activities[index])
+        home = Surroundings(view.home.fixed), Surroundings(view.home.movable)
+        activity = life.at_home(self.sense.household.activities[index], home[0])
         count, rng = Numbers.HUMAN_TASKS[view.collab], rng_at(0, "ceiling", view.person, activity.id)
         if view.collab == 1:
-            home = Surroundings(view.home.fixed), Surroundings(view.home.movable)
             items = feasible_places(activity, *home)
             uses = [Use(plain(activity.places[i][0]), plain(activity.places[i][1])) for i in items]
             weights = life.place_weights(activity)[items]

@@ -27,7 +27,7 @@ from coopera.models.offline.human.replies import Human
 from coopera.models.offline.judge import Judge
 from coopera.models.offline.robot.replies import Robot
 
-RULES = "8"
+RULES = "9"
 """Raised whenever the same question may get another answer; it enters every cache key."""
 
 _SIDES: dict[Role, type[Human] | type[Robot] | type[Judge]] = {"human": Human, "robot": Robot, "judge": Judge}

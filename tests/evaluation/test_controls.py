@@ -11,18 +11,22 @@ import pytest
 from coopera.config.schema import Config, Models
 from coopera.core.errors import ConfigError
 from coopera.core.hour import DayPlan, HourRecord, Observation, Proposal
-from coopera.core.household import Percept, SceneId
+from coopera.core.household import ROBOT, Percept, SceneId
 from coopera.core.people import BigFive, PersonId
 from coopera.evaluation import METHODS
 from coopera.evaluation.controls.ceiling import knower
 from coopera.graphs import build_study_graph
+from coopera.graphs.robots.robot_view import HomeView
 from coopera.models.offline.household.knowledge import shipped
+from coopera.models.offline.household.reading import Surroundings, class_of
+from coopera.models.offline.household.sense import CommonSense
+from coopera.models.offline.human.person import PrivateLife
 from coopera.rundir.earlier_life import LivedDays
 from coopera.studies.catalogues import resolve
 from tests.fakes import MARA, ScriptedAsk, type2_answers
 from tests.graphs.conftest import MakeServices, make_services
 from tests.graphs.test_told import robot
-from tests.models.offline.questions import WORDS
+from tests.models.offline.questions import FIXED, MOVABLE, WORDS
 
 __all__ = ["make_services"]
 NOOR = MARA.model_copy(update={"id": PersonId("noor"), "profile": "I write poems.", "big_five": BigFive(openness=2)})
@@ -49,6 +53,25 @@ def test_a_ceiling_goes_by_the_person_and_by_what_it_sees_and_offers_nothing_tha
         assert all(0 <= (task.probability or 0) <= 1 for task in said.tasks)
     assert helped(make_services, "cereal box", profile=retired) == eating
     assert helped(make_services, None, profile="I write poems.") != helped(make_services, None)
+
+
+def test_a_ceiling_knows_where_this_person_wants_their_things(make_services: MakeServices) -> None:
+    ctx = robot(make_services, collab=1)
+    ctx.home.fixed, ctx.home.movable = FIXED, MOVABLE  # type: ignore[attr-defined]
+    view = replace(ctx.view, home=HomeView.of(ctx.home, ROBOT))
+    offered = []
+    for profile in (
+        "I am 75 years old and retired. I drink a lot of coffee.",
+        "I am 80 years old and retired. I read.",
+    ):
+        life = PrivateLife(CommonSense(shipped(), WORDS), profile, MARA.big_five)
+        said = knower({MARA.id: profile}, {MARA.id: MARA}, shipped(), WORDS).help(view)
+        wished = {place for one in shipped().activities for place in life.at_home(one, Surroundings(FIXED)).places}
+        acts = [task.act for task in said.tasks]  # type: ignore[union-attr]
+        offered.append({(class_of(act.object), class_of(act.receptacle)) for act in acts})  # type: ignore[union-attr]
+        assert offered[-1]
+        assert offered[-1] <= wished
+    assert any(not pairs <= shipped().usual_places for pairs in offered)
 
 
 def test_a_ceiling_is_declared_to_be_told_the_truth_and_nothing_else_is_but_the_oracle() -> None:

@@ -17,8 +17,10 @@ from coopera.core.affordances import affordances
 from coopera.core.people import BigFive
 from coopera.core.randomness import rng_at
 from coopera.models.offline.household.knowledge import Activity, Floats, Household, key
+from coopera.models.offline.household.reading import Surroundings
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.household.statements import Statements, statements
+from coopera.models.offline.human.belongings import Belongings
 from coopera.models.offline.human.facts import Facts, facts
 from coopera.models.offline.human.own_time import OwnTime
 from coopera.models.offline.human.rhythm import Rhythm, shipped_rhythm
@@ -67,6 +69,14 @@ class PrivateLife:
     def own(self, activity: Activity) -> Activity:
         """An activity as this person does it: without the things, places and motions that facts rule out."""
         return self._own[activity.id]
+
+    def at_home(self, activity: Activity, fixed: Surroundings) -> Activity:
+        """An activity as this person does it among this furniture: with each thing put where they want it to be."""
+        return self._belongings.at_home(self.own(activity), fixed)
+
+    @cached_property
+    def _belongings(self) -> Belongings:
+        return Belongings(self._rng, self.household)
 
     def keeping(self, rhythm: Rhythm) -> PrivateLife:
         """The same person in a population of another rhythm."""

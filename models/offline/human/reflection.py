@@ -63,8 +63,8 @@ def profile_type1(
 ) -> PickPlaceReflectionReply:
     """Answer human/reflect_profile_type1: is each placement part of what this person does for the intention?"""
     person = known(life)
-    activity = person.own(sense.recognise(variables["intention"]).activity)
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    activity = person.at_home(sense.recognise(variables["intention"]).activity, fixed)
     items = _placements(variables["tasks"])
     fitting = {activity.places[i] for i in feasible_places(activity, fixed, movable)}
     spare = person_placements(
@@ -119,9 +119,9 @@ def scene_type1(
 ) -> PickPlaceReflectionReply:
     """Answer human/reflect_scene_type1: do the objects exist, is the count right, are the findings obeyed?"""
     person = known(life)
-    activity = person.own(sense.recognise(variables["intention"]).activity)
     count = int(variables["n_tasks"])
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    activity = person.at_home(sense.recognise(variables["intention"]).activity, fixed)
     items = _placements(variables["tasks"])
     for item in items:
         thing = _mend(sense, item, item.act.object, item.act.object_id, movable)

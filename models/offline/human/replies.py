@@ -16,7 +16,17 @@ from coopera.core.people import Frozen
 from coopera.core.randomness import rng_at
 from coopera.core.replies import DayReply, IntentionReply
 from coopera.models.offline.household.knowledge import Activity, Floats
-from coopera.models.offline.household.reading import Memory, big_five_of, class_of, clip, hour_of, memories, room_kind
+from coopera.models.offline.household.placing import feasible_places
+from coopera.models.offline.household.reading import (
+    Memory,
+    Surroundings,
+    big_five_of,
+    class_of,
+    clip,
+    hour_of,
+    memories,
+    room_kind,
+)
 from coopera.models.offline.household.sense import CommonSense
 from coopera.models.offline.human import big_five, persona, verdicts
 from coopera.models.offline.human import tasks as human_tasks
@@ -76,7 +86,7 @@ class Human:
             reason_tasks=clip(_tasks_before(variables["recalled_tasks"]), 400),
             continues=choice.continues,
             away=activity.away,
-            wants=_wants(life.own(activity), variables),
+            wants=_wants(life, activity, variables),
         )
 
     def _day(self, variables: Mapping[str, Any], rng: np.random.Generator, temperature: float) -> DayReply:
@@ -93,7 +103,7 @@ class Human:
             text = clip(_anew(life, activity, rng, hour, so_far), 300)
             planned.append((hour, text))
             why = self._why(life, activity, choice, variables["changes"])
-            wants = _wants(life.own(activity), variables)
+            wants = _wants(life, activity, variables)
             replies.append(IntentionReply(intention=text, reason_human=clip(why, 400), away=activity.away, wants=wants))
         return DayReply(intentions=replies)
 
@@ -175,18 +185,22 @@ def _in_these_rooms(rng: np.random.Generator, rooms: Sequence[str]) -> np.random
     return rng_at(int(rng.integers(2**62)), *rooms)
 
 
-def _wants(activity: Activity, variables: Mapping[str, Any]) -> list[str]:
+def _wants(life: PrivateLife, activity: Activity, variables: Mapping[str, Any]) -> list[str]:
     """Name what an activity is done with, the most usual first: of furniture and movable things what the home has.
 
-    Without movable things (type 2) any things are wanted, since they are brought.
+    Where things are put somewhere (type 1), they and their places as this person has them, the likeliest first. Without
+    movable things (type 2) any things are wanted, since they are brought.
     """
     if activity.away:
         return []
-    here = {class_of(name) for name in (*variables["fixed"], *variables["movable"])}
-    if variables["movable"]:
-        named = [cls for cls in chain.from_iterable(activity.places) if cls in here]
+    fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    own = life.at_home(activity, fixed)
+    if movable.pieces:
+        weights = life.place_weights(own)
+        order = sorted(feasible_places(own, fixed, movable), key=lambda i: (-weights[i], i))
+        named = list(chain.from_iterable(own.places[i] for i in order))
     else:
-        named = [*(cls for cls in activity.fixed if cls in here), *activity.thing_names]
+        named = [*filter(fixed.of, own.fixed), *own.thing_names]
     return list(dict.fromkeys(map(plain, named)))[:WANTS]
 
 

@@ -33,8 +33,8 @@ def pick_and_place(
     if variables["steps"]:
         return own_steps.placements(sense, variables)
     person = known(life)
-    activity = person.own(sense.recognise(variables["intention"]).activity)
     fixed, movable = Surroundings(variables["fixed"]), Surroundings(variables["movable"])
+    activity = person.at_home(sense.recognise(variables["intention"]).activity, fixed)
     before = memories(variables["recalled_tasks"], int(variables["hour"]))
     chosen = person_placements(sense, person, activity, variables, fixed, movable, rng)
     if not chosen:
