@@ -51,7 +51,7 @@ class Belongings:
                 spot = next(free, usual)
                 taken.add((thing, spot))
             places.append((thing, spot))
-        return activity.model_copy(update={"places": tuple(places)})
+        return activity.model_copy(update={"places": tuple(dict.fromkeys(places))})
 
     def _order(self, thing: str, usual: str, here: Collection[str]) -> list[str]:
         """The places of `here` for a thing, the dearest first: those that people call right, and the usual one."""
