@@ -6,9 +6,11 @@
 Each seed has some of the people (by default two; seed 0 the first two, and so on in turn), five days each, in one home
 (with --scenes seed 0 in the first of these, and so on in turn), without pictures. They first live these days alone, as
 an earlier life; then each method's robot meets this life. Finished runs are read, stopped runs go on, so another
---household needs another --out. Prints a Markdown table: the mean need F1, predicate F1 and judge F1 of each day, the
-mean of the late days (the last third), and growth from the early days (2 to 5, those that are not late) to the late
-ones, each with a 95 % t interval over people; a person who lives under several seeds is averaged first.
+--household needs another --out. Prints a Markdown table: the mean need F1, predicate F1 and judge F1 of the first and
+the second day, of the early days (2 to 5, those that are not late), of those between and of the late ones (the last
+third), and growth from early to late, each with a 95 % t interval over people; a person who lives under several seeds
+is averaged first. A second table has what the first method has more than each other one on the late days, by need F1,
+person by person.
 
 A method may name its classifier after a colon (by default `kernel`). `lora-instruct` has a small random model for a
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
@@ -117,10 +119,9 @@ def main() -> None:
         summaries = list(each(_summary, [(args, job) for job in jobs]))
     for collab in types:
         print(f"\nCollaboration type {collab}\n")
-        print(
-            "| method | measure | " + " | ".join(f"day {day}" for day in range(args.days)) + " | late days | growth |"
-        )
-        print("|---|---|" + "---|" * (args.days + 2))
+        heads = [f"days {b[0] + 1}-{b[-1] + 1}" if len(b) > 1 else f"day {b[0] + 1}" for b in shown(args.days)]
+        print("| method | measure | " + " | ".join([*heads, "growth"]) + " |")
+        print("|---|---|" + "---|" * (len(heads) + 1))
         of = {
             " ".join(method): [s for s, job in zip(summaries, jobs, strict=True) if job[:3] == (*method, collab)]
             for method in methods
@@ -165,12 +166,19 @@ def _folder(out: Path, job: Job) -> Path:
     return out / f"{job.method}-{job.classifier}-type{job.collab}-seed{job.seed}"
 
 
+def shown(days: int) -> list[range]:
+    """The days of each column: the first, the second, the early ones, those between and the late ones."""
+    early, late = STATED.early_days(days), STATED.late_days(days)
+    between = range(early.stop, late.start) if len(early) else range(0)
+    blocks = [range(1), range(1, min(2, days)), early, between, late]
+    return [block for place, block in enumerate(blocks) if len(block) and block not in blocks[:place]]
+
+
 def _print_rows(method: str, days: int, summaries: list[dict[str, Any]]) -> None:
     for measure, name in (("help", "need"), ("predicate", "predicate"), ("judge", "judge")):
         curves = _curves(summaries, measure)
         late, early = STATED.late_days(days), STATED.early_days(days)
-        columns = [mean_over_people([curve[day] for curve in curves]) for day in range(days)]
-        columns.append(mean_over_people([_mean(curve, late) for curve in curves]))
+        columns = [mean_over_people([_mean(curve, block) for curve in curves]) for block in shown(days)]
         grown = [_mean(curve, late) - _mean(curve, early) for curve in curves] if len(early) else []
         cells = [*map(str, columns), str(mean_over_people(grown)) if grown else "–"]
         print(f"| {method} (n={len(curves)}) | {name} | " + " | ".join(cells) + " |")
