@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from coopera.core.errors import CooperaError, LearningError, RunError
 from coopera.core.hour import DayAccount, Example, FeedbackItem, HourAccount, IntentionCandidate, Observation, RobotHour
 from coopera.core.people import Belief, PersonId
-from coopera.graphs.robots.learning import KINDS, Learner, Mode
+from coopera.graphs.robots.learning import KINDS, Learner, Mode, labelled
 from coopera.graphs.robots.rehearsal import keep
 from tests.fakes import FolderRecorder, TableClassifier
 
@@ -202,3 +202,13 @@ def test_as_many_examples_of_a_kind_are_kept_as_the_method_says(tmp_path: Path, 
     for day in range(3):
         one.learn(day, list(range(day)), account(day))
     assert len((tmp_path / "adapters/day-02/intention/kept.jsonl").read_text().splitlines()) == most
+
+
+def test_feedback_on_a_candidate_that_was_never_made_teaches_nothing(tmp_path: Path) -> None:
+    lived = account(0)
+    stray = [FeedbackItem(hour=9, kind=kind, text="Juggle at the moon", accepted=True, helpful=True) for kind in KINDS]
+    hours = [hour.model_copy(update={"feedback": [*hour.feedback, *stray]}) for hour in lived.hours]
+    assert labelled(lived.model_copy(update={"hours": hours})) == labelled(lived)
+    one = learner(tmp_path)
+    one.learn(0, [], lived.model_copy(update={"hours": hours}))
+    assert "Juggle at the moon" not in table(one)
