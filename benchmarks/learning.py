@@ -16,7 +16,7 @@ A method may name its classifier after a colon (by default `kernel`). `lora-inst
 base here, unless --classifier-config gives another. The method "shuffled" is ours with shuffled labels: each day's yes
 and no reach the classifiers in random order. All else stays: the retrieved days, the belief, the number of yes. Its
 gain cannot come from feedback. The method "unturned" is ours that takes no notice of turns in a life; --changes gives
-everybody some, in a file as for `coopera run --changes`.
+everybody some, in a file as for `coopera run --changes`. "neither" is ours without traits and without context.
 """
 
 from __future__ import annotations
@@ -139,6 +139,7 @@ def _summary(given: tuple[argparse.Namespace, Job]) -> dict[str, Any]:
         return found
     register(replace(METHODS["ours"], name="shuffled", judge=shuffled))
     register(replace(METHODS["ours"], name="unturned", turns=False))
+    register(replace(METHODS["no_context"], name="neither", traits=False))
     if (folder / "config.yaml").is_file():
         return resume_study(folder)
     people = args.humans.split(",") if args.humans else list(shipped_ids())
