@@ -16,6 +16,7 @@ from langchain_core.callbacks import CallbackManagerForLLMRun
 from langchain_core.exceptions import ModelTimeoutError
 from langchain_core.language_models import BaseChatModel
 from langchain_core.messages import AIMessage, BaseMessage
+from langchain_core.messages.ai import UsageMetadata
 from langchain_core.outputs import ChatGeneration, ChatResult
 from pydantic import PrivateAttr
 
@@ -32,6 +33,7 @@ from coopera.models.transport import Gate, Line
 AT = Address("nora", 1, 9, "score")
 YES = '{"verdicts": [{"yes": true, "reason": "it helps"}]}'
 NO = '{"verdicts": [{"yes": false}]}'
+USAGE = UsageMetadata(input_tokens=1, output_tokens=1, total_tokens=2)
 
 
 class ScriptedModel(BaseChatModel):
@@ -70,7 +72,7 @@ class ScriptedModel(BaseChatModel):
         answer = self._script.pop(0)
         if isinstance(answer, Exception):
             raise answer
-        message = answer if isinstance(answer, AIMessage) else AIMessage(content=answer)
+        message = answer if isinstance(answer, AIMessage) else AIMessage(content=answer, usage_metadata=USAGE)
         return ChatResult(generations=[ChatGeneration(message=message)])
 
 
