@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import logging
 import sys
 import warnings
@@ -77,6 +79,7 @@ def main(args: Sequence[str] | None = None) -> int:
     What is wrong is said in one sentence on standard error.
     """
     _log_plainly()
+    atexit.register(gc.freeze)  # to look for garbage once more would hold the end up by a second
     with warnings.catch_warnings():
         warnings.showwarning = partial(_say_warning, warnings.showwarning)
         return _run(list(sys.argv[1:] if args is None else args))
