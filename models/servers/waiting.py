@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextvars import ContextVar, copy_context
-from typing import Any, TypeAlias, TypeVar
+from typing import TypeAlias, TypeVar
 
 Answer = TypeVar("Answer")
 Check: TypeAlias = Callable[[], None]
@@ -73,10 +73,6 @@ def in_time(request: Callable[[], Answer], seconds: float, check: Check = go_on)
     except BaseException:
         left_behind.set()
         raise
-    return _outcome(answers, errors)
-
-
-def _outcome(answers: list[Any], errors: list[BaseException]) -> Any:
     if errors:
         raise errors[0]
     return answers[0]

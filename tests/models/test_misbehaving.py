@@ -29,7 +29,7 @@ from coopera.models.transport import NobodyThereError
 from coopera.prompts import PromptLibrary
 from coopera.prompts.examples import examples
 from tests.fakes import LetterEmbeddings
-from tests.misbehaving import LIMIT, WAYS, Server, misbehaving
+from tests.models.misbehaving import LIMIT, WAYS, Server, misbehaving
 
 AT = Address("nora", 0, 9, "score")
 ONCE = {"retries": 1, "backoff": 0.001, "attempts": 1}

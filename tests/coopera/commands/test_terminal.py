@@ -20,7 +20,7 @@ from coopera.report.progress import Progress, days_table
 from coopera.report.tables import print_table
 from tests.coopera.conftest import Said
 from tests.coopera.fake_run import fake_run
-from tests.misbehaving import ESCAPES
+from tests.models.misbehaving import ESCAPES
 
 Cli = Callable[..., Said]
 RAW = set(ESCAPES) & {chr(code) for code in (7, 0x1B, 0x9B, 0x202E)}

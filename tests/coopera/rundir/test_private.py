@@ -13,7 +13,7 @@ from coopera.config.schema import Models
 from coopera.core.errors import BudgetError
 from coopera.models.settings import Budget
 from coopera.rundir.private import only_mine
-from tests.misbehaving import misbehaving
+from tests.models.misbehaving import misbehaving
 
 
 @pytest.fixture(scope="module")
