@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
+import logging
 import sys
 import warnings
 from collections.abc import Callable, Sequence
@@ -25,6 +28,7 @@ from coopera.commands import (
     sharing,
 )
 from coopera.core.errors import ConfigError, CooperaError, OldWordWarning
+from coopera.core.naming import printable
 from coopera.core.version import __version__
 
 app = typer.Typer(
@@ -74,9 +78,23 @@ def main(args: Sequence[str] | None = None) -> int:
 
     What is wrong is said in one sentence on standard error.
     """
+    _log_plainly()
+    atexit.register(gc.freeze)  # to look for garbage once more would hold the end up by a second
     with warnings.catch_warnings():
         warnings.showwarning = partial(_say_warning, warnings.showwarning)
         return _run(list(sys.argv[1:] if args is None else args))
+
+
+class _Plain(logging.Formatter):
+    """Messages of the log without control characters: they name files, and tell what models said."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        return printable(super().format(record))
+
+
+def _log_plainly() -> None:
+    if logging.lastResort is not None:
+        logging.lastResort.setFormatter(_Plain())
 
 
 def _run(args: list[str]) -> int:
@@ -97,14 +115,14 @@ def _run(args: list[str]) -> int:
 def _say_warning(usual: Callable[..., None], message: Warning | str, category: type[Warning], *where: Any) -> None:
     """Say that a word is old in one sentence, as errors are said; other warnings are shown as usual."""
     if issubclass(category, OldWordWarning):
-        typer.echo(f"coopera: {message}", err=True)
+        typer.echo(printable(f"coopera: {message}"), err=True)
     else:
         usual(message, category, *where)
 
 
 def _fail(sentence: str, code: int) -> int:
     if sentence:
-        typer.echo(f"coopera: {' '.join(sentence.split())}", err=True)
+        typer.echo(printable(f"coopera: {' '.join(sentence.split())}"), err=True)
     return code
 
 

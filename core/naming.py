@@ -1,6 +1,11 @@
-"""How objects are called: names as words, and what words end with."""
+"""How objects are called: names as words, and what words end with; and how any text may stand on a terminal."""
 
 from __future__ import annotations
+
+import re
+
+_UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""What moves a terminal's cursor or colours it, turns the direction of writing, or cannot be written at all."""
 
 
 def plain(name: str) -> str:
@@ -14,3 +19,11 @@ def plain(name: str) -> str:
 def ends_with(words: str, wanted: str) -> bool:
     """Whether words are some others or end with them: "green tea" with "tea", but not with "ea"; case counts."""
     return words == wanted or words.endswith(f" {wanted}")
+
+
+def printable(text: str) -> str:
+    """A text as it may be shown on a terminal: with its control characters written out, as JSON does.
+
+    Line ends and tabs stay. JSON stays the same data.
+    """
+    return _UNSEEN.sub(lambda found: f"\\u{ord(found.group()):04x}", text)

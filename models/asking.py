@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -14,6 +13,8 @@ from langchain_core.messages import AIMessage, BaseMessage
 from coopera.core.errors import ModelCallError
 from coopera.models.cache import CachedReply
 from coopera.models.recorded import Past
+from coopera.models.servers.saying import one_line
+from coopera.models.servers.tokens import Count, believe
 from coopera.models.settings import Structure
 from coopera.models.transport import Line, RefusedError
 
@@ -45,10 +46,11 @@ def _no_options(request: Request, structure: Structure) -> dict[str, Any]:
 
 
 class Answer(NamedTuple):
-    """A model's reply, and the structure by which it was held to its schema."""
+    """A model's reply, the structure by which it was held to its schema, and how many counts of tokens are ours."""
 
     reply: CachedReply
     structure: Structure
+    estimated: int = 0
 
 
 @dataclass(slots=True)
@@ -131,7 +133,7 @@ class Backend:
         problem = ""
         for structure in self.ways:
             try:
-                reply = self._ask(request, structure, note)
+                reply, estimated = self._ask(request, structure, note)
             except RefusedError as err:
                 problem = str(err)
                 refused.append(structure)
@@ -139,39 +141,52 @@ class Backend:
                     note(f"{problem}; asked again without {structure}")
             else:
                 self._seen.refused.extend(refused)
-                return Answer(reply, structure)
+                return Answer(reply, structure, estimated)
         raise ModelCallError(problem)
 
-    def _ask(self, request: Request, structure: Structure, note: Note) -> CachedReply:
+    def _ask(self, request: Request, structure: Structure, note: Note) -> tuple[CachedReply, int]:
+        """A reply, and how many of its counts of tokens are estimates."""
         given, messages = self.options(request, structure), list(request.messages(structure))
+        model, line = self.model, self.line
+        assert model is not None  # a past is never asked
+        if line is None:
+            return _read(model.invoke(messages, **given))
+        told = sum(len(message.text) for message in messages)
 
-        def once() -> CachedReply:
-            assert self.model is not None  # a past is never asked
-            return read_answer(self.model.invoke(messages, **given))
+        def once() -> tuple[CachedReply, int]:
+            reply, estimated = _read(model.invoke(messages, **given), told)
+            if len(reply.text) > line.settings.max_bytes:
+                raise ValueError(f"it has more than {line.settings.max_bytes} characters (calls.max_bytes)")
+            return reply, estimated
 
-        return once() if self.line is None else self.line.send(once, note, one_line)
+        return line.send(once, note, one_line)
 
 
-def read_answer(message: AIMessage) -> CachedReply:
-    """A model's reply as text: its words, or the arguments of its tool call."""
-    usage: Mapping[str, Any] = message.usage_metadata or {}
+def _read(message: AIMessage, told: int | None = None) -> tuple[CachedReply, int]:
+    """A model's reply as text: its words, or the arguments of its tool call.
+
+    Args:
+        message: The reply.
+        told: How many characters the model was told, where its counts of tokens are not to be trusted.
+
+    Returns:
+        The reply, and how many of its two counts of tokens are estimates.
+    """
     text = str(message.text)
     if message.tool_calls:
         text = json.dumps(message.tool_calls[0]["args"], ensure_ascii=False)
     elif message.invalid_tool_calls:
         text = message.invalid_tool_calls[0]["args"] or ""
-    return CachedReply(
+    usage: Mapping[str, Any] = message.usage_metadata or {}
+    said = usage.get("input_tokens"), usage.get("output_tokens")
+    if told is None:
+        counts = [Count(int(one or 0)) for one in said]
+    else:
+        counts = [believe(one, length) for one, length in zip(said, (told, len(text)), strict=True)]
+    reply = CachedReply(
         text=text.encode("utf-8", "replace").decode(),
-        tokens_in=int(usage.get("input_tokens") or 0),
-        tokens_out=int(usage.get("output_tokens") or 0),
+        tokens_in=counts[0].tokens,
+        tokens_out=counts[1].tokens,
         cut=message.response_metadata.get("finish_reason") in {"length", "max_tokens"},
     )
-
-
-def one_line(err: BaseException) -> str:
-    """An error's text on one line of bounded length, without any key that the environment holds."""
-    text = " ".join(str(err).split()) or type(err).__name__
-    for name, value in os.environ.items():
-        if name.endswith("_API_KEY") and len(value) > 3:
-            text = text.replace(value, f"<{name}>")
-    return text[:500]
+    return reply, sum(count.estimated for count in counts)

@@ -20,7 +20,9 @@ from __future__ import annotations
 import hashlib
 import importlib
 import os
+import re
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from langchain_core.embeddings import Embeddings
@@ -31,14 +33,15 @@ from coopera.core.errors import ConfigError
 from coopera.core.protocols import Role
 from coopera.models.asking import Backend as Backend
 from coopera.models.asking import Request as Request
-from coopera.models.asking import one_line
 from coopera.models.given import IMAGES, OBJECT, Chosen, GivenModel, as_spec, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.offline.household.knowledge import ROBOTS, load, robots, shipped
 from coopera.models.recorded import Past, recorded_run
-from coopera.models.settings import OWN, CallSettings, Structure
+from coopera.models.servers.saying import bare_addresses, one_line
+from coopera.models.servers.waiting import Check, go_on, pause
+from coopera.models.settings import ADDRESS, AN_ADDRESS, OWN, CallSettings, Structure
 from coopera.models.small.manner import PLAIN, SMALL, Manner
-from coopera.models.transport import Line, Sleep, gate_to, wait
+from coopera.models.transport import Line, gate_to
 
 ROLES: tuple[Role, ...] = ("human", "robot", "judge")
 _HELP = (
@@ -57,7 +60,7 @@ SPECS: dict[str, str] = {
     "PROVIDER:MODEL": "any other provider of LangChain whose package is installed",
 }
 """What a spec may be, and what it names."""
-_GARBLED = (ValueError, LookupError, TypeError, AttributeError)
+_GARBLED = (ValueError, LookupError, TypeError, AttributeError, RecursionError)
 """What clients raise over an answer that is no chat completion: they index and parse without looking."""
 
 
@@ -66,7 +69,7 @@ def open_backends(
     embeddings: Embeddings,
     base_url: str | None = None,
     settings: CallSettings | None = None,
-    sleep: Sleep = wait,
+    check: Check = go_on,
     household: str = OWN,
 ) -> dict[Role, Backend]:
     """Open the model of each role; a role without a spec is played by the offline model.
@@ -76,7 +79,7 @@ def open_backends(
         embeddings: What the offline model compares texts with.
         base_url: Where an OpenAI-compatible server listens.
         settings: How models are called.
-        sleep: Waits for so many seconds before a request is sent again.
+        check: Called while one waits for a server; raises where it is to wait no longer.
         household: What robot and judge know of life at home, where they are offline: `own`, `shared` or a file.
 
     Raises:
@@ -87,7 +90,7 @@ def open_backends(
         raise ConfigError(f'there is no role "{unknown[0]}" for a model: the roles are {", ".join(ROLES)}')
     chosen = settings or CallSettings()
     return {
-        role: open_backend(given.get(role, "offline"), role, embeddings, base_url, chosen, sleep, household)
+        role: open_backend(given.get(role, "offline"), role, embeddings, base_url, chosen, check, household)
         for role in ROLES
     }
 
@@ -98,7 +101,7 @@ def open_backend(
     embeddings: Embeddings,
     base_url: str | None = None,
     settings: CallSettings | None = None,
-    sleep: Sleep = wait,
+    check: Check = go_on,
     household: str = OWN,
 ) -> Backend:
     """Open one model; see `open_backends`.
@@ -109,7 +112,7 @@ def open_backend(
     calls = settings or CallSettings()
     spec: str = as_spec(chosen)
     if isinstance(spec, GivenModel):
-        return _given(spec, calls, sleep)
+        return _given(spec, calls, check)
     if spec.partition(":")[0] == OBJECT:
         raise ConfigError(
             f"the model {spec} is an object of a Python script, which no file can hold: give it again, as models= of "
@@ -128,8 +131,8 @@ def open_backend(
     if provider == "huggingface":
         return _huggingface(spec, name, calls)
     if provider == "openai":
-        return _openai(spec, name, base_url, calls, sleep)
-    return _any_provider(spec, provider, name, calls, sleep)
+        return _openai(spec, name, base_url, calls, check)
+    return _any_provider(spec, provider, name, calls, check)
 
 
 def _offline(spec: str, role: Role, embeddings: Embeddings, household: str) -> Backend:
@@ -176,7 +179,7 @@ def _of_this_process(spec: str, model: Any, settings: CallSettings, otherwise: M
     )
 
 
-def _given(spec: GivenModel, settings: CallSettings, sleep: Sleep) -> Backend:
+def _given(spec: GivenModel, settings: CallSettings, check: Check) -> Backend:
     """A chat model that a script has made: of this package, or any other, which is then asked like a provider's."""
     model: Any = spec.model
     if model._llm_type == "coopera-offline":
@@ -186,16 +189,24 @@ def _given(spec: GivenModel, settings: CallSettings, sleep: Sleep) -> Backend:
     fields = {name: getattr(model, name, None) for name in sorted(type(model).model_fields)}
     plain = {name: value for name, value in fields.items() if isinstance(value, str | int | float)}
     mark = hashlib.sha256(f"{model._get_llm_string()} {plain}".encode()).hexdigest()
-    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (Exception,)), weights=mark)
+    return _by_tools(spec, model, settings, _line(spec, settings, check, (Exception,)), weights=mark)
 
 
-def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, sleep: Sleep) -> Backend:
+def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, check: Check) -> Backend:
     package = _package("langchain_openai", spec, "langchain-openai")
     key = os.environ.get("OPENAI_API_KEY")
     if not key and not base_url:
         raise ConfigError(f"the model {spec} needs a key in the environment variable OPENAI_API_KEY, or --base-url")
+    if base_url and not re.fullmatch(ADDRESS, base_url):
+        raise ConfigError(f"the base URL {bare_addresses(base_url)} must be {AN_ADDRESS}")
+    client = importlib.import_module("coopera.models.servers.client")
     model = package.ChatOpenAI(
-        model=name, base_url=base_url, api_key=key or "text", timeout=settings.timeout, max_retries=0
+        model=name,
+        base_url=base_url,
+        api_key=key or "text",
+        timeout=settings.timeout,
+        max_retries=0,
+        http_client=client.BoundedClient(settings.max_bytes, client.login() if base_url else None),
     )
     length = "max_tokens" if base_url else "max_completion_tokens"
 
@@ -217,13 +228,13 @@ def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, 
         sees=_sees(spec, model),
         options=options,
         structures=_structures(settings),
-        line=_line(base_url or spec, settings, sleep, (ModelError, errors.OpenAIError, OSError)),
+        line=_line(base_url or spec, settings, check, (ModelError, errors.OpenAIError, OSError)),
         address=base_url,
         brief=bool(settings.brief),
     )
 
 
-def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, sleep: Sleep) -> Backend:
+def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, check: Check) -> Backend:
     chat_models = _package("langchain.chat_models", spec, "langchain", unless_known=True)
     given = {"timeout": settings.timeout, "max_retries": 0, "max_tokens": settings.max_tokens}
     try:
@@ -232,7 +243,7 @@ def _any_provider(spec: str, provider: str, name: str, settings: CallSettings, s
         raise ConfigError(f"the model {spec} needs a package that is not installed: {one_line(err)}") from err
     except (ValueError, TypeError) as err:
         raise ConfigError(f'the model "{spec}" cannot be opened: {one_line(err)}; a model may be {_HELP}') from err
-    return _by_tools(spec, model, settings, _line(spec, settings, sleep, (ModelError, OSError, RuntimeError)))
+    return _by_tools(spec, model, settings, _line(spec, settings, check, (ModelError, OSError, RuntimeError)))
 
 
 def _by_tools(spec: str, model: Any, settings: CallSettings, line: Line, weights: str = "") -> Backend:
@@ -273,9 +284,9 @@ def _takes_tools(model: Any) -> bool:
         return False
 
 
-def _line(server: str, settings: CallSettings, sleep: Sleep, unreachable: tuple[type[Exception], ...]) -> Line:
+def _line(server: str, settings: CallSettings, check: Check, unreachable: tuple[type[Exception], ...]) -> Line:
     gate = gate_to(server, settings.at_once, settings.per_minute)
-    return Line(settings, gate, unreachable, _GARBLED, sleep)
+    return Line(settings, gate, unreachable, _GARBLED, partial(pause, check), check)
 
 
 def _structures(settings: CallSettings) -> tuple[Structure, ...]:

@@ -28,9 +28,10 @@ from coopera.models.cache import CachedReply, ReplyCache, key_of
 from coopera.models.given import Chosen
 from coopera.models.parsing import BadReplyError, Wanted, read_reply
 from coopera.models.recorded import Past
+from coopera.models.servers.tokens import TOKENS
+from coopera.models.servers.waiting import Check, go_on
 from coopera.models.settings import OWN, CallSettings, Structure
 from coopera.models.talk import Picture, Talk, Turn
-from coopera.models.transport import Sleep, wait
 
 SEEDS = 2**31  # servers take seeds of 31 bits
 _AGAIN = "This answer cannot be used: {reason}.\nAnswer again with one whole JSON object, put right, and nothing else."
@@ -49,7 +50,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     shared: Path | None = None,
     meter: Meter | None = None,
     settings: CallSettings | None = None,
-    sleep: Sleep = wait,
+    check: Check = go_on,
     root: Path | None = None,
     household: str = OWN,
 ) -> Door:
@@ -66,7 +67,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         shared: Another such file, which runs have in common: looked into where the first has no answer.
         meter: Counts what is spent; without it nothing is counted.
         settings: How models are called.
-        sleep: Waits for so many seconds before a request is sent again.
+        check: Called while one waits for a server; raises where the run is asked to stop.
         root: The run directory, relative to which the record names pictures; without it, by their file names.
         household: What an offline robot and judge know of life at home: `own`, `shared` or a file.
 
@@ -74,7 +75,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
         ConfigError: If a model cannot be opened.
     """
     chosen = settings or CallSettings()
-    backends = open_backends(model, embeddings, base_url, chosen, sleep, household)
+    backends = open_backends(model, embeddings, base_url, chosen, check, household)
     cacheable = any(not backend.reads_variables and backend.past is None for backend in backends.values())
     replies = ReplyCache(cache, shared) if cache is not None and cacheable else None
     return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, meter=meter, settings=chosen, root=root)
@@ -204,7 +205,7 @@ class Door:
                     continue
             if answer.cut:
                 talk.fault("the reply reached the length limit and ends early, though it can be used")
-            talk.leniencies = read.leniencies
+            talk.leniencies |= read.leniencies
             if self.cache is not None:
                 self.cache.put(talk.fresh)
             return read.reply
@@ -221,7 +222,9 @@ class Door:
             talk.cached += 1
         else:
             found = self._ask(talk, seed)
-        answer, talk.way = found
+        answer, talk.way = found.reply, found.structure
+        if found.estimated:
+            talk.leniencies[TOKENS] = talk.leniencies.get(TOKENS, 0) + found.estimated
         talk.tokens_in += answer.tokens_in
         talk.tokens_out += answer.tokens_out
         return answer

@@ -18,6 +18,7 @@ from pydantic import ValidationError
 
 from coopera.core.household import ObjectMap
 from coopera.core.protocols import Reply
+from coopera.models.reading.depth import MOST_DEEP, too_deep
 from coopera.models.reading.fitting import Fit
 from coopera.models.reading.loose_json import LooseJSONError, once, read_loosely
 from coopera.models.schemas import enforced_schema, objects_of, schema_of, strays, whole_schema
@@ -156,6 +157,8 @@ def _pieces(text: str) -> Iterator[_Piece]:
             except (ValueError, RecursionError):
                 loose = True
                 value, end = read_loosely(text, at)
+            if too_deep(text[at:end]):
+                raise LooseJSONError(f"it is nested more than {MOST_DEEP} levels deep")
         except LooseJSONError as err:
             end = at + 1
             yield _Piece(err.reached, None, f"it is not valid JSON: {err}")

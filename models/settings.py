@@ -9,6 +9,7 @@ from pydantic import Field
 
 from coopera.core.people import Frozen
 from coopera.core.setting import Setting
+from coopera.models.servers.saying import LOGIN
 from coopera.models.small.manner import PLAIN, Manner
 
 OWN, SHARED = "own", "shared"
@@ -17,12 +18,18 @@ Seconds = Annotated[float, Field(gt=0, le=86_400, allow_inf_nan=False)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 Structure: TypeAlias = Literal["auto", "json_schema", "tools", "json_object", "text"]
 _SECONDS = "a number of seconds above 0"
+ADDRESS = r"^https?://[^\s@?#]+$"
+"""A server's address: nothing in it is secret, since it stands in files and messages."""
+AN_ADDRESS = (
+    "an address such as http://localhost:8000/v1, without user and password (the environment variable "
+    f"{LOGIN} takes them, as USER:PASSWORD) and without ? and #"
+)
 
 
 class CallSettings(Frozen):
     """How models are called."""
 
-    timeout: Annotated[Seconds, Setting("Seconds that one request may take.", _SECONDS)] = 120.0
+    timeout: Annotated[Seconds, Setting("Seconds that one request may take, to its last byte.", _SECONDS)] = 120.0
     retries: Annotated[
         int,
         Field(strict=True, ge=0, le=20),
@@ -55,6 +62,11 @@ class CallSettings(Frozen):
         Setting("Answers asked for before a bad one is an error; the model is shown what was wrong with the last."),
     ] = 3
     max_tokens: Annotated[int, Field(strict=True, ge=64, le=1_000_000), Setting("Most tokens of one reply.")] = 2048
+    max_bytes: Annotated[
+        int,
+        Field(strict=True, ge=1024, le=1_000_000_000),
+        Setting("Most bytes of a server's answer to one request; a longer one is broken off."),
+    ] = 1_000_000
     structure: Annotated[
         Structure,
         Setting(

@@ -1,13 +1,14 @@
 """The way to a server: a gate that keeps the pace, and patience with requests that fail on their way.
 
-A failed request is sent again after a pause. A request has failed if the server could not take it or sent back no chat
-completion. The pause doubles each time, or is as long as the server's Retry-After asks. The call's faults list every
-failure.
+A failed request is sent again after a pause. A request has failed if the server could not take it, took too long or
+sent back no chat completion. The pause doubles each time, or is as long as the server's Retry-After asks. The call's
+faults list every failure.
 """
 
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 import time
 from collections import deque
@@ -18,8 +19,10 @@ from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 from typing import TypeVar
 
-from coopera.core.errors import ModelCallError
+from coopera.core.errors import CooperaError, ModelCallError
 from coopera.core.lazy import made_once
+from coopera.models.servers.saying import bare_addresses
+from coopera.models.servers.waiting import GLANCE, Check, go_on, in_time
 from coopera.models.settings import CallSettings
 
 Answer = TypeVar("Answer")
@@ -50,12 +53,17 @@ class Gate:
         """Whether what lies behind it has ever answered."""
 
     @contextmanager
-    def passed(self) -> Iterator[None]:
-        """Be one of those under way."""
-        with self._free:
+    def passed(self, check: Check = go_on) -> Iterator[None]:
+        """Be one of those under way; `check` is called while one waits for that."""
+        while not self._free.acquire(timeout=GLANCE):
+            check()
+        try:
             while (pause := self._pause()) > 0:
-                self._sleep(pause)
+                check()
+                self._sleep(min(pause, GLANCE))
             yield
+        finally:
+            self._free.release()
 
     def _pause(self) -> float:
         """Seconds until another request may begin; at 0 it has begun."""
@@ -96,6 +104,7 @@ class Line:
         unreachable: What the client raises when it got no answer, or one that says no.
         garbled: What it raises when the answer is no chat completion.
         sleep: Waits for so many seconds.
+        check: Called while a request is under way, or waits for its turn; raises where it is to wait no longer.
         now: The time of day, for a Retry-After that names a date.
     """
 
@@ -104,6 +113,7 @@ class Line:
     unreachable: tuple[type[Exception], ...]
     garbled: tuple[type[Exception], ...] = ()
     sleep: Sleep = wait
+    check: Check = go_on
     now: Callable[[], datetime] = lambda: datetime.now(UTC)
 
     def send(
@@ -123,22 +133,15 @@ class Line:
         """
         for attempt in itertools.count():
             try:
-                with self.gate.passed():
-                    answer = request()
+                with self.gate.passed(self.check):
+                    answer = in_time(request, self.settings.timeout, self.check)
                 self.gate.answered.set()
                 return answer
+            except CooperaError:
+                raise
             except self.unreachable as err:
                 problem, failure = say(err), err
-                status = status_of(err)
-                if status is not None:
-                    self.gate.answered.set()
-                if not self.gate.answered.is_set() and _connection_refused(err):
-                    hint = "`coopera models check` says when one does"
-                    raise NobodyThereError(f"no server listens there ({problem.rstrip('.')}); {hint}") from err
-                if status in {400, 422}:
-                    raise RefusedError(problem) from err
-                if status is not None and status not in _AGAIN and status < 500:
-                    raise ModelCallError(problem) from err
+                self._end_if_final(err, problem)
             except self.garbled as err:
                 problem, failure = f"what the server sent is no reply: {say(err)}", err
             if attempt == self.settings.retries:
@@ -146,10 +149,25 @@ class Line:
             pause = self._pause(failure, attempt)
             if pause > self.settings.max_pause:
                 note(problem)
-                raise ModelCallError(f"the server asks to be left alone for {pause:.0f} seconds") from failure
+                raise ModelCallError(f"the server asks to be left alone for {pause:.6g} seconds") from failure
             note(f"{problem}; sent again after {pause:.3g} s")
             self.sleep(pause)
         raise AssertionError("counting does not end")
+
+    def _end_if_final(self, err: Exception, problem: str) -> None:
+        """Raise what a failure comes to, where it would be in vain to send the request again."""
+        status = status_of(err)
+        if status is not None:
+            self.gate.answered.set()
+        if not self.gate.answered.is_set() and _connection_refused(err):
+            hint = "`coopera models check` says when one does"
+            raise NobodyThereError(f"no server listens there ({problem.rstrip('.')}); {hint}") from err
+        if status in {400, 422}:
+            raise RefusedError(problem) from err
+        if status is not None and 300 <= status < 400:
+            raise ModelCallError(f"the server sends its callers elsewhere ({_elsewhere(err)}") from err
+        if status is not None and status not in _AGAIN and status < 500:
+            raise ModelCallError(problem) from err
 
     def _pause(self, err: Exception, attempt: int) -> float:
         """Seconds to wait before the next try."""
@@ -157,17 +175,18 @@ class Line:
         return max(grown, self._asked_for(err) or 0.0)
 
     def _asked_for(self, err: Exception) -> float | None:
-        headers: Mapping[str, str] = getattr(getattr(err, "response", None), "headers", None) or {}
-        text = headers.get("retry-after")
+        text = _headers(err).get("retry-after")
         if text is None:
             return None
         try:
-            return max(0.0, float(text))
+            seconds = float(text)
         except ValueError:
             pass
+        else:
+            return None if math.isnan(seconds) else max(0.0, seconds)
         try:
             return max(0.0, (parsedate_to_datetime(text) - self.now()).total_seconds())
-        except (ValueError, TypeError):  # a TypeError is a date without a time zone
+        except (ValueError, TypeError, OverflowError):  # a TypeError is a date without a time zone
             return None
 
 
@@ -183,6 +202,16 @@ def status_of(err: BaseException) -> int | None:
     """The HTTP status that an error of a client tells of, if it does."""
     status = getattr(err, "status_code", None)
     return status if isinstance(status, int) else None
+
+
+def _headers(err: BaseException) -> Mapping[str, str]:
+    return getattr(getattr(err, "response", None), "headers", None) or {}
+
+
+def _elsewhere(err: BaseException) -> str:
+    """Where a redirect leads, without what stands behind the address, and what to do about it."""
+    where = bare_addresses(_headers(err).get("location", "to no address"))[:200]
+    return f"{status_of(err)}: {where}), which is not followed; if that address is right, name it as base URL"
 
 
 def _connection_refused(err: BaseException | None) -> bool:

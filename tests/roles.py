@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from tests.server import Handler, Served, _schema, _Server, made_up
+from tests.server import Handler, Served, _Server, made_up, schema_of_request
 
 HOUSEHOLD = {
     "have something to eat or drink": ("mug", "bread", "knife", "glass", "plate"),
@@ -53,7 +53,7 @@ class Roles(Served):
 
     def answer(self, asked: dict[str, Any]) -> tuple[str, int, int]:
         """The reply of the role that the model's name says, in the form that the schema asks for."""
-        schema = _schema(asked) or {}
+        schema = schema_of_request(asked) or {}
         told = "\n".join(str(message["content"]) for message in asked["messages"])
         reply = made_up(schema, "rules")
         known, good = schema.get("$defs", {}), asked["model"] == "good"

@@ -82,7 +82,7 @@ class Served:
 
     def answer(self, asked: dict[str, Any]) -> tuple[str, int, int]:
         """The reply's text, and the tokens of prompt and reply."""
-        schema = _schema(asked)
+        schema = schema_of_request(asked)
         told = json.dumps(asked["messages"])
         if self.model is None:
             key = f"{told} {asked.get('seed')}"
@@ -97,7 +97,7 @@ class Served:
         return reply.text, usage["input_tokens"], usage["output_tokens"]
 
 
-def _schema(asked: Mapping[str, Any]) -> dict[str, Any] | None:
+def schema_of_request(asked: Mapping[str, Any]) -> dict[str, Any] | None:
     if "response_format" in asked:
         return asked["response_format"].get("json_schema", {}).get("schema")
     if "tools" in asked:
@@ -158,7 +158,7 @@ class Handler(BaseHTTPRequestHandler):
         else:
             text, tokens_in, tokens_out = self.served.answer(asked)
             said = text if kind == "good" else spoilt(kind, text)
-            self._send(200, json.dumps(_completion(asked, said, tokens_in, tokens_out, cut=kind == "cut")))
+            self._send(200, json.dumps(completion(asked, said, tokens_in, tokens_out, cut=kind == "cut")))
 
     def _send(self, status: int, body: str, more: Mapping[str, str] | None = None) -> None:
         data = body.encode()
@@ -173,7 +173,7 @@ class Handler(BaseHTTPRequestHandler):
             self.close_connection = True
 
 
-def _completion(asked: Mapping[str, Any], text: str, tokens_in: int, tokens_out: int, *, cut: bool) -> dict[str, Any]:
+def completion(asked: Mapping[str, Any], text: str, tokens_in: int, tokens_out: int, *, cut: bool) -> dict[str, Any]:
     message: dict[str, Any] = {"role": "assistant", "content": text}
     if "tools" in asked:
         called = {"name": asked["tools"][0]["function"]["name"], "arguments": text}

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list, nested, option
+from coopera.core.naming import printable
 
 STOPPED = 130
 FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episodes, --days, --hours"
@@ -105,7 +106,8 @@ def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | No
             what = f"failed: {end.error}" if end.error else "done"
             if end.error:
                 failures[end.job.name] = end.error
-            typer.echo(f"{done} of {total} ({time.monotonic() - started:.0f} s): {end.job.name} {what}", err=True)
+            said = f"{done} of {total} ({time.monotonic() - started:.0f} s): {end.job.name} {what}"
+            typer.echo(printable(said), err=True)
     except KeyboardInterrupt:
         typer.echo(f"Stopped. Run the same command again to go on: {planned.root}", err=True)
         raise typer.Exit(STOPPED) from None

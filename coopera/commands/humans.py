@@ -13,6 +13,7 @@ import typer
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
 from coopera.commands.rows import rows_of
+from coopera.core.naming import printable
 
 if TYPE_CHECKING:
     from coopera.core.hour import LoggedHour
@@ -53,8 +54,8 @@ def show(
     if as_json:
         typer.echo(json.dumps({**found.model_dump(mode="json"), "facts": stated.model_dump(mode="json")}))
         return
-    typer.echo(f"{found.name} ({found.id}, from {found.source})\n\n{found.profile}\n\n{found.big_five}\n")
-    typer.echo("\n".join(_facts_lines(stated)))
+    typer.echo(printable(f"{found.name} ({found.id}, from {found.source})\n\n{found.profile}\n\n{found.big_five}\n"))
+    typer.echo(printable("\n".join(_facts_lines(stated))))
 
 
 def _facts_lines(stated: Facts) -> Iterator[str]:
@@ -107,7 +108,7 @@ def import_humans(
         raise ConfigError(f"{replies}: people cannot be stored here ({err.strerror}).") from err
 
     def tell(person: str, what: str) -> None:
-        typer.echo(f"{person}: {what}", err=True)
+        typer.echo(printable(f"{person}: {what}"), err=True)
 
     try:
         with open_ask(config, prompts=library, root=replies) as ask:
@@ -117,7 +118,7 @@ def import_humans(
         typer.echo("Stopped. The same command goes on where it was.", err=True)
         raise typer.Exit(130) from None
     for person, why in done.failed.items():
-        typer.echo(f"{person}: {why}", err=True)
+        typer.echo(printable(f"{person}: {why}"), err=True)
     if as_json:
         found: dict[str, Any] = {**done._asdict(), "folder": str(folder)}
         typer.echo(json.dumps(found))
@@ -145,7 +146,7 @@ def diary(
     kept = store(found.people, out, force=force).kept
     rows = [{**summary(one, out), "kept": out / f"{one.name}.csv" in kept} for one in found.people]
     for note in found.notes:
-        typer.echo(note, err=True)
+        typer.echo(printable(note), err=True)
     if as_json:
         typer.echo(json.dumps({"people": rows, "notes": found.notes}))
         return

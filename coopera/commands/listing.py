@@ -10,6 +10,7 @@ import typer
 
 from coopera.commands.options import AsJson
 from coopera.commands.rows import Kind, Rows, rows_of
+from coopera.core.naming import printable
 
 
 def list_what(
@@ -23,7 +24,7 @@ def list_what(
 def show_rows(rows: Rows, columns: Sequence[str], *, as_json: bool, heads: Sequence[str] = ()) -> None:
     """Print rows as a table of some columns, under their names or other `heads`, or all of them as one line of JSON."""
     if as_json:
-        typer.echo(json.dumps(rows, ensure_ascii=False))
+        typer.echo(printable(json.dumps(rows, ensure_ascii=False)))
         return
     from coopera.report.tables import print_table
 

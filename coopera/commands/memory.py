@@ -21,10 +21,12 @@ def repair(run: RunPath, as_json: AsJson = False) -> None:
     """Check a run's memory and rebuild it from its texts where its index is damaged."""
     from coopera.memory import repair as rebuild
     from coopera.rundir.directory import RunDir
+    from coopera.rundir.private import only_mine
     from coopera.studies.assemble import open_embeddings
 
     folder = run / "memory"
-    with open_embeddings(RunDir.open(run).config) as embeddings:
+    config = RunDir.open(run).config
+    with only_mine(config.private), open_embeddings(config) as embeddings:
         done = rebuild(folder, embeddings)
     if as_json:
         typer.echo(json.dumps({"run": str(run), "repaired": [one._asdict() for one in done]}))

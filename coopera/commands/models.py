@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from coopera.commands.options import AsJson, BaseUrl, RunPath
+from coopera.core.naming import printable
 
 app = typer.Typer(help="The language models that play the person, the robot and the judge.", no_args_is_help=True)
 
@@ -54,11 +55,11 @@ def check(
     works = all(one.ok for one in tried)
     if as_json:
         told = {"model": spec, "base_url": config.base_url, "structure": backend.structure, "ok": works}
-        typer.echo(json.dumps({**told, "checks": [one.data() for one in tried]}, ensure_ascii=False))
+        typer.echo(json.dumps({**told, "checks": [one.data() for one in tried]}))
     else:
-        typer.echo(str(backend))
+        typer.echo(printable(str(backend)))
         for one in tried:
-            typer.echo(in_words(backend, one))
+            typer.echo(printable(in_words(backend, one)))
     if not works:
         raise typer.Exit(1)
 

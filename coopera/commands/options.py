@@ -112,7 +112,7 @@ def _old_flag(one: Declared) -> str:
 
 def _parameters(made: Mapping[str, Declared], *, old: bool = False) -> Iterator[inspect.Parameter]:
     for name, one in made.items():
-        kind = type(one.values[0]) if one.values else one.type if one.type in (int, float, Path) else str
+        kind = type(one.values[0]) if one.values else one.type if one.type in (int, float, bool, Path) else str
         found = typer.Option(_old_flag(one), hidden=True) if old else option(one.name)
         annotation = Annotated[kind | None, found]  # type: ignore[valid-type]
         yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)

@@ -11,6 +11,7 @@ import typer
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, PromptFolder
 from coopera.commands.rows import prompt_rows
+from coopera.core.naming import printable
 
 app = typer.Typer(help="The prompts that language models are asked with.", no_args_is_help=True)
 
@@ -35,7 +36,7 @@ def show(
 
     library = PromptLibrary(prompts)
     text = library.show(name, filled=filled)
-    typer.echo(json.dumps({"id": name, "file": str(library.path(name)), "text": text}) if as_json else text)
+    typer.echo(json.dumps({"id": name, "file": str(library.path(name)), "text": text}) if as_json else printable(text))
 
 
 @app.command()
@@ -44,7 +45,7 @@ def page(prompts: PromptFolder = None) -> None:
     from coopera.commands import prompt_page
     from coopera.prompts import PromptLibrary
 
-    typer.echo(prompt_page.page(PromptLibrary(prompts)), nl=False)
+    typer.echo(printable(prompt_page.page(PromptLibrary(prompts))), nl=False)
 
 
 @app.command()
@@ -60,11 +61,11 @@ def check(
     faults = faults_of(folder) if folder else []
     count = 0 if faults else len(PromptLibrary(folder).names)
     if as_json:
-        typer.echo(json.dumps({"faults": faults, "prompts": count}, ensure_ascii=False))
+        typer.echo(json.dumps({"faults": faults, "prompts": count}))
     if faults:
         if not as_json:
             for fault in faults[1:]:
-                typer.echo(f"coopera: {fault}", err=True)
+                typer.echo(printable(f"coopera: {fault}"), err=True)
         raise ConfigError(faults[0])
     if not as_json:
         typer.echo(f"{count} prompts can be used.")

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from coopera.commands.options import AsJson, RunPath
+from coopera.core.naming import printable
 
 
 def replay(
@@ -29,7 +30,7 @@ def replay(
     different = [hour for hour in hours if hour.difference]
     if not as_json:
         for hour in different:
-            typer.echo(f"Day {hour.day}, {hour.hour}:00: {hour.difference}.")
+            typer.echo(printable(f"Day {hour.day}, {hour.hour}:00: {hour.difference}."))
         acts = sum(hour.acts for hour in hours)
         typer.echo(f"{len(hours) - len(different)} of {len(hours)} hours ({acts} acts) ended in the same world.")
     else:

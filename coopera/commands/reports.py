@@ -31,6 +31,9 @@ def report(run: RunPath, as_json: AsJson = False) -> None:
 
     from coopera.report.page import write_report
     from coopera.rundir.directory import RunDir
+    from coopera.rundir.private import only_mine
 
-    path = write_report(RunDir.open(run))
+    found = RunDir.open(run)
+    with only_mine(found.config.private):
+        path = write_report(found)
     typer.echo(json.dumps({"report": str(path), "bytes": path.stat().st_size}) if as_json else f"Report: {path}")

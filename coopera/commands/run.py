@@ -19,6 +19,7 @@ from coopera.commands.options import (
     takes_settings,
 )
 from coopera.core.errors import BudgetError
+from coopera.core.naming import printable
 
 if TYPE_CHECKING:
     from coopera.studies.study import Event
@@ -121,24 +122,23 @@ def _carry_out(
     done: Collection[tuple[int, int]] = (),
 ) -> None:
     """Do the work with progress on standard error, then show what came of it."""
-    from rich.console import Console
-
     from coopera.core.errors import StoppedError, WaitingError
+    from coopera.report.console import PlainConsole
     from coopera.report.progress import Progress, days_table
 
     try:
         # a live line and a person's typing would get in each other's way
-        console = Console(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
+        console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
         with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
     except WaitingError as err:
-        typer.echo(f"{err} Continue with: coopera resume {folder}", err=True)
+        typer.echo(printable(f"{err} Continue with: coopera resume {folder}"), err=True)
         raise typer.Exit(STOPPED) from None
     except (KeyboardInterrupt, StoppedError):
-        typer.echo(_how_to_go_on(folder), err=True)
+        typer.echo(printable(_how_to_go_on(folder)), err=True)
         raise typer.Exit(STOPPED) from None
     except BudgetError:
-        typer.echo(_how_to_go_on(folder), err=True)
+        typer.echo(printable(_how_to_go_on(folder)), err=True)
         raise
     if as_json:
         typer.echo(json.dumps({**summary, "run": str(folder)}, sort_keys=True))

@@ -12,6 +12,7 @@ import typer
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, DataFolder
 from coopera.commands.rows import rows_of
+from coopera.core.naming import printable
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
 Home = Annotated[str, typer.Argument(metavar="ID-or-FILE", help="A home's id, or the path of its JSON file.")]
@@ -69,7 +70,7 @@ def check(scene: Home, as_json: AsJson = False) -> None:
     else:
         sentence = "{id}: this home can be used ({rooms} rooms, {fixed} fixed and {movable} movable objects)."
         for line in problems or [sentence.format(**figures(home))]:
-            typer.echo(line)
+            typer.echo(printable(line))
     if problems:
         raise typer.Exit(1)
 
@@ -141,9 +142,9 @@ def import_homes(
     for one in found:
         typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(one.scene)))
         for line in one.skipped:
-            typer.echo(f"  left out: {line}")
+            typer.echo(printable(f"  left out: {line}"))
         for line in one.problems:
-            typer.echo(f"  problem: {line}")
+            typer.echo(printable(f"  problem: {line}"))
         typer.echo(f"  Stored: {one.file}")
 
 

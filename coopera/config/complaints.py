@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from coopera.config.declared import Declared, declared
+from coopera.models.servers.saying import bare_addresses
 
 
 def complaint(err: ValidationError, model: type[BaseModel], file: str, flags: Mapping[str, Any]) -> str:
@@ -31,7 +32,7 @@ def complaint(err: ValidationError, model: type[BaseModel], file: str, flags: Ma
         return f"{file}: there is no field {name!r} ({hint})."
     field = next(name for size in range(len(names), 0, -1) if (name := ".".join(names[:size])) in settings)
     where = _flag(settings, field, flags) or f"{file}: {field}"
-    return f"{where} must be {settings[field].expected}, not {first['input']!r}."
+    return f"{where} must be {settings[field].expected}, not {bare_addresses(repr(first['input']))}."
 
 
 def _flag(settings: Mapping[str, Declared], field: str, flags: Mapping[str, Any]) -> str | None:

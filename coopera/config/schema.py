@@ -14,7 +14,7 @@ from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
 from coopera.config.sections import Models as Models
-from coopera.config.sections import Text
+from coopera.config.sections import Private, Text
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.hour import SearchSizes
@@ -24,7 +24,7 @@ from coopera.core.setting import Setting
 from coopera.core.setting import default_data_dir as default_data_dir
 from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.given import by_role
-from coopera.models.settings import OWN, SHARED, Budget, CallSettings
+from coopera.models.settings import ADDRESS, AN_ADDRESS, OWN, SHARED, Budget, CallSettings
 
 MAX_HOURS = 24 - FIRST_HOUR
 Ids = Annotated[list[Text], Field(min_length=1)]
@@ -86,6 +86,7 @@ class Config(Frozen):
     out: Annotated[
         Path | None, Setting("The run directory.", flag="--out", metavar="DIR", unset="the next free runs/run-NNN")
     ] = None
+    private: Private = False
     models: Annotated[
         Models,
         Setting("Language model of every role.", flag="--model", metavar="SPEC", unset="offline", listed="models"),
@@ -101,10 +102,10 @@ class Config(Frozen):
         ),
     ] = OWN
     base_url: Annotated[
-        Annotated[str, Field(pattern=r"^https?://\S+$")] | None,
+        Annotated[str, Field(pattern=ADDRESS)] | None,
         Setting(
             "Address of an OpenAI-compatible server, where a model needs one.",
-            "an address such as http://localhost:8000/v1",
+            AN_ADDRESS,
             flag="--base-url",
             metavar="URL",
             unset="the provider's own",

@@ -49,3 +49,16 @@ class Files(Frozen):
 
     humans: Annotated[dict[str, Path], Setting("Persona files by id.", "a mapping of ids to files")] = {}
     scenes: Annotated[dict[str, Path], Setting("Files of homes by id.", "a mapping of ids to files")] = {}
+
+
+Private = Annotated[
+    bool,
+    Field(strict=True),
+    Setting(
+        "Nobody else on this machine may read the run: its files have mode 0600, its folders 0700, and its replies go "
+        "to no cache that runs share, unless `cache` names one.",
+        "true or false",
+        flag="--private",
+        unset="false",
+    ),
+]

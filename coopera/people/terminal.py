@@ -8,6 +8,7 @@ from rich.console import Console
 
 from coopera.core.errors import WaitingError
 from coopera.core.interview import MOST_STEPS, Answer, Question
+from coopera.core.naming import printable
 
 LATER = "later"
 
@@ -34,7 +35,7 @@ class Terminal:
         self._console.rule(align="left")
         self._say(f"{question.weekday}, {question.time}. You are {question.name}.")
         if question.problem:
-            self._console.print(question.problem, style="yellow", markup=False)
+            self._console.print(printable(question.problem), style="yellow", markup=False)
         if question.kind == "intention":
             return self._intention(question)
         return self._tasks(question) if question.kind == "tasks" else self._feedback(question)
@@ -74,7 +75,7 @@ class Terminal:
         self._say(f'The robot thought of this. Was it right? Answer {how}, with a reason if you like: "no, too early".')
         answers = []
         for number, item in enumerate(question.items, 1):
-            self._console.print(f"{number}. {item}", markup=False)
+            self._say(f"{number}. {item}")
             self._console.print(">", end=" ")
             answers.append(self._line(question))
         return answers
@@ -89,8 +90,8 @@ class Terminal:
         return line
 
     def _say(self, text: str) -> None:
-        self._console.print(text, markup=False)
+        self._console.print(printable(text), markup=False)
 
     def _list(self, items: Iterable[str], bullet: str = "") -> None:
         for number, item in enumerate(items, 1):
-            self._console.print(f"  {bullet or number} {item}", markup=False)
+            self._say(f"  {bullet or number} {item}")

@@ -15,6 +15,7 @@ from rich.table import Table
 from coopera.config.prices import in_words
 from coopera.core.clock import hour_label
 from coopera.evaluation.measuring import all_measures
+from coopera.report.console import PlainConsole
 
 
 class Progress:
@@ -25,7 +26,7 @@ class Progress:
 
     def __init__(self, hours: int, console: Console | None = None, *, done: Collection[tuple[int, int]] = ()) -> None:
         """Expect `hours` hours in all, of which those in `done` (day, hour) were lived before."""
-        self._console = console or Console(stderr=True, highlight=False)
+        self._console = console or PlainConsole(stderr=True, highlight=False)
         self._hours = hours
         self._done: set[tuple[int, int]] = set(done)
         self._now: tuple[int, int] | None = None
@@ -85,7 +86,7 @@ class Progress:
 
 def days_table(summary: Mapping[str, Any], folder: Path, console: Console | None = None) -> None:
     """Print the days of a run with their success, and where its report is."""
-    console = console or Console(highlight=False)
+    console = console or PlainConsole(highlight=False)
     title = f"{summary['method']}, setting {summary['setting']}"
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False)
     for name in ("day", "person", "home"):

@@ -16,6 +16,7 @@ from coopera.core.household import Outcome
 from coopera.core.people import TRAITS
 from coopera.core.success import Counts
 from coopera.evaluation.measuring import all_measures, told_in_the_evening
+from coopera.report.console import PlainConsole
 from coopera.report.progress import figure
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes, intention_verdicts, read_json
@@ -65,8 +66,8 @@ def print_json(run: RunDir, day: int | None, hour: int | None, console: Console 
 
 def wide_console() -> Console:
     """Standard output: wrapped on a terminal, uncut in a pipe."""
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=4000)
+    console = PlainConsole(highlight=False)
+    return console if console.is_terminal else PlainConsole(highlight=False, width=4000)
 
 
 def hour_tree(record: HourRecord, evening: Evening | None = None) -> Tree:

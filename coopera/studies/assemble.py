@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from functools import partial
@@ -36,7 +35,6 @@ from coopera.models.budget import Meter
 from coopera.models.classifiers import Inputs, make_classifier
 from coopera.models.classifiers.instruction import Instruct
 from coopera.models.door import open_door
-from coopera.models.transport import wait
 from coopera.people.changes import open_changes
 from coopera.prompts import PromptLibrary
 from coopera.rundir.directory import RunDir
@@ -45,8 +43,6 @@ from coopera.simulation import Scene, World, load_scene
 from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.studies.catalogues import known_activities, persons_household, tuned_model
-
-_GLANCE = 0.5  # seconds between looks at whether the run is asked to stop
 
 
 def model_specs(config: Config) -> dict[Role, str]:
@@ -86,7 +82,7 @@ def open_ask(
         embeddings: The sentence encoder, where it has been opened already.
         root: The run directory: pictures are named relative to it, and replies are cached in it.
         meter: Counts what is spent.
-        check: Raises if the run was asked to stop; called while a request waits to be sent again.
+        check: Raises if the run was asked to stop; called while a server is waited for.
 
     Raises:
         PromptError: If a prompt file is broken, naming file and line.
@@ -101,22 +97,19 @@ def open_ask(
             embeddings=embeddings or stack.enter_context(open_embeddings(config)),
             base_url=config.base_url,
             cache=root / "llm_cache.sqlite" if root else None,
-            shared=(config.cache or config.data_dir / "llm_cache.sqlite") if root else None,
+            shared=_shared_cache(config) if root else None,
             meter=meter,
             settings=config.calls,
-            sleep=partial(_wait, check),
+            check=check,
             root=root,
             household=config.household,
         )
         yield stack.enter_context(closing(door))
 
 
-def _wait(check: Callable[[], None], seconds: float) -> None:
-    """Wait, but not longer than until the run is asked to stop."""
-    end = time.monotonic() + seconds
-    while (left := end - time.monotonic()) > 0:
-        check()
-        wait(min(left, _GLANCE))
+def _shared_cache(config: Config) -> Path | None:
+    """Where replies are kept that runs share; a private run has only one that it was told of."""
+    return config.cache or (None if config.private else config.data_dir / "llm_cache.sqlite")
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -35,6 +35,7 @@ from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
 from coopera.rundir.directory import RunDir
+from coopera.rundir.private import only_mine
 from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
@@ -114,9 +115,10 @@ def resume_study(
             changes have changed since.
     """
     if (found := RunDir.open(path)).state == "finished":
-        return _completed(found)
+        with only_mine(found.config.private):
+            return _completed(found)
     check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
-    with RunDir.resume(path, budget) as run:
+    with only_mine(found.config.private), RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
@@ -161,16 +163,20 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
     logs = open_logs(config, plan_days(config))
     specs = model_specs(config)
     check_money(config.budget, read_prices(config.budget.prices) if config.budget.prices else None, specs.values())
-    made = RunDir.create(
-        config,
-        people=people,
-        prompts=prompts.hashes(),
-        models={str(role): spec for role, spec in specs.items()},
-        knowledge=knowledge_of(specs, config.household, config.changes),
-        stop=stop,
-        resumable=resumable,
-    )
-    with made as run:
+    with ExitStack() as stack:
+        stack.enter_context(only_mine(config.private))
+        made = RunDir.create(
+            config,
+            people=people,
+            prompts=prompts.hashes(),
+            models={str(role): spec for role, spec in specs.items()},
+            knowledge=knowledge_of(specs, config.household, config.changes),
+            stop=stop,
+            resumable=resumable,
+        )
+        if config.private:
+            made.root.chmod(0o700)  # it may have been there
+        run = stack.enter_context(made)
         try:
             run.keep_homes(homes)
             with open_services(config, run, run.people(), prompts, logs) as services:

@@ -32,6 +32,7 @@ from coopera.models.transport import Gate, Line
 AT = Address("nora", 1, 9, "score")
 YES = '{"verdicts": [{"yes": true, "reason": "it helps"}]}'
 NO = '{"verdicts": [{"yes": false}]}'
+USAGE: Any = {"input_tokens": 1, "output_tokens": 1, "total_tokens": 2}
 
 
 class ScriptedModel(BaseChatModel):
@@ -70,7 +71,7 @@ class ScriptedModel(BaseChatModel):
         answer = self._script.pop(0)
         if isinstance(answer, Exception):
             raise answer
-        message = answer if isinstance(answer, AIMessage) else AIMessage(content=answer)
+        message = answer if isinstance(answer, AIMessage) else AIMessage(content=answer, usage_metadata=USAGE)
         return ChatResult(generations=[ChatGeneration(message=message)])
 
 
@@ -275,9 +276,7 @@ def test_a_server_that_only_talks_garbage_is_a_call_error() -> None:
 def test_an_error_names_the_server_and_gives_no_key_away(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ACME_API_KEY", "sk-secret")
     door, _ = door_to(ConnectionError("the key sk-secret\nis wrong"), address="http://box:8000/v1", retries=0)
-    with pytest.raises(
-        ModelCallError, match="scripted:one at http://box:8000/v1 cannot be asked: the key <ACME_API_KEY> is"
-    ):
+    with pytest.raises(ModelCallError, match="one at http://box:8000/v1 cannot be asked: the key <ACME_API_KEY> is"):
         ask(door)
     assert "sk-secret" not in door.take_calls()[0].model_dump_json()
 

@@ -104,10 +104,8 @@ class Broken(Plain):
 
 
 def door_to(model: Any, **settings: Any) -> Door:
-    calls = CallSettings(**settings)
-    return open_door(
-        prompts=PromptLibrary(), seed=1, embeddings=EMBEDDINGS, model=model, settings=calls, sleep=lambda _: None
-    )
+    calls = CallSettings(**{"backoff": 0.001, **settings})
+    return open_door(prompts=PromptLibrary(), seed=1, embeddings=EMBEDDINGS, model=model, settings=calls)
 
 
 def judge(door: Door) -> VerdictsReply:

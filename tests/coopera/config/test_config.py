@@ -81,7 +81,7 @@ def test_run_folders_are_numbered_without_a_clock(tmp_path: Path) -> None:
         ("perception: {motion_confused: 2}", "perception.motion_confused must be a share from 0 to 1, not 2."),
         ("perception: {joint_nose: 0}", "there is no field 'joint_nose' (did you mean joint_noise?)."),
         ("pictures: film", "pictures must be sampled, none or video, not 'film'."),
-        ("base_url: localhost", "base_url must be an address such as http://localhost:8000/v1, not 'localhost'."),
+        ("base_url: localhost", "base_url must be an address such as http://localhost:8000/v1, without user and"),
         ("- 1\n- 2", "the study file must be a mapping of fields to values, not a list."),
         ("days: 1\ndays: 2", "study.yaml, line 2: this is not valid YAML ('days' stands twice)."),
         ("a: [1", "study.yaml, line 2: this is not valid YAML"),
