@@ -6,7 +6,7 @@ midnight. Days of a household and part are numbered without a gap.
 
 For each hour h from 9 to 21 of each day of "test" it is foretold which things are moved from h:00 to h:59. Known are
 the first n days of "train", the hour, and what this day brought before h:00: the activity last begun by then, whether
-it is over and since when, and what was moved. F1 is over all hours, days and things; a thing that was never seen
+it is over and since when, and what was moved when and where to. F1 is over all hours, days and things; a thing that was never seen
 counts as missed.
 
 `counts` is the yardstick: the mean of a thing's frequency at this hour and after this activity, going on or over, with
@@ -37,18 +37,19 @@ MOST_DAYS, MOST_LINES, MOST_THINGS = 2_000, 5_000, 2_000
 _KEY = re.compile(r"([\w-]{1,40})/(train|test)/(\d{3,4})")
 _MIDNIGHT, _LATEST = 1440.0, 2880.0
 _STAGES = (5, 15, 30, 60, 120)  # minutes since an activity began, or ended
+_RESTED = (15, 60, 180, 1000)  # minutes since a thing was put where it lies
 
 
 @dataclass(frozen=True, slots=True)
 class Day:
-    """A day: activities as (name, start, end) and moves as (minute, thing), in order."""
+    """A day: activities as (name, start, end) and moves as (minute, thing, destination), in order."""
 
     schedule: list[tuple[str, float, float]]
-    moves: list[tuple[float, str]]
+    moves: list[tuple[float, str, str]]
 
     def moved(self, hour: int) -> set[str]:
         """Return the things moved in an hour."""
-        return {thing for minute, thing in self.moves if 60 * hour <= minute < 60 * (hour + 1)}
+        return {thing for minute, thing, _ in self.moves if 60 * hour <= minute < 60 * (hour + 1)}
 
     def last(self, hour: int) -> tuple[str, bool, float]:
         """Return the activity last begun by h:00, whether it is over, and the minutes since it began or ended."""
@@ -95,7 +96,7 @@ def read_days(path: Path) -> Households:
                 for parts in days.values()
                 for part in parts.values()
                 for day in part.values()
-                for _, thing in day.moves
+                for _, thing, _ in day.moves
             }
         )
         > MOST_THINGS
@@ -120,7 +121,7 @@ def _day(where: str, value: object) -> Day:
         if line[2] < line[1] or (schedule and line[1] < schedule[-1][2]):
             raise ConfigError(f"{where}: schedule[{place}]: times are out of order, expected each to follow the last")
         schedule.append((line[0], float(line[1]), float(line[2])))
-    moves: list[tuple[float, str]] = []
+    moves: list[tuple[float, str, str]] = []
     for place, line in enumerate(value["moves"]):
         if not (
             isinstance(line, list)
@@ -132,7 +133,7 @@ def _day(where: str, value: object) -> Day:
             raise ConfigError(f"{where}: moves[{place}]: expected [minute, thing, destination], the minute below 1440")
         if moves and line[0] < moves[-1][0]:
             raise ConfigError(f"{where}: moves[{place}]: times are out of order, expected each to follow the last")
-        moves.append((float(line[0]), line[1]))
+        moves.append((float(line[0]), line[1], line[2]))
     return Day(schedule, moves)
 
 
@@ -141,14 +142,13 @@ def _minute(value: object) -> bool:
 
 
 class Codes:
-    """Numbers for the things and activities of the days that were learned from; -1 and 0 are for others."""
+    """Numbers for the things, activities and places of the days that were learned from; 0 is for others of these two."""
 
     def __init__(self, days: Iterable[Day]) -> None:
         days = list(days)
-        self.things = sorted({thing for day in days for _, thing in day.moves})
-        self._activities = {
-            name: place + 1 for place, name in enumerate(sorted({a for d in days for a, _, _ in d.schedule}))
-        }
+        self.things = sorted({thing for day in days for _, thing, _ in day.moves})
+        self._activities = _numbered(name for day in days for name, _, _ in day.schedule)
+        self._places = _numbered(place for day in days for _, _, place in day.moves)
 
     def observations(self, days: Sequence[Day]) -> Observations:
         """Return a row per day, hour and thing, in this order."""
@@ -159,10 +159,10 @@ class Codes:
     def _of_day(self, number: int, day: Day) -> tuple[Ints, Ints, Ints, Floats, Bools]:
         count = len(self.things)
         place = {thing: at for at, thing in enumerate(self.things)}
+        moves = [(minute, place[thing], to) for minute, thing, to in day.moves if thing in place]
         moved = np.zeros((24, count), dtype=bool)
-        for minute, thing in day.moves:
-            if thing in place:
-                moved[int(minute // 60), place[thing]] = True
+        for minute, thing, _ in moves:
+            moved[int(minute // 60), thing] = True
         contexts, numbers = [], []
         for hour in HOURS:
             name, over, since = day.last(hour)
@@ -171,9 +171,10 @@ class Codes:
             stage = int(np.digitize(since, _STAGES))
             done = moved[:hour].sum(0)
             ago = np.where(done > 0, 1 + moved[:hour][::-1].argmax(0), 24)
+            lies, rested = self._lie(moves, hour)
             at, before = hour - HOURS[0], np.minimum(done, 2)
-            same = [activity, state * (len(_STAGES) + 1) + stage]
-            columns = [at, state, *same, at * 3 + before, state * 3 + before, state * len(HOURS) + at]
+            columns = [at, state, lies, activity, state * (len(_STAGES) + 1) + stage]
+            columns += [lies * (len(_RESTED) + 1) + rested, at * 3 + before, state * 3 + before]
             contexts.append(np.stack([np.broadcast_to(column, count) for column in columns], 1))
             numbers.append(np.stack([np.full(count, hour), np.full(count, stage), done, ago], 1).astype(float))
         rows = len(HOURS) * count
@@ -184,6 +185,18 @@ class Codes:
             np.concatenate(numbers),
             moved[HOURS[0] : HOURS[-1] + 1].ravel(),
         )
+
+    def _lie(self, moves: Sequence[tuple[float, int, str]], hour: int) -> tuple[Ints, Ints]:
+        """Return where each thing was put last today, by h:00, and the stage of how long it has lain there."""
+        lies, put = np.zeros(len(self.things), np.int64), np.full(len(self.things), -np.inf)
+        for minute, thing, to in moves:
+            if minute < 60 * hour:
+                lies[thing], put[thing] = self._places.get(to, 0), minute
+        return lies, np.digitize(60 * hour - put, _RESTED)
+
+
+def _numbered(names: Iterable[str]) -> dict[str, int]:
+    return {name: number for number, name in enumerate(sorted(set(names)), 1)}
 
 
 def counts(train: Observations, test: Observations) -> Bools:
