@@ -27,6 +27,7 @@ import numpy as np
 
 from benchmarks.outside import is_name, read_json, run
 from coopera.core.errors import ConfigError
+from coopera.evaluation.statistics import bootstrap
 from coopera.models.learners.counts import Bools, Floats, Ints, Observations
 from coopera.models.learners.habits import Habits
 
@@ -218,19 +219,34 @@ def f1(yes: Bools, label: Bools, total: int) -> float:
 
 
 def household(train: Sequence[Day], test: Sequence[Day]) -> dict[str, Any]:
-    """Learn from the days of `train` and return F1 on those of `test`, and which learner was chosen."""
+    """Learn from the days of `train`; return F1 on those of `test`, the interval of the gain, and who speaks."""
     codes = Codes(train)
     total = sum(len(day.moved(hour)) for day in test for hour in HOURS)
     if not codes.things:
-        return {"counts": 0.0, "ours": 0.0, "chosen": "counts"}
+        return {"counts": 0.0, "ours": 0.0, "gain": [0.0, 0.0], "chosen": "counts"}
     seen, asked = codes.observations(train), codes.observations(test)
     habits = Habits()
     habits.train(seen)
-    return {
-        "counts": f1(counts(seen, asked), asked.label, total),
-        "ours": f1(habits.says_yes(asked), asked.label, total),
-        "chosen": habits.chosen.name,
-    }
+    said = {"counts": counts(seen, asked), "ours": habits.says_yes(asked)}
+    found = {name: f1(yes, asked.label, total) for name, yes in said.items()}
+    return found | {"gain": gain(test, asked, said["counts"], said["ours"]), "chosen": habits.chosen.name}
+
+
+def gain(test: Sequence[Day], asked: Observations, than: Bools, yes: Bools) -> list[float]:
+    """Return the ends of a 95 % interval of the gain in F1 over `than`: the days asked about, resampled."""
+    days = []
+    for number, day in enumerate(test):
+        own = asked.day == number
+        total = sum(len(day.moved(hour)) for hour in HOURS)
+        days.append([(2 * (said & asked.label)[own].sum(), said[own].sum() + total) for said in (than, yes)])
+
+    def gained(drawn: Sequence[list[tuple[int, int]]]) -> float:
+        both, all_ = np.sum(drawn, axis=0).T
+        before, after = both / np.maximum(all_, 1)
+        return float(after - before)
+
+    _, low, high = bootstrap(days, gained)
+    return [round(low, 4), round(high, 4)]
 
 
 def measure(asked: argparse.Namespace) -> dict[str, Any]:
@@ -253,8 +269,10 @@ def measure(asked: argparse.Namespace) -> dict[str, Any]:
         found[name] = {}
         for n in wanted:
             found[name][str(n)] = got = household(parts["train"][:n], parts["test"])
+            low, high = got["gain"]
             print(
-                f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f} ({got['chosen']})",
+                f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f},"
+                f" gain {low:+.3f} to {high:+.3f} ({got['chosen']})",
                 flush=True,
             )
     return {"homer": found}

@@ -41,7 +41,7 @@ class Chosen:
     """What held-out days decided.
 
     Attributes:
-        name: "counts"; "learned", a logistic regression and boosted trees on top of counts; or "all" three.
+        name: "counts"; or "learned", counts with a logistic regression and boosted trees on top of them.
         threshold: P(yes) from which to say yes, for the best F1.
         losses: Mean negative log-likelihood on held-out days, in nats per observation, by name; empty where there was
             one day only.
@@ -149,19 +149,16 @@ def _choose(seen: Observations, weights: Floats) -> Chosen:
 
 
 def _speak(fitted: Sequence[Model], rates: Rates, asked: Observations) -> dict[str, Floats]:
-    """Return P(yes) by counts, by the mean log-odds of what is fitted, and by that of all three.
+    """Return P(yes) by counts, and by the mean log-odds of counts and of what is fitted on top of them.
 
-    Neither of the two speaks alone: a mean of them was the better one on later days at any number of days.
+    What is fitted does not speak without counts: at like thresholds its F1 on later days was seldom higher.
     """
-    if not fitted:
-        return {"counts": rates.probabilities}
-    given = features(rates, asked)
-    odds = [log_odds(model(given)) for model in fitted]
-    return {
-        "counts": rates.probabilities,
-        "learned": probability(np.mean(odds, axis=0)),
-        "all": probability(np.mean([*odds, log_odds(rates.probabilities)], axis=0)),
-    }
+    said = {"counts": rates.probabilities}
+    if fitted:
+        given = features(rates, asked)
+        odds = [log_odds(model(given)) for model in fitted]
+        said["learned"] = probability(np.mean([*odds, log_odds(rates.probabilities)], axis=0))
+    return said
 
 
 def features(rates: Rates, asked: Observations) -> Floats:
