@@ -6,12 +6,13 @@ midnight. Days of a household and part are numbered without a gap.
 
 For each hour h from 9 to 21 of each day of "test" it is foretold which things are moved from h:00 to h:59. Known are
 the first n days of "train", the hour, and what this day brought before h:00: the activity last begun by then, whether
-it is over and since when, and what was moved when and where to. F1 is over all hours, days and things; a thing that was never seen
-counts as missed.
+it is over and since when, and which things were moved when and where to. F1 is over all hours, days and things; a thing
+that was never seen counts as missed.
 
 `counts` is the yardstick: the mean of a thing's frequency at this hour and after this activity, going on or over, with
 yes from 0.4. `ours` is `coopera.models.learners.habits.Habits`. It chooses what it learns with, and its threshold, on
-held-out days of "train"; the days of "test" only give the figure.
+held-out days of "train"; the days of "test" only give the figure. `gain` holds the ends of a 95 % interval of the
+difference, by a bootstrap over the days of "test".
 """
 
 from __future__ import annotations
@@ -143,7 +144,7 @@ def _minute(value: object) -> bool:
 
 
 class Codes:
-    """Numbers for the things, activities and places of the days that were learned from; 0 is for others of these two."""
+    """Numbers for things, activities and places of the days that were learned from; 0 is another activity or place."""
 
     def __init__(self, days: Iterable[Day]) -> None:
         days = list(days)
