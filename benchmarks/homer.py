@@ -6,12 +6,13 @@ midnight. Days of a household and part are numbered without a gap.
 
 For each hour h from 9 to 21 of each day of "test" it is foretold which things are moved from h:00 to h:59. Known are
 the first n days of "train", the hour, and what this day brought before h:00: the activity last begun by then, whether
-it is over and since when, and what was moved. F1 is over all hours, days and things; a thing that was never seen
-counts as missed.
+it is over and since when, and which things were moved when and where to. F1 is over all hours, days and things; a thing
+that was never seen counts as missed.
 
 `counts` is the yardstick: the mean of a thing's frequency at this hour and after this activity, going on or over, with
 yes from 0.4. `ours` is `coopera.models.learners.habits.Habits`. It chooses what it learns with, and its threshold, on
-held-out days of "train"; the days of "test" only give the figure.
+held-out days of "train"; the days of "test" only give the figure. `gain` holds the ends of a 95 % interval of the
+difference, by a bootstrap over the days of "test".
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ import numpy as np
 
 from benchmarks.outside import is_name, read_json, run
 from coopera.core.errors import ConfigError
+from coopera.evaluation.statistics import bootstrap
 from coopera.models.learners.counts import Bools, Floats, Ints, Observations
 from coopera.models.learners.habits import Habits
 
@@ -37,18 +39,19 @@ MOST_DAYS, MOST_LINES, MOST_THINGS = 2_000, 5_000, 2_000
 _KEY = re.compile(r"([\w-]{1,40})/(train|test)/(\d{3,4})")
 _MIDNIGHT, _LATEST = 1440.0, 2880.0
 _STAGES = (5, 15, 30, 60, 120)  # minutes since an activity began, or ended
+_RESTED = (15, 60, 180, 1000)  # minutes since a thing was put where it lies
 
 
 @dataclass(frozen=True, slots=True)
 class Day:
-    """A day: activities as (name, start, end) and moves as (minute, thing), in order."""
+    """A day: activities as (name, start, end) and moves as (minute, thing, destination), in order."""
 
     schedule: list[tuple[str, float, float]]
-    moves: list[tuple[float, str]]
+    moves: list[tuple[float, str, str]]
 
     def moved(self, hour: int) -> set[str]:
         """Return the things moved in an hour."""
-        return {thing for minute, thing in self.moves if 60 * hour <= minute < 60 * (hour + 1)}
+        return {thing for minute, thing, _ in self.moves if 60 * hour <= minute < 60 * (hour + 1)}
 
     def last(self, hour: int) -> tuple[str, bool, float]:
         """Return the activity last begun by h:00, whether it is over, and the minutes since it began or ended."""
@@ -95,7 +98,7 @@ def read_days(path: Path) -> Households:
                 for parts in days.values()
                 for part in parts.values()
                 for day in part.values()
-                for _, thing in day.moves
+                for _, thing, _ in day.moves
             }
         )
         > MOST_THINGS
@@ -120,7 +123,7 @@ def _day(where: str, value: object) -> Day:
         if line[2] < line[1] or (schedule and line[1] < schedule[-1][2]):
             raise ConfigError(f"{where}: schedule[{place}]: times are out of order, expected each to follow the last")
         schedule.append((line[0], float(line[1]), float(line[2])))
-    moves: list[tuple[float, str]] = []
+    moves: list[tuple[float, str, str]] = []
     for place, line in enumerate(value["moves"]):
         if not (
             isinstance(line, list)
@@ -132,7 +135,7 @@ def _day(where: str, value: object) -> Day:
             raise ConfigError(f"{where}: moves[{place}]: expected [minute, thing, destination], the minute below 1440")
         if moves and line[0] < moves[-1][0]:
             raise ConfigError(f"{where}: moves[{place}]: times are out of order, expected each to follow the last")
-        moves.append((float(line[0]), line[1]))
+        moves.append((float(line[0]), line[1], line[2]))
     return Day(schedule, moves)
 
 
@@ -141,14 +144,13 @@ def _minute(value: object) -> bool:
 
 
 class Codes:
-    """Numbers for the things and activities of the days that were learned from; -1 and 0 are for others."""
+    """Numbers for things, activities and places of the days that were learned from; 0 is another activity or place."""
 
     def __init__(self, days: Iterable[Day]) -> None:
         days = list(days)
-        self.things = sorted({thing for day in days for _, thing in day.moves})
-        self._activities = {
-            name: place + 1 for place, name in enumerate(sorted({a for d in days for a, _, _ in d.schedule}))
-        }
+        self.things = sorted({thing for day in days for _, thing, _ in day.moves})
+        self._activities = _numbered(name for day in days for name, _, _ in day.schedule)
+        self._places = _numbered(place for day in days for _, _, place in day.moves)
 
     def observations(self, days: Sequence[Day]) -> Observations:
         """Return a row per day, hour and thing, in this order."""
@@ -159,10 +161,10 @@ class Codes:
     def _of_day(self, number: int, day: Day) -> tuple[Ints, Ints, Ints, Floats, Bools]:
         count = len(self.things)
         place = {thing: at for at, thing in enumerate(self.things)}
+        moves = [(minute, place[thing], to) for minute, thing, to in day.moves if thing in place]
         moved = np.zeros((24, count), dtype=bool)
-        for minute, thing in day.moves:
-            if thing in place:
-                moved[int(minute // 60), place[thing]] = True
+        for minute, thing, _ in moves:
+            moved[int(minute // 60), thing] = True
         contexts, numbers = [], []
         for hour in HOURS:
             name, over, since = day.last(hour)
@@ -171,9 +173,10 @@ class Codes:
             stage = int(np.digitize(since, _STAGES))
             done = moved[:hour].sum(0)
             ago = np.where(done > 0, 1 + moved[:hour][::-1].argmax(0), 24)
+            lies, rested = self._lie(moves, hour)
             at, before = hour - HOURS[0], np.minimum(done, 2)
-            same = [activity, state * (len(_STAGES) + 1) + stage]
-            columns = [at, state, *same, at * 3 + before, state * 3 + before, state * len(HOURS) + at]
+            columns = [at, state, lies, activity, state * (len(_STAGES) + 1) + stage]
+            columns += [lies * (len(_RESTED) + 1) + rested, at * 3 + before, state * 3 + before]
             contexts.append(np.stack([np.broadcast_to(column, count) for column in columns], 1))
             numbers.append(np.stack([np.full(count, hour), np.full(count, stage), done, ago], 1).astype(float))
         rows = len(HOURS) * count
@@ -184,6 +187,18 @@ class Codes:
             np.concatenate(numbers),
             moved[HOURS[0] : HOURS[-1] + 1].ravel(),
         )
+
+    def _lie(self, moves: Sequence[tuple[float, int, str]], hour: int) -> tuple[Ints, Ints]:
+        """Return where each thing was put last today, by h:00, and the stage of how long it has lain there."""
+        lies, put = np.zeros(len(self.things), np.int64), np.full(len(self.things), -np.inf)
+        for minute, thing, to in moves:
+            if minute < 60 * hour:
+                lies[thing], put[thing] = self._places.get(to, 0), minute
+        return lies, np.digitize(60 * hour - put, _RESTED)
+
+
+def _numbered(names: Iterable[str]) -> dict[str, int]:
+    return {name: number for number, name in enumerate(sorted(set(names)), 1)}
 
 
 def counts(train: Observations, test: Observations) -> Bools:
@@ -205,19 +220,34 @@ def f1(yes: Bools, label: Bools, total: int) -> float:
 
 
 def household(train: Sequence[Day], test: Sequence[Day]) -> dict[str, Any]:
-    """Learn from the days of `train` and return F1 on those of `test`, and which learner was chosen."""
+    """Learn from the days of `train`; return F1 on those of `test`, the interval of the gain, and who speaks."""
     codes = Codes(train)
     total = sum(len(day.moved(hour)) for day in test for hour in HOURS)
     if not codes.things:
-        return {"counts": 0.0, "ours": 0.0, "chosen": "counts"}
+        return {"counts": 0.0, "ours": 0.0, "gain": [0.0, 0.0], "chosen": "counts"}
     seen, asked = codes.observations(train), codes.observations(test)
     habits = Habits()
     habits.train(seen)
-    return {
-        "counts": f1(counts(seen, asked), asked.label, total),
-        "ours": f1(habits.says_yes(asked), asked.label, total),
-        "chosen": habits.chosen.name,
-    }
+    said = {"counts": counts(seen, asked), "ours": habits.says_yes(asked)}
+    found = {name: f1(yes, asked.label, total) for name, yes in said.items()}
+    return found | {"gain": gain(test, asked, said["counts"], said["ours"]), "chosen": habits.chosen.name}
+
+
+def gain(test: Sequence[Day], asked: Observations, than: Bools, yes: Bools) -> list[float]:
+    """Return the ends of a 95 % interval of the gain in F1 over `than`: the days asked about, resampled."""
+    days = []
+    for number, day in enumerate(test):
+        own = asked.day == number
+        total = sum(len(day.moved(hour)) for hour in HOURS)
+        days.append([(2 * (said & asked.label)[own].sum(), said[own].sum() + total) for said in (than, yes)])
+
+    def gained(drawn: Sequence[list[tuple[int, int]]]) -> float:
+        both, all_ = np.sum(drawn, axis=0).T
+        before, after = both / np.maximum(all_, 1)
+        return float(after - before)
+
+    _, low, high = bootstrap(days, gained)
+    return [round(low, 4), round(high, 4)]
 
 
 def measure(asked: argparse.Namespace) -> dict[str, Any]:
@@ -240,8 +270,10 @@ def measure(asked: argparse.Namespace) -> dict[str, Any]:
         found[name] = {}
         for n in wanted:
             found[name][str(n)] = got = household(parts["train"][:n], parts["test"])
+            low, high = got["gain"]
             print(
-                f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f} ({got['chosen']})",
+                f"{name} after {n:3} days: counts {got['counts']:.3f}, ours {got['ours']:.3f},"
+                f" gain {low:+.3f} to {high:+.3f} ({got['chosen']})",
                 flush=True,
             )
     return {"homer": found}

@@ -46,7 +46,7 @@ def still_counts(hours: Uses) -> dict[int, float]:
     days, place = np.unique([clock.day for clock in clocks], return_inverse=True)
     at = np.array([clock.hour for clock in clocks])
     at_kind = at + 24 * np.array([day_type(clock.day) == "weekend" for clock in clocks])
-    contexts = np.stack([at, np.zeros_like(at), at_kind, at_kind], 1)
+    contexts = np.stack([at, np.zeros_like(at), at_kind], 1)
     seen = Observations(
         day=np.repeat(place, len(things)),
         thing=np.tile(np.arange(len(things)), len(hours)),

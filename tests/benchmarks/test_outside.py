@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from benchmarks import homer, outside, pahf, tidybot
+from coopera.models.learners.habits import Habits
 
 SAMPLES = Path(homer.__file__).with_name("samples")
 DAYS, REQUESTS, SCENARIOS = (
@@ -54,8 +55,8 @@ def test_homer_knows_nothing_of_the_hour_that_it_foretells() -> None:
 
 
 def test_counts_are_the_mean_of_the_frequencies_by_hour_and_by_activity_before() -> None:
-    day = homer.Day([("tea", 530, 700)], [(545, "cup"), (610, "cup")])
-    other = homer.Day([("tea", 530, 700)], [(545, "pot")])
+    day = homer.Day([("tea", 530, 700)], [(545, "cup", "table"), (610, "cup", "sink")])
+    other = homer.Day([("tea", 530, 700)], [(545, "pot", "stove")])
     codes = homer.Codes([day, other])
     seen = codes.observations([day, other])
     yes = homer.counts(seen, codes.observations([other]))
@@ -63,9 +64,32 @@ def test_counts_are_the_mean_of_the_frequencies_by_hour_and_by_activity_before()
     assert [(9 + int(at // 2), codes.things[int(at % 2)]) for at in np.flatnonzero(yes)] == [(9, "cup"), (10, "cup")]
 
 
+def test_what_lies_where_it_is_soon_fetched_from_is_expected() -> None:
+    """A cup is washed in the hour after it came into the sink, at whatever hour that is."""
+
+    def day(at: int) -> homer.Day:
+        return homer.Day([("tea", 530, 1400)], [(60 * at, "cup", "sink"), (60 * at + 90, "cup", "shelf")])
+
+    codes = homer.Codes([day(9)])
+    habits = Habits()
+    habits.train(codes.observations([day(at) for at in (9, 11, 13, 15, 17)]))
+    asked = codes.observations([day(12)])
+    assert [9 + int(at) for at in np.flatnonzero(habits.says_yes(asked)) if at > 3] == [13]
+
+
+def test_the_gain_of_a_day_like_any_other_is_certain_and_that_of_unlike_days_is_not() -> None:
+    day = homer.Day([], [(545, "cup", "table")])
+    two = [day, homer.Day([], [(605, "cup", "table")])]
+    for days, spread in ([day, day], False), (two, True):
+        asked = homer.Codes(days).observations(days)
+        nothing, nine = np.zeros(len(asked), bool), asked.contexts[:, 0] == 0
+        low, high = homer.gain(days, asked, nothing, nine)
+        assert (low, high) == ((0.0, 1.0) if spread else (1.0, 1.0))
+
+
 def test_a_thing_never_seen_counts_as_missed() -> None:
-    first = homer.Day([("tea", 530, 700)], [(545, "cup")])
-    second = homer.Day([("tea", 530, 700)], [(545, "cup"), (550, "spoon")])
+    first = homer.Day([("tea", 530, 700)], [(545, "cup", "table")])
+    second = homer.Day([("tea", 530, 700)], [(545, "cup", "table"), (550, "spoon", "cup")])
     assert homer.household([first], [second])["counts"] == pytest.approx(2 / 3, abs=1e-3)
 
 

@@ -1,11 +1,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from coopera.models.learners.counts import PRIOR, Counts, Observations
+from coopera.models.learners.counts import PRIOR, Counts, Observations, log_odds
 from coopera.models.learners.habits import Habits, faded
 
 HOURS, THINGS = 4, 6
@@ -13,9 +14,9 @@ Uses = Callable[[int, int, int], bool]  # day, hour, thing
 
 
 def days(numbers: range, uses: Uses) -> Observations:
-    """Days of four hours and six things; the activity before alternates by day, the third context is both."""
+    """Days of four hours and six things; the activity before alternates by day."""
     rows = [(day, hour, thing) for day in numbers for hour in range(HOURS) for thing in range(THINGS)]
-    contexts = np.array([[hour, day % 2, 2 * hour + day % 2] for day, hour, _ in rows])
+    contexts = np.array([[hour, day % 2] for day, hour, _ in rows])
     return Observations(
         day=np.array([day for day, _, _ in rows]),
         thing=np.array([thing for _, _, thing in rows]),
@@ -43,10 +44,25 @@ def test_a_rate_is_its_count_and_one_observation_of_the_coarser_rate() -> None:
     assert rates.evidence[row].tolist() == [3.0, 4.0, 1.0]  # three such hours, four hours of an odd day, one of both
 
 
-def test_the_finest_rate_is_the_mean_of_the_coarse_ones_where_nothing_like_it_was_met() -> None:
+def test_the_rate_of_a_pair_is_the_mean_of_both_rates_where_the_two_never_met() -> None:
     rates = Counts(days(range(1), at_its_hour)).rates(days(range(1, 2), at_its_hour))
     assert rates.evidence[:, 2].max() == 0
     assert rates.shares[:, 2] == pytest.approx(rates.shares[:, :2].mean(1))
+
+
+def test_each_two_contexts_speak_with_equal_log_odds() -> None:
+    seen, asked = days(range(6), at_its_hour), days(range(6, 7), at_its_hour)
+    three = [replace(one, contexts=np.hstack([one.contexts, one.thing[:, None] % 2])) for one in (seen, asked)]
+    rates = Counts(three[0]).rates(three[1])
+    assert log_odds(rates.probabilities) == pytest.approx(log_odds(rates.shares[:, 3:6]).mean(1))
+    with_fourth = [replace(one, contexts=np.hstack([one.contexts, one.contexts[:, :1]])) for one in three]
+    assert Counts(with_fourth[0]).rates(with_fourth[1]).probabilities == pytest.approx(rates.probabilities)
+
+
+def test_a_single_context_speaks_alone() -> None:
+    seen, asked = (replace(one, contexts=one.contexts[:, :1]) for one in (days(range(3), at_its_hour),) * 2)
+    rates = Counts(seen).rates(asked)
+    assert rates.probabilities == pytest.approx(rates.shares[:, 0])
 
 
 def test_a_day_learned_from_is_foretold_as_if_it_were_still_to_come() -> None:
