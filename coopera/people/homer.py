@@ -6,14 +6,13 @@ the day's number, what is before it the person, and times are minutes of the day
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_json
 from coopera.people.diary import DAY, LATEST, Episode
 from coopera.people.published import PersonDiary, Published, counted, nobody, words
-from coopera.people.rows import read_limited
 
 OUT = "Be out of the home"
 _LEAVING = "leave_home"
@@ -60,10 +59,7 @@ def plain(activity: str) -> str:
 
 
 def _days(path: Path) -> dict[str, Any]:
-    try:
-        data = json.loads(read_limited(path, "JSON file"))
-    except (ValueError, RecursionError) as err:
-        raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
+    data = read_json(path)
     if not isinstance(data, dict):
         raise ConfigError(f"{path}: {_SHAPE}, not a {type(data).__name__}.")
     if not data:

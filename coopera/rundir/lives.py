@@ -146,20 +146,6 @@ def table(figures: Sequence[Figure]) -> list[list[str]]:
     return rows
 
 
-def read_answers(path: Path) -> Any:
-    """Read a JSON file that a form or a user has written.
-
-    Raises:
-        ConfigError: If it cannot be read or is no JSON.
-    """
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as err:
-        raise ConfigError(f"{path}: the file cannot be read ({err.strerror or err}).") from err
-    except (ValueError, RecursionError) as err:
-        raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
-
-
 class _Kind(NamedTuple):
     """What runs must have in common to be analysed together, by the names that people know."""
 

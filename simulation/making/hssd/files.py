@@ -13,8 +13,9 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.simulation.homes.glb import Array
-from coopera.simulation.homes.untrusted import Loose, read_json, read_text
+from coopera.simulation.homes.untrusted import Loose, read_json
 
 Three = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0, le=1e4)]

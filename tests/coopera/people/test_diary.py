@@ -163,10 +163,11 @@ def test_a_wrong_header_or_value_is_refused_in_one_sentence(tmp_path: Path, text
     assert said in str(err.value)
 
 
-def test_a_file_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("coopera.people.rows.LARGEST", 20)
-    with pytest.raises(ConfigError, match="has 42 bytes, and at most 20 are read"):
-        read_log(diary(tmp_path, HEADER + "0,09:00,10:00,Cook\n"))
+def test_a_file_that_is_too_large_is_refused(tmp_path: Path) -> None:
+    path = diary(tmp_path, HEADER)
+    os.truncate(path, 65 * 2**20)
+    with pytest.raises(ConfigError, match="has more than 64 MiB"):
+        read_log(path)
 
 
 def test_an_hour_that_a_diary_leaves_open_is_left_to_the_model(tmp_path: Path) -> None:
