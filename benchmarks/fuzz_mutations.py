@@ -26,11 +26,46 @@ ODD: tuple[Any, ...] = (
 )
 """Values that stand where another was."""
 TOKENS = (
-    *(b"\0", b"\xff", b"\xef\xbb\xbf", b"\r\n", b"\n", b'"', b"'", b",", b";", b"{", b"}", b"[", b"]", b":", b"#", b"-"),
+    *(
+        b"\0",
+        b"\xff",
+        b"\xef\xbb\xbf",
+        b"\r\n",
+        b"\n",
+        b'"',
+        b"'",
+        b",",
+        b";",
+        b"{",
+        b"}",
+        b"[",
+        b"]",
+        b":",
+        b"#",
+        b"-",
+    ),
     *(b"!!set {a}", b"!!int x", b"!!float x", b"!!bool x", b"!!timestamp x", b"!!binary x", b"!!python/name:os.system"),
     *(b"&a [*a]", b"*a", b"<<: {a: 1}", b"0x_", b"2024-13-45", b"1e999", b"NaN", b"9" * 5000, b"[" * 5000, b"%YAML 9"),
-    *(b"? ", b"| \n", b"---\n", b"...\n", b"{{ x }}", b"{% if x %}", b"{% endif %}", b"{{ ''.upper ~ '' }}", b"\\u0000"),
-    *(b"{% for a in intentions %}", b"{% endfor %}", b"|map('map','upper')", b"</think>", b"```json\n", b"-1", b"1e308"),
+    *(
+        b"? ",
+        b"| \n",
+        b"---\n",
+        b"...\n",
+        b"{{ x }}",
+        b"{% if x %}",
+        b"{% endif %}",
+        b"{{ ''.upper ~ '' }}",
+        b"\\u0000",
+    ),
+    *(
+        b"{% for a in intentions %}",
+        b"{% endfor %}",
+        b"|map('map','upper')",
+        b"</think>",
+        b"```json\n",
+        b"-1",
+        b"1e308",
+    ),
 )
 _WORDS = (0, 1, 0x7F, 0x80, 0xFF, 0x7FFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
 
@@ -116,7 +151,18 @@ def in_npy(rng: Random, data: bytes) -> bytes:
         return anywhere(rng, data)
     end = 10 + struct.unpack_from("<H", data, 8)[0]
     kinds = ("'<f8'", "'|O'", "'<U1000000000'", "'|V0'", "'<i2'", "[('a', '<f8')]", "'<M8[s]'", "'>c16'", "3", "'<f4'")
-    shapes = ("(10, 322)", "()", "(-1,)", "(10000000000,)", "(0, 322)", "(2, 322, 1)", "('a',)", "3", "(1e3,)", "(322,)")
+    shapes = (
+        "(10, 322)",
+        "()",
+        "(-1,)",
+        "(10000000000,)",
+        "(0, 322)",
+        "(2, 322, 1)",
+        "('a',)",
+        "3",
+        "(1e3,)",
+        "(322,)",
+    )
     head = f"{{'descr': {rng.choice(kinds)}, 'fortran_order': {rng.choice(('True', 'False', '7'))}, "
     text = anywhere(rng, data[10:end]) if rng.random() < 0.3 else f"{head}'shape': {rng.choice(shapes)}, }}\n".encode()
     version = rng.choice((b"\x01\x00", b"\x01\x00", b"\x02\x00", b"\x03\x00", b"\x09\x00"))

@@ -139,6 +139,8 @@ def compile_template(file: str, body: str, first_line: int) -> Template:
         raise PromptError(f"{file}:{err.lineno}: {_sentence(err)}") from err
     except (RecursionError, SyntaxError, MemoryError) as err:  # SyntaxError: Python's own limit of nesting
         raise PromptError(f"{file}: the template is nested too deeply") from err
+    except _FAILURES as err:  # what it says without any variable was tried already
+        raise PromptError(f"{file}: {_sentence(err)}") from err
     used = {node.name: node.lineno for node in reversed(list(tree.find_all(nodes.Name))) if node.name in names}
     return Template(file, dict(sorted(used.items())), JinjaTemplate.from_code(environment, code, environment.globals))
 

@@ -206,9 +206,7 @@ def _lines(path: Path, needed: Sequence[str], either: Sequence[Sequence[str]] = 
         raise ConfigError(f"{path}: the file must be UTF-8 text ({err.reason}).") from err
 
 
-def _read(
-    path: Path, lines: Iterator[Line], needed: Sequence[str], either: Sequence[Sequence[str]]
-) -> Iterator[_Line]:
+def _read(path: Path, lines: Iterator[Line], needed: Sequence[str], either: Sequence[Sequence[str]]) -> Iterator[_Line]:
     header = [name.strip().upper() for name in next(lines).cells]
     columns = list(needed)
     if either:

@@ -14,6 +14,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_json, read_text
 from coopera.core.foreign.tables import read_table
 from coopera.evaluation.people.studies import Answers, Key, Made, Study
+from coopera.report.policy import content_policy
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 _COLUMNS = ("participant", "question", "answer")
@@ -39,7 +40,12 @@ def render(study: Study) -> str:
         lstrip_blocks=True,
     )
     style, script = ((TEMPLATES / name).read_text(encoding="utf-8") for name in ("study.css", "study.js"))
-    return environment.get_template("study.html.j2").render(study=study, style=Markup(style), script=Markup(script))
+    return environment.get_template("study.html.j2").render(
+        study=study,
+        style=Markup(style),
+        script=Markup(script),
+        policy=content_policy(styles=[style], scripts=[script]),
+    )
 
 
 def read_key(path: Path) -> Key:

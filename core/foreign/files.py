@@ -1,4 +1,4 @@
-"""The one reader of a foreign file's bytes, text and JSON: no more of it than is bearable, and one sentence if wrong."""
+"""The one reader of a foreign file's bytes, text and JSON: no more of it than is bearable, one sentence if wrong."""
 
 from __future__ import annotations
 

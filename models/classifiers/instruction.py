@@ -62,5 +62,5 @@ def read_recipe(path: Path = SHIPPED) -> InstructRecipe:
         first = err.errors(include_url=False)[0]
         field = ".".join(map(str, first["loc"]))
         raise ConfigError(f"{path}: {field}: {first['msg'].lower()}, not {first['input']!r}.") from None
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+    except yaml.YAMLError as err:
         raise ConfigError(f"{path}: the classifier's recipe cannot be read ({' '.join(str(err).split())}).") from err

@@ -28,6 +28,7 @@ _RATES = ("mocap_frame_rate", "mocap_framerate")
 _AMASS = (*_RATES, "root_orient", "pose_body", "poses", "trans")
 _FPS = 30.0
 _MOST_FRAMES = 30_000
+_LARGEST = 1e4  # radians or metres
 _PARENTS = (-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19)
 _PELVIS, _SPINE, _HEAD = 0, 9, 15
 _ARM = {"left": (16, 18), "right": (17, 19)}
@@ -58,8 +59,8 @@ def read_capture(path: Path) -> Capture:
     frames = len(found.turns)
     if not 2 <= frames <= _MOST_FRAMES:
         raise ConfigError(f"The motion file {path} must have from 2 to {_MOST_FRAMES} frames, not {frames}.")
-    if not (np.isfinite(found.turns).all() and np.isfinite(found.translation).all()):
-        raise ConfigError(f"The motion file {path} holds numbers that are not finite.")
+    if not all((np.abs(part) < _LARGEST).all() for part in (found.turns, found.translation)):
+        raise ConfigError(f"The motion file {path} holds numbers that are not finite, or beyond {_LARGEST:g}.")
     return found
 
 

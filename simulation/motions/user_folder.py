@@ -14,8 +14,8 @@ import yaml
 from pydantic import Field, ValidationError
 
 from coopera.core.errors import ConfigError
-from coopera.core.people import Frozen
 from coopera.core.foreign.files import read_text
+from coopera.core.people import Frozen
 from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 from coopera.simulation.motions.library import Hold, Library, Motion, Posture, load_library
 from coopera.simulation.motions.poses import clip
@@ -62,7 +62,7 @@ def _entries(folder: Path, names: set[str]) -> dict[str, Entry]:
     try:
         data: Any = load_yaml(read_text(path, "motion list", MOST_BYTES))
     except yaml.YAMLError as err:
-        raise ConfigError(f"The motion list {path} cannot be read: {err}.") from err
+        raise ConfigError(f"The motion list {path} cannot be read: {' '.join(str(err).split())}.") from err
     if not isinstance(data, dict):
         raise ConfigError(f"The motion list {path} must hold a mapping of file names.")
     found = {}
