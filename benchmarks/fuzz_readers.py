@@ -358,7 +358,7 @@ def _reply(folder: Path) -> Target:
 
 _HOUR, _EVENING = "trace/day-00/hour-09.json", "trace/day-00/evening.json"
 _LOG = b"day,hour,intention,tasks,continues,away\n0,9,Bake bread,get flour; heat the oven,no,no\n0,10,Rest,,yes,\n"
-_DIARY = b"day,start,end,activity,tasks,away\n0,07:30,08:15,Breakfast,make tea,\n0,09:00,12:30,Work,,yes\n0,23:00,25:30,TV,,"
+_DIARY = b"day,start,end,activity,tasks,away\n0,07:30,08:15,Eat,make tea,\n0,09:00,12:30,Work,,yes\n0,23:00,25:30,TV,,"
 _SAID = (
     b'{"day": 0, "hour": 9, "intention": "Bake", "tasks": ["get flour"], "away": false}\n'
     b'{"day": 0, "hour": 10, "intention": "Rest"}\n'

@@ -81,8 +81,9 @@ def _encoded(
 ) -> dict[tuple[int, int], dict[str, list[str]]]:
     return {
         key: {
-            view: [uri for path in thin(files, kept) if (uri := _data_uri(path, small=small))]
+            view: uris
             for view, files in views.items()
+            if (uris := [uri for path in thin(files, kept) if (uri := _data_uri(path, small=small))])
         }
         for key, views in hours.items()
     }
