@@ -18,6 +18,7 @@ import tempfile
 import time
 import traceback
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from random import Random
 from types import FrameType
@@ -25,6 +26,7 @@ from typing import Any, NamedTuple, NoReturn
 
 from benchmarks.fuzz_mutations import blend
 from benchmarks.fuzz_readers import READERS, Reader, Target
+from coopera.core.errors import LONGEST
 
 MOST_SECONDS = 10
 MOST_BYTES = 2**30
@@ -113,7 +115,7 @@ def _child(inputs: _Inputs, reader: Reader, target: Target, notes: Path) -> NoRe
             data = changed(inputs.name, reader, target, inputs.seed, number)
             target.path.write_bytes(data)
             began = time.perf_counter()
-            kind = outcome(target.read, reader.ours)
+            kind = _timed(target.read, reader.ours)
             took = time.perf_counter() - began
             found["slowest"], found["seconds"] = max(found["slowest"], took), found["seconds"] + took
             found["inputs"] += 1
@@ -136,29 +138,33 @@ def changed(name: str, reader: Reader, target: Target, seed: int, number: int) -
     return reader.mutate(rng, chosen) if chosen in target.seeds else chosen
 
 
-def outcome(read: Any, ours: tuple[type[Exception], ...]) -> str:
+def outcome(read: Callable[[], object], ours: tuple[type[Exception], ...]) -> str:
     """What came of a file: read, refused, or the name and place of what else was raised."""
-    faulthandler.dump_traceback_later(_STUCK, exit=True)
-    signal.setitimer(signal.ITIMER_REAL, MOST_SECONDS)
     try:
         read()
     except ours as err:
-        return (
-            "refused" if len(str(err)) <= 2000 and "\n" not in str(err) else f"{type(err).__name__}: no short sentence"
-        )
+        short = len(str(err)) <= LONGEST and "\n" not in str(err)
+        return "refused" if short else f"{type(err).__name__}: no short sentence"
     except KeyboardInterrupt:
         raise
     except BaseException as err:  # noqa: BLE001 - whatever else comes out is what is looked for
-        places = [one for one in traceback.extract_tb(err.__traceback__) if "site-packages" not in one.filename]
-        where = next(
-            (one for one in reversed(places) if "/benchmarks/" not in one.filename and "/lib/" not in one.filename),
-            places[-1],
-        )
-        return f"{type(err).__name__} at {Path(where.filename).name}:{where.lineno} ({str(err)[:80]})"
+        places = traceback.extract_tb(err.__traceback__)
+        own = [one for one in places if "/lib/" not in one.filename and "/benchmarks/" not in one.filename]
+        where = (own or places)[-1]
+        said = " ".join(str(err).split())[:80]
+        return f"{type(err).__name__} at {Path(where.filename).name}:{where.lineno} ({said})"
+    return "read"
+
+
+def _timed(read: Callable[[], object], ours: tuple[type[Exception], ...]) -> str:
+    """The outcome within `MOST_SECONDS`."""
+    faulthandler.dump_traceback_later(_STUCK, exit=True)
+    signal.setitimer(signal.ITIMER_REAL, MOST_SECONDS)
+    try:
+        return outcome(read, ours)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         faulthandler.cancel_dump_traceback_later()
-    return "read"
 
 
 def _too_slow(number: int, frame: FrameType | None) -> None:
