@@ -17,7 +17,6 @@ from benchmarks import fuzz_mutations as change
 from coopera.benchmark.grid_runs import load_grid
 from coopera.config.prices import read_prices
 from coopera.config.schema import load_config
-from coopera.core.asks import ASKS
 from coopera.core.errors import CooperaError
 from coopera.core.foreign.pictures import open_picture
 from coopera.core.replies import FreeMotionReply
@@ -346,9 +345,8 @@ def _few_facts() -> bytes:
 
 
 def _reply(folder: Path) -> Target:
-    prompt = next(name for name, ask in ASKS.items() if ask.reply is FreeMotionReply)
-    wanted = Wanted(FreeMotionReply, examples(prompt)[0])
-    act = {"kind": "free_motion", "target_id": 3, "target": "sofa", "in_hand": "mug", "motion": "sit"}
+    wanted = Wanted(FreeMotionReply, examples("human/tasks_type2")[0])
+    act = {"kind": "free_motion", "target": "armchair_1", "in_hand": "mug", "motion": "sit and read"}
     task = {"thought": "I want to sit.", "reason_human": "", "reason_intentions": "", "reason_tasks": "", "act": act}
     text = json.dumps({"tasks": [task, task, task, task, task]})
     seeds = [f"<think>hm</think>Sure:\n```json\n{text}\n```".encode(), text.replace('"', "'").encode(), text.encode()]

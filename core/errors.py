@@ -16,12 +16,12 @@ LONGEST = 2000
 class CooperaError(Exception):
     """Root of all errors that coopera raises on purpose; its text is one clear sentence.
 
-    What a file holds may stand in it, so that a long text is shown without its middle.
+    What a file holds may stand in it, so that it is shown on one line, and a long one without its middle.
     """
 
     def __str__(self) -> str:
-        """Return the sentence, of at most `LONGEST` characters."""
-        text = super().__str__()
+        """Return the sentence, of at most `LONGEST` characters, on one line."""
+        text = " ".join(super().__str__().splitlines())
         return text if len(text) <= LONGEST else f"{text[: LONGEST - 300]} … {text[-290:]}"
 
     def __reduce__(self) -> tuple[Any, ...]:

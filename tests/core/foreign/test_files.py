@@ -154,6 +154,7 @@ def test_an_error_never_shows_all_of_a_long_text() -> None:
     assert len(said) <= LONGEST
     assert said.startswith("begins")
     assert said.endswith("ends")
+    assert str(ConfigError("a file called\na\u2028b")) == "a file called a b"
 
 
 def test_a_folder_in_place_of_a_file_is_one_sentence(tmp_path: Path) -> None:
