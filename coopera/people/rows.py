@@ -8,9 +8,11 @@ from typing import Any, NamedTuple
 
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import load_json, read_text
-from coopera.core.foreign.tables import MOST_LINES, read_table
+from coopera.core.foreign.tables import read_table
 
 JSONL = (".jsonl", ".ndjson")
+MOST_ROWS = 200_000
+"""Of a log or diary; ten years of hours are 87,600."""
 _FLAGS = {"": None, "yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 
@@ -66,8 +68,14 @@ def _csv(path: Path, text: str) -> Rows:
                 f"{path}, line {number}: expected {len(header)} cells as in the header, found "
                 f"{len(cells)} (a text with a comma in it stands in quotes)."
             )
+        if len(rows) == MOST_ROWS:
+            raise _too_many(path)
         rows.append(Row(number, _plain(dict(zip(header, cells, strict=True)))))
     return Rows(header, True, rows)
+
+
+def _too_many(path: Path) -> ConfigError:
+    return ConfigError(f"{path}: at most {MOST_ROWS} rows of a log are read, and this has more.")
 
 
 def _plain(cells: Mapping[str, str]) -> dict[str, Any]:
@@ -80,8 +88,8 @@ def _plain(cells: Mapping[str, str]) -> dict[str, Any]:
 
 def _jsonl(path: Path, text: str) -> Iterator[Row]:
     lines = text.splitlines()
-    if len(lines) > MOST_LINES:
-        raise ConfigError(f"{path}: at most {MOST_LINES} lines are read, and this has more.")
+    if len(lines) > MOST_ROWS:
+        raise _too_many(path)
     for line, part in enumerate(lines, 1):
         if not part.strip():
             continue

@@ -14,6 +14,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_text
 from coopera.core.foreign.tables import read_table
 from coopera.simulation.homes.glb import Array
+from coopera.simulation.homes.scene import MOST_ROOMS, MOST_THINGS
 from coopera.simulation.homes.untrusted import Loose, read_json
 
 Three = tuple[float, float, float]
@@ -63,7 +64,7 @@ class SceneInstance(Loose):
 
     translation_origin: str | None = None
     stage_instance: Placed | None = None
-    object_instances: list[Instance] = []
+    object_instances: list[Instance] = Field([], max_length=MOST_THINGS)
     articulated_object_instances: list[Any] = []
 
 
@@ -84,7 +85,7 @@ class Region(Loose):
 
     name: str | None = None
     label: str | None = None
-    poly_loop: list[Three] = []
+    poly_loop: list[Three] = Field([], max_length=MOST_THINGS)
     floor_height: float | None = None
     extrusion_height: float | None = None
     min_bounds: Three | None = None
@@ -133,7 +134,7 @@ class Region(Loose):
 
 
 class _Semantics(Loose):
-    region_annotations: list[Region] = []
+    region_annotations: list[Region] = Field([], max_length=MOST_ROOMS)
 
 
 class CatalogueRow(NamedTuple):

@@ -230,3 +230,13 @@ def test_any_text_under_a_diarys_header_is_a_diary_or_is_refused(
         assert read_log(path)
     except ConfigError:
         return
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.jsonl"])
+def test_a_log_of_more_rows_than_a_life_has_is_refused(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("coopera.people.rows.MOST_ROWS", 2)
+    rows = '{"day": 0}\n' * 3 if name.endswith("l") else "day,hour\n" + "0,9\n" * 3
+    with pytest.raises(ConfigError, match="at most 2 rows of a log are read"):
+        read_log(diary(tmp_path, rows, name))

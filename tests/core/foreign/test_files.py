@@ -61,7 +61,7 @@ def test_a_table_has_a_bearable_number_of_lines(monkeypatch: pytest.MonkeyPatch)
     assert [row.cells for row in read_table(Path("a.csv"), "a,b\n\n1,2\n")] == [["a", "b"], ["1", "2"]]
     monkeypatch.setattr("coopera.core.foreign.tables.MOST_LINES", 3)
     with pytest.raises(ConfigError, match="a.csv: at most 3 lines"):
-        read_table(Path("a.csv"), "1\n" * 7)
+        read_table(Path("a.csv"), "1\n" * 4)
 
 
 def test_an_archive_that_unpacks_to_gigabytes_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
