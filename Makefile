@@ -35,7 +35,7 @@ bench: $(READY)
 # (https://osv-vulnerabilities.storage.googleapis.com/PyPI/all.zip): make audit ADVISORIES=all.zip
 audit: $(READY)
 ifdef ADVISORIES
-	$(BIN)/python -m tests.audit constraints.txt $(ADVISORIES)
+	$(BIN)/python -m benchmarks.audit constraints.txt $(ADVISORIES)
 else
 	$(PYTHON) -m venv $(VENV)-audit
 	$(VENV)-audit/bin/python -m pip install -q --disable-pip-version-check pip-audit

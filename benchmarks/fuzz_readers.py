@@ -421,15 +421,7 @@ _STUDY = _yaml(
     }
 )
 _GRID = _yaml(
-    {
-        "methods": ["ours", "random"],
-        "settings": [1, 2],
-        "collabs": [1, 2],
-        "seeds": [0],
-        "days": 2,
-        "humans": ["amara"],
-        "run": {"hours": 3},
-    }
+    {"methods": ["ours", "random"], "settings": ["1", "2"], "collab": [1, 2], "seeds": 2, "days": 2, "hours": 3}
 )
 _PRICES = _yaml({"as_of": "2026-01-01", "currency": "USD", "models": {"openai:gpt-4o": {"in": 2.5, "out": 10}}})
 _ANSWERS = b'{"study": "s1", "participant": "p", "answers": {"A1": "B", "M2": "C"}}'

@@ -1,4 +1,4 @@
-"""Known weaknesses of pinned packages, from a stored list: `python -m tests.audit constraints.txt all.zip`.
+"""Known weaknesses of pinned packages, from a stored list: `python -m benchmarks.audit constraints.txt all.zip`.
 
 The list is OSV's for PyPI, a zip of one JSON file per advisory; it says itself which versions are affected. Ends with 1
 where a pinned version is.
@@ -16,6 +16,8 @@ from typing import NamedTuple
 
 
 class Weakness(NamedTuple):
+    """An advisory that names a pinned version."""
+
     package: str
     version: str
     advisory: str
@@ -23,6 +25,7 @@ class Weakness(NamedTuple):
 
 
 def main() -> int:
+    """Print what is known; 1 where there is something."""
     pinned, advisories = pins(Path(sys.argv[1]).read_text(encoding="utf-8")), Path(sys.argv[2])
     found = sorted(set(weaknesses(pinned, advisories)))
     for one in found:
@@ -39,6 +42,7 @@ def pins(text: str) -> dict[str, str]:
 
 
 def weaknesses(pinned: dict[str, str], advisories: Path) -> Iterator[Weakness]:
+    """The advisories of a stored list that name a pinned version."""
     with zipfile.ZipFile(advisories) as archive:
         for name in archive.namelist():
             data = json.loads(archive.read(name))

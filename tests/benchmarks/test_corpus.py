@@ -9,7 +9,7 @@ import pytest
 from benchmarks.fuzz import outcome
 from benchmarks.fuzz_readers import READERS
 
-CORPUS = Path(__file__).parent / "corpus"
+CORPUS = Path(__file__).parents[1] / "corpus"
 FOLDERS = sorted(path.name for path in CORPUS.iterdir())
 
 
