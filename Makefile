@@ -9,7 +9,7 @@ PIP_ARGS ?=
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: run test check bench clean
+.PHONY: run test check bench audit clean
 
 run: $(READY)
 	$(BIN)/coopera run $(ARGS)
@@ -31,6 +31,17 @@ bench: $(READY)
 	$(BIN)/python -m benchmarks.learning
 	$(BIN)/python -m benchmarks.home
 
+# Known weaknesses of what is installed: asked of the index, or, offline, of a copy of OSV's list
+# (https://osv-vulnerabilities.storage.googleapis.com/PyPI/all.zip): make audit ADVISORIES=all.zip
+audit: $(READY)
+ifdef ADVISORIES
+	$(BIN)/python -m benchmarks.audit constraints.txt $(ADVISORIES)
+else
+	$(PYTHON) -m venv $(VENV)-audit
+	$(VENV)-audit/bin/python -m pip install -q --disable-pip-version-check pip-audit
+	$(VENV)-audit/bin/pip-audit -r constraints.txt --no-deps --disable-pip --progress-spinner off
+endif
+
 # torch comes first and pinned, so that nothing that depends on it brings another build.
 $(READY): pyproject.toml constraints.txt
 	@$(BIN)/python $(WILL_DO) || $(or $(PYTHON),false) $(WILL_DO) || { echo $(NO_PYTHON) >&2; exit 1; }
@@ -40,4 +51,4 @@ $(READY): pyproject.toml constraints.txt
 	touch $(READY)
 
 clean:
-	rm -rf $(VENV)
+	rm -rf $(VENV) $(VENV)-audit

@@ -9,9 +9,20 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
+LONGEST = 2000
+"""Characters of an error's text."""
+
 
 class CooperaError(Exception):
-    """Root of all errors that coopera raises on purpose; its text is one clear sentence."""
+    """Root of all errors that coopera raises on purpose; its text is one clear sentence.
+
+    What a file holds may stand in it, so that it is shown on one line, and a long one without its middle.
+    """
+
+    def __str__(self) -> str:
+        """Return the sentence, of at most `LONGEST` characters, on one line."""
+        text = " ".join(super().__str__().splitlines())
+        return text if len(text) <= LONGEST else f"{text[: LONGEST - 300]} … {text[-290:]}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Cross to another process whole, whatever the constructor of the class asks for."""

@@ -11,6 +11,8 @@ from typing import Any
 
 import yaml
 
+MOST_BYTES = 8 * 2**20
+"""Of a file."""
 MOST_CHARACTERS = 5_000_000
 MOST_VALUES = 500_000
 DEEPEST = 64

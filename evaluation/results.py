@@ -11,11 +11,13 @@ import hashlib
 import io
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import ConfigDict, Field, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.tables import read_table
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Frozen
 from coopera.core.success import Counts
@@ -201,8 +203,8 @@ def from_csv(text: str, source: str) -> list[Row]:
     Raises:
         ConfigError: Naming the file, the line, the column and what was expected.
     """
-    reader = csv.DictReader(io.StringIO(text))
-    names = tuple(reader.fieldnames or ())
+    lines = read_table(Path(source), text)
+    names = tuple(next(lines).cells)
     fixed = COLUMNS if "accepted" in names else COLUMNS[: COLUMNS.index("accepted")]
     further = names[len(fixed) :]
     if names[: len(fixed)] != fixed or len(set(names)) < len(names) or not all(map(_FURTHER.fullmatch, further)):
@@ -211,7 +213,10 @@ def from_csv(text: str, source: str) -> list[Row]:
             f"{source}: the columns must be those of format {FORMAT}; check {', '.join(odd) or 'their order'}."
         )
     rows = []
-    for number, data in enumerate(reader, 2):
+    for number, cells in lines:
+        if len(cells) != len(names):
+            raise ConfigError(f"{source}, line {number}: expected {len(names)} cells, found {len(cells)}.")
+        data = dict(zip(names, cells, strict=True))
         try:
             rows.append(Row.model_validate({name: value for name, value in data.items() if value != ""} | _texts(data)))
         except ValidationError as err:
@@ -224,7 +229,7 @@ def from_csv(text: str, source: str) -> list[Row]:
 
 
 def _texts(data: Mapping[str, Any]) -> dict[str, str]:
-    return {name: data[name] or "" for name in ("activity", "human")}
+    return {name: data[name] for name in ("activity", "human")}
 
 
 def sha256(text: str) -> str:

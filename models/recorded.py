@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections import defaultdict, deque
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from coopera.core.asks import ASKS
 from coopera.core.errors import ConfigError, ModelCallError
+from coopera.core.foreign.files import read_json
 from coopera.core.hour import ModelCall
 from coopera.core.protocols import Role
 from coopera.core.randomness import Address
@@ -47,18 +45,19 @@ class Past:
             raise ConfigError(f"the model recorded:{run} cannot be opened: this folder holds no run with a trace")
         for path in files:
             try:
-                record = json.loads(path.read_text(encoding="utf-8"))
+                record = read_json(path)
                 person, day = str(record["person"]), int(record["episode_day"])
                 calls = [ModelCall.model_validate(call) for call in record["calls"]]
-            except (OSError, ValueError, LookupError, TypeError, ValidationError) as err:
+                roles = [ASKS[call.prompt].role for call in calls]
+                texts = [str(call.messages[0]["content"]).partition(ASKED_FOR)[0] for call in calls]
+            except (ConfigError, ValueError, LookupError, TypeError, OverflowError) as err:
                 raise ConfigError(f"the model recorded:{run} cannot be opened: {path} is damaged") from err
-            for call in calls:
-                said = str(call.messages[0]["content"]).partition(ASKED_FOR)[0]
+            for call, role, said in zip(calls, roles, texts, strict=True):
                 self._calls[person, day, call.node, call.prompt, said].append(call)
                 if call.messages[0].get("images"):
-                    self._seeing.add(ASKS[call.prompt].role)
+                    self._seeing.add(role)
                 if path.stem.startswith("hour") and not call.late:
-                    self._instant.add(ASKS[call.prompt].role)
+                    self._instant.add(role)
 
     def sees(self, role: Role) -> bool:
         """Whether a role's model looked at pictures."""

@@ -7,7 +7,8 @@ or run on and on. What is allowed is listed; everything else is refused when the
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
@@ -24,6 +25,9 @@ MAX_RANGE = 100
 MAX_NUMBER = 1000
 MAX_LOOP_DEPTH = 2
 MAX_RENDERED = 400_000  # characters
+MAX_NODES = 5_000  # parts of a template: a text, a name, a comparison
+MAX_DEPTH = 60  # parts within each other; an if within an if is one deeper
+MAX_SECONDS = 10.0  # for filling it
 
 _FILTERS = frozenset(
     ("abs", "capitalize", "count", "d", "default", "dictsort", "first", "float", "int", "items", "join", "last")
@@ -75,9 +79,11 @@ class Template:
             PromptError: Naming file and line, if a value lacks what the template asks of it or the text grows too long.
         """
         pieces: list[str] = []
-        length = 0
+        length, end = 0, time.monotonic() + MAX_SECONDS
         try:
             for piece in self._code.generate(dict(variables)):
+                if time.monotonic() > end:
+                    raise PromptError(f"{self.file}: the prompt takes longer than {MAX_SECONDS:g} s to fill")
                 pieces.append(piece)
                 length += len(piece)
                 if length > MAX_RENDERED:
@@ -125,23 +131,79 @@ def compile_template(file: str, body: str, first_line: int) -> Template:
     try:
         tree = environment.parse(source, filename=file)
         _refuse_what_is_not_allowed(file, tree)
+        for loop in tree.find_all(nodes.For):
+            loop.body.insert(0, nodes.Output([nodes.TemplateData("")]))  # each round is seen, even if it says nothing
         names = find_undeclared_variables(tree) - set(environment.globals)
         code = environment.compile(tree, name=file, filename=file)
     except TemplateSyntaxError as err:
         raise PromptError(f"{file}:{err.lineno}: {_sentence(err)}") from err
-    except RecursionError as err:
+    except (RecursionError, SyntaxError, MemoryError) as err:  # SyntaxError: Python's own limit of nesting
         raise PromptError(f"{file}: the template is nested too deeply") from err
+    except _FAILURES as err:  # what it says without any variable was tried already
+        raise PromptError(f"{file}: {_sentence(err)}") from err
     used = {node.name: node.lineno for node in reversed(list(tree.find_all(nodes.Name))) if node.name in names}
     return Template(file, dict(sorted(used.items())), JinjaTemplate.from_code(environment, code, environment.globals))
 
 
+class _Method:
+    """A method or function of Python's: it can be called, and never written out, which would show an address."""
+
+    def __init__(self, method: Callable[..., Any]) -> None:
+        self._method = method
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return self._method(*args, **kwargs)
+
+    def __repr__(self) -> str:
+        raise TypeError("a method cannot be written out: call it, with ()")
+
+
+class _Lazy:
+    """What a filter such as `map` gives: it can be walked through, and never written out, as a `_Method`."""
+
+    def __init__(self, values: Iterator[Any]) -> None:
+        self._values = values
+
+    def __iter__(self) -> Iterator[Any]:
+        return self._values
+
+    def __repr__(self) -> str:
+        raise TypeError("what comes one by one cannot be written out: use join or list")
+
+
+class _Environment(ImmutableSandboxedEnvironment):
+    """Jinja's sandbox, in which nothing has an address of Python's in its text."""
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        return _as_said(super().getattr(obj, attribute))
+
+    def getitem(self, obj: Any, argument: Any) -> Any:
+        return _as_said(super().getitem(obj, argument))
+
+
+def _as_said(value: Any) -> Any:
+    return _Method(value) if callable(value) and not isinstance(value, Undefined) else value
+
+
+def _never_an_address(known: Callable[..., Any]) -> Callable[..., Any]:
+    """A filter whose generators, which Jinja would write out as their address, are `_Lazy`."""
+
+    @functools.wraps(known)
+    def never_an_address(*args: Any, **kwargs: Any) -> Any:
+        found = known(*args, **kwargs)
+        return _Lazy(found) if isinstance(found, Iterator) else found
+
+    return never_an_address
+
+
 @functools.cache
 def _environment() -> ImmutableSandboxedEnvironment:
-    environment = ImmutableSandboxedEnvironment(
+    environment = _Environment(
         undefined=StrictUndefined, finalize=_sayable, autoescape=False, trim_blocks=True, lstrip_blocks=True
     )
-    environment.globals = {"range": _short_range}
-    environment.filters = {name: known for name, known in environment.filters.items() if name in _FILTERS} | _OURS
+    environment.globals = {"range": _Method(_short_range)}
+    allowed = {name: known for name, known in environment.filters.items() if name in _FILTERS} | _OURS
+    environment.filters = {name: _never_an_address(known) for name, known in allowed.items()}
     return environment
 
 
@@ -162,16 +224,19 @@ def _short_range(*args: int) -> range:
 
 
 def _refuse_what_is_not_allowed(file: str, tree: nodes.Template) -> None:
-    for node, depth in _walk(tree, 0):
-        if (problem := _problem(node, depth)) is not None:
+    waiting: list[tuple[nodes.Node, int, int]] = [(tree, 0, 0)]
+    count = 0
+    while waiting:
+        node, loops, deep = waiting.pop()
+        loops, count = loops + isinstance(node, nodes.For), count + 1
+        problem = _problem(node, loops)
+        if deep > MAX_DEPTH:
+            problem = f"it is nested more than {MAX_DEPTH} deep"
+        if count > MAX_NODES:
+            problem = f"a template may have {MAX_NODES} parts at most"
+        if problem is not None:
             raise PromptError(f"{file}:{node.lineno}: {problem}")
-
-
-def _walk(node: nodes.Node, depth: int) -> Iterator[tuple[nodes.Node, int]]:
-    depth += isinstance(node, nodes.For)
-    yield node, depth
-    for child in node.iter_child_nodes():
-        yield from _walk(child, depth)
+        waiting += [(child, loops, deep + 1) for child in reversed([*node.iter_child_nodes()])]
 
 
 def _problem(node: nodes.Node, depth: int) -> str | None:

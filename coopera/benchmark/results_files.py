@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,15 +10,18 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from coopera.benchmark.grid_runs import Benchmark, gather
-from coopera.config.files import canonical_json, read_text, reason, write_atomic
+from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.core.errors import ConfigError, RunError
+from coopera.core.foreign.files import read_text
 from coopera.evaluation.analysis import Endpoint
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.results import Card, Row, check_card, from_csv, to_csv, unpaired
 from coopera.evaluation.tables import Table, all_tables
+from coopera.report.policy import content_policy
 from coopera.rundir.trace_files import read_json
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
+_STYLE = re.compile("<style[^>]*>(.*?)</style>", re.DOTALL)
 CARD, TABLE, PARQUET = "results.json", "hours.csv", "hours.parquet"
 
 
@@ -88,9 +92,16 @@ def _page(card: Card, coverage: str, tables: list[Table], figures: dict[str, str
         lstrip_blocks=True,
     )
     # our own SVG, in which matplotlib has escaped every text; the XML prologue has no place within a page
-    drawn = {name: Markup(svg[svg.index("<svg") :]) for name, svg in figures.items()}
+    drawn = {name: svg[svg.index("<svg") :] for name, svg in figures.items()}
+    style = (TEMPLATES / "benchmark.css").read_text(encoding="utf-8")
+    styles = [style, *(found for svg in drawn.values() for found in _STYLE.findall(svg))]
     return environment.get_template("benchmark.html.j2").render(
-        card=card, coverage=coverage, tables=tables, figures=drawn
+        card=card,
+        coverage=coverage,
+        tables=tables,
+        figures={name: Markup(svg) for name, svg in drawn.items()},
+        style=Markup(style),
+        policy=content_policy(styles=styles, coloured=True),
     )
 
 

@@ -10,36 +10,18 @@ from typing import Any
 import yaml
 
 from coopera.core.errors import ConfigError, RunError
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.foreign.files import read_text
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 
 
-def read_text(path: Path, what: str) -> str:
-    """Return a UTF-8 file's text (a byte-order mark is dropped); `what` names the kind of file in errors.
-
-    Raises:
-        ConfigError: If the file is missing, unreadable or not UTF-8; names the file and, for bytes, the line.
-    """
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise ConfigError(f"{path}: there is no such {what}.") from None
-    except OSError as err:
-        raise ConfigError(f"{path}: the {what} cannot be read ({reason(err)}).") from err
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as err:
-        line = data[: err.start].count(b"\n") + 1
-        raise ConfigError(f"{path}, line {line}: the {what} must be UTF-8 text, but byte {err.start} is not.") from err
-
-
-def read_yaml(path: Path, what: str) -> dict[str, Any]:
+def read_yaml(path: Path, what: str, most_bytes: int = MOST_BYTES) -> dict[str, Any]:
     """Return the mapping in a YAML file; an empty file is an empty mapping.
 
     Raises:
         ConfigError: If the file cannot be read or is no YAML mapping; names the file and the line.
     """
     try:
-        data = load_yaml(read_text(path, what))
+        data = load_yaml(read_text(path, what, most_bytes))
     except yaml.MarkedYAMLError as err:
         line = f", line {err.problem_mark.line + 1}" if err.problem_mark else ""
         raise ConfigError(f"{path}{line}: this is not valid YAML ({err.problem}).") from err

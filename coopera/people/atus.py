@@ -14,11 +14,11 @@ not known, and stay open.
 
 from __future__ import annotations
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from itertools import groupby, islice
 from pathlib import Path
 from typing import NamedTuple
@@ -26,12 +26,15 @@ from typing import NamedTuple
 from coopera.config.files import reason
 from coopera.core.clock import WEEKDAYS
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.tables import Line, rows_of
 from coopera.people.diary import DAY, Episode, as_clock
 from coopera.people.published import PersonDiary, Published, counted, nobody, words
 
 FOUR = 4 * 60  # the survey's day begins and ends at 4 am
 _HOME = 1  # TEWHERE
 _WORK, _TRAVEL, _UNKNOWN = "05", "18", "50"
+_LONGEST = 65_536  # characters of a line; the published ones have a few hundred
+_MOST = 1440  # activities of a day: one a minute
 _CODES = (("TRCODEP",), ("TRCODE",), ("TUTIER1CODE", "TUTIER2CODE", "TUTIER3CODE"))
 _TIME = re.compile(r"([01]?[0-9]|2[0-3]):([0-5][0-9])(?::[0-5][0-9])?")
 _CASE = re.compile(r"[0-9A-Za-z_-]{1,40}")
@@ -58,7 +61,9 @@ def read_atus(path: Path, who: str | None, limit: int | None) -> Published:
     open_: Counter[str] = Counter()
     with _lines(path, ("TUCASEID", "TUSTARTTIM", "TUSTOPTIME", "TEWHERE"), _CODES) as lines:
         for case, group in groupby(lines, key=_case):
-            day = list(group)
+            day = list(islice(group, _MOST + 1))
+            if len(day) > _MOST:
+                raise ConfigError(f"{day[-1].where}: the respondent {case} has more than {_MOST} activities in a day.")
             if case in met:
                 raise ConfigError(f"{day[0].where}: the respondent {case} has stood before, with others between.")
             met[case] = None
@@ -191,21 +196,18 @@ def _lines(path: Path, needed: Sequence[str], either: Sequence[Sequence[str]] = 
     """Open a file of the survey and read it line by line: the needed columns, and the first complete of some others."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            yield _read(path, csv.reader(file, strict=True), needed, either)
+            lines = iter(partial(file.readline, _LONGEST), "")
+            yield _read(path, rows_of(path, lines), needed, either)
     except FileNotFoundError:
         raise ConfigError(f"{path}: there is no such file.") from None
     except OSError as err:
         raise ConfigError(f"{path}: the file cannot be read ({reason(err)}).") from err
     except UnicodeDecodeError as err:
         raise ConfigError(f"{path}: the file must be UTF-8 text ({err.reason}).") from err
-    except csv.Error as err:
-        raise ConfigError(f"{path}: this is not comma-separated text ({err}).") from err
 
 
-def _read(
-    path: Path, reader: Iterator[list[str]], needed: Sequence[str], either: Sequence[Sequence[str]]
-) -> Iterator[_Line]:
-    header = [name.strip().upper() for name in next(reader, [])]
+def _read(path: Path, lines: Iterator[Line], needed: Sequence[str], either: Sequence[Sequence[str]]) -> Iterator[_Line]:
+    header = [name.strip().upper() for name in next(lines).cells]
     columns = list(needed)
     if either:
         columns += next((names for names in either if set(names) <= set(header)), either[0])
@@ -214,9 +216,7 @@ def _read(
             found = ", ".join(islice(header, 8)) or "an empty line"
             raise ConfigError(f"{path}, line 1: the column {column} is missing; the header begins with {found}.")
     at = [header.index(column) for column in columns]
-    for number, cells in enumerate(reader, 2):
-        if not any(cell.strip() for cell in cells):
-            continue
+    for number, cells in lines:
         if len(cells) != len(header):
             raise ConfigError(f"{path}, line {number}: expected {len(header)} cells, found {len(cells)}.")
         yield _Line(f"{path}, line {number}", {column: cells[i].strip() for column, i in zip(columns, at, strict=True)})

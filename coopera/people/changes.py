@@ -23,7 +23,7 @@ MOODY = 0.35  # share of days with a mood of their own
 FIRST_DRIFT, LAST_DRIFT, DRIFT_TAKES = 10, 45, 30  # days
 FIRST_TURN, LAST_TURN = 15, 85  # days on which something changes at once
 
-_MOST = 4  # MiB of a file of changes
+_MOST_BYTES = 4 * 2**20  # of a file of changes
 _SAID = {
     "missing": "this is missing",
     "tuple_type": "must be a list",
@@ -94,9 +94,7 @@ def read_changes(path: Path, activities: Collection[str] | None = None) -> _File
     Raises:
         ConfigError: If it cannot be read or is wrong.
     """
-    if path.is_file() and path.stat().st_size > _MOST * 2**20:
-        raise ConfigError(f"{path}: a file of changes has at most {_MOST} MiB, and this one has more.")
-    data = read_yaml(path, "file of changes")
+    data = read_yaml(path, "file of changes", _MOST_BYTES)
     try:
         file = _File.model_validate(data)
     except ValidationError as err:

@@ -6,14 +6,14 @@ the day's number, what is before it the person, and times are minutes of the day
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_json
 from coopera.people.diary import DAY, LATEST, Episode
 from coopera.people.published import PersonDiary, Published, counted, nobody, words
-from coopera.people.rows import read_limited
+from coopera.people.rows import MOST_ROWS
 
 OUT = "Be out of the home"
 _LEAVING = "leave_home"
@@ -28,13 +28,17 @@ def read_homer(path: Path, who: str | None, limit: int | None) -> Published:
             it has ended, a time is out of range, or nobody is there; names the day and the row.
     """
     days: dict[str, dict[int, list[Episode]]] = {}
+    count = 0
     for key, day in _days(path).items():
         person, _, number = key.rpartition("/")
         if not person or not (number.isascii() and number.isdecimal()) or len(number) > 9:
             raise ConfigError(f"{path}: {key!r} must be a person and the number of a day, such as A/train/000.")
         if int(number) in days.setdefault(person, {}):
             raise ConfigError(f"{path}: day {int(number)} of {person} is there twice.")
-        days[person][int(number)] = _episodes(f"{path}, {key}", int(number), day)
+        days[person][int(number)] = episodes = _episodes(f"{path}, {key}", int(number), day)
+        count += len(episodes)
+        if count > MOST_ROWS:
+            raise ConfigError(f"{path}: at most {MOST_ROWS} activities are read, and this has more.")
     if who is not None and who not in days:
         raise nobody(path, who, list(days))
     people = [
@@ -60,10 +64,7 @@ def plain(activity: str) -> str:
 
 
 def _days(path: Path) -> dict[str, Any]:
-    try:
-        data = json.loads(read_limited(path, "JSON file"))
-    except (ValueError, RecursionError) as err:
-        raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
+    data = read_json(path)
     if not isinstance(data, dict):
         raise ConfigError(f"{path}: {_SHAPE}, not a {type(data).__name__}.")
     if not data:

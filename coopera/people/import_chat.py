@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 import threading
 from collections.abc import Callable, Iterator, Mapping
@@ -11,9 +9,10 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from coopera.config.files import read_text
 from coopera.core.big_five_test import ITEMS, TRIALS, score, vote
 from coopera.core.errors import ConfigError, ModelOutputError
+from coopera.core.foreign.files import read_text
+from coopera.core.foreign.tables import read_table
 from coopera.core.people import Persona, PersonId, Provenance, Trial
 from coopera.core.protocols import Ask, Reply
 from coopera.core.randomness import Address, rng_at
@@ -23,7 +22,6 @@ from coopera.people.shipped import write_persona
 COLUMNS = ("user 1 personas", "user 2 personas", "Best Generated Conversation")
 _PROMPTS = ("persona/profile", "persona/big_five", "persona/big_five_test")
 _LONGEST = 20_000  # characters of a persona; the published ones have a few hundred
-_FIELD_LIMIT = 1_000_000  # characters; the published file's longest field has under 10,000
 
 # Used where a persona does not say its own name; drawn by id, so the same row has the same name everywhere.
 # fmt: off
@@ -79,28 +77,20 @@ def read_rows(path: Path) -> list[ConversationRow]:
 
 
 def _rows(text: str, path: Path) -> Iterator[ConversationRow]:
-    csv.field_size_limit(_FIELD_LIMIT)
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
-    number = 0
-    try:
-        header = next(reader, [])
-        at = _positions(header, path)
-        for cells in reader:
-            if not any(cell.strip() for cell in cells):
-                continue
-            number += 1
-            where = f"{path}, line {reader.line_num} (row {number})"
-            if len(cells) != len(header):
-                raise ConfigError(f"{where}: expected {len(header)} columns as in the header, found {len(cells)}.")
-            row = ConversationRow(number, reader.line_num, *(cells[index].strip() for index in at))
-            if not row.profile_1:
-                raise ConfigError(f"{where}: the column {COLUMNS[0]!r} must hold a persona, and it is empty.")
-            if len(row.profile_1) > _LONGEST:
-                size = len(row.profile_1)
-                raise ConfigError(f"{where}: a persona has at most {_LONGEST} characters, and this one has {size}.")
-            yield row
-    except csv.Error as err:
-        raise ConfigError(f"{path}, line {reader.line_num} (row {number + 1}): this is not valid CSV ({err}).") from err
+    lines = read_table(path, text)
+    header = next(lines).cells
+    at = _positions(header, path)
+    for number, (line, cells) in enumerate(lines, 1):
+        where = f"{path}, line {line} (row {number})"
+        if len(cells) != len(header):
+            raise ConfigError(f"{where}: expected {len(header)} columns as in the header, found {len(cells)}.")
+        row = ConversationRow(number, line, *(cells[index].strip() for index in at))
+        if not row.profile_1:
+            raise ConfigError(f"{where}: the column {COLUMNS[0]!r} must hold a persona, and it is empty.")
+        if len(row.profile_1) > _LONGEST:
+            size = len(row.profile_1)
+            raise ConfigError(f"{where}: a persona has at most {_LONGEST} characters, and this one has {size}.")
+        yield row
 
 
 def _positions(header: list[str], path: Path) -> list[int]:

@@ -14,10 +14,11 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.hour import LoggedHour
 from coopera.people.diary import COLUMNS as DIARY
 from coopera.people.diary import hours_of, read_episodes
-from coopera.people.rows import JSONL, Rows, read_limited, read_rows, refuse_missing
+from coopera.people.rows import JSONL, Rows, read_rows, refuse_missing
 
 FIELDS = tuple(LoggedHour.model_fields)
 _NEEDED = ("day", "hour", "intention")
@@ -83,7 +84,7 @@ def looks_like_log(path: Path) -> bool:
         ConfigError: If a CSV cannot be read.
     """
     if path.suffix.lower() == ".csv":
-        header = read_limited(path, "CSV file").partition("\n")[0]
+        header = read_text(path, "CSV file").partition("\n")[0]
         return "day" in [name.strip().lower() for name in header.split(",")]
     return path.suffix.lower() in JSONL
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from coopera.config.files import read_text, reason
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import load_json, read_text
+from coopera.core.foreign.tables import read_table
 
 JSONL = (".jsonl", ".ndjson")
-LARGEST = 64 * 1024**2  # bytes; ten years of diary have a hundredth of it
+MOST_ROWS = 200_000
+"""Of a log or diary; ten years of hours are 87,600."""
 _FLAGS = {"": None, "yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 
@@ -40,28 +39,11 @@ def read_rows(path: Path, what: str) -> Rows:
     Raises:
         ConfigError: If the file cannot be read or is too large, or a line is neither; names the file and the line.
     """
-    text = read_limited(path, what)
+    text = read_text(path, what)
     if path.suffix.lower() in JSONL:
         rows = list(_jsonl(path, text))
         return Rows(list(rows[0].cells) if rows else [], False, rows)
     return _csv(path, text)
-
-
-def read_limited(path: Path, what: str) -> str:
-    """Read a text file of at most 64 MiB.
-
-    Raises:
-        ConfigError: If it cannot be read, or is larger.
-    """
-    try:
-        size = path.stat().st_size
-    except FileNotFoundError:
-        size = 0  # reading it says so
-    except OSError as err:
-        raise ConfigError(f"{path}: the {what} cannot be read ({reason(err)}).") from err
-    if size > LARGEST:
-        raise ConfigError(f"{path}: the {what} has {size} bytes, and at most {LARGEST} are read.")
-    return read_text(path, what)
 
 
 def refuse_missing(path: Path, rows: Rows, needed: tuple[str, ...]) -> None:
@@ -77,22 +59,23 @@ def refuse_missing(path: Path, rows: Rows, needed: tuple[str, ...]) -> None:
 
 
 def _csv(path: Path, text: str) -> Rows:
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    lines = read_table(path, text)
+    header = [name.strip().lower() for name in next(lines).cells]
     rows = []
-    try:
-        header = [name.strip().lower() for name in next(reader, [])]
-        for cells in reader:
-            if not any(cell.strip() for cell in cells):
-                continue
-            if len(cells) != len(header):
-                raise ConfigError(
-                    f"{path}, line {reader.line_num}: expected {len(header)} cells as in the header, found "
-                    f"{len(cells)} (a text with a comma in it stands in quotes)."
-                )
-            rows.append(Row(reader.line_num, _plain(dict(zip(header, cells, strict=True)))))
-    except csv.Error as err:
-        raise ConfigError(f"{path}, line {reader.line_num}: this is not valid CSV ({err}).") from err
+    for number, cells in lines:
+        if len(cells) != len(header):
+            raise ConfigError(
+                f"{path}, line {number}: expected {len(header)} cells as in the header, found "
+                f"{len(cells)} (a text with a comma in it stands in quotes)."
+            )
+        if len(rows) == MOST_ROWS:
+            raise _too_many(path)
+        rows.append(Row(number, _plain(dict(zip(header, cells, strict=True)))))
     return Rows(header, True, rows)
+
+
+def _too_many(path: Path) -> ConfigError:
+    return ConfigError(f"{path}: at most {MOST_ROWS} rows of a log are read, and this has more.")
 
 
 def _plain(cells: Mapping[str, str]) -> dict[str, Any]:
@@ -104,12 +87,15 @@ def _plain(cells: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _jsonl(path: Path, text: str) -> Iterator[Row]:
-    for line, part in enumerate(text.splitlines(), 1):
+    lines = text.splitlines()
+    if len(lines) > MOST_ROWS:
+        raise _too_many(path)
+    for line, part in enumerate(lines, 1):
         if not part.strip():
             continue
         try:
-            row = json.loads(part)
-        except (ValueError, RecursionError) as err:
+            row = load_json(part)
+        except ValueError as err:
             raise ConfigError(f"{path}, line {line}: this is not valid JSON ({err}).") from err
         if not isinstance(row, dict):
             raise ConfigError(f"{path}, line {line}: expected an object with a field for each column.")

@@ -16,7 +16,7 @@ from coopera.core.errors import ConfigError
 from coopera.core.people import Persona, PersonId
 
 SHIPPED = Path(__file__).parents[1] / "personas"
-_LARGEST = 1_000_000  # bytes of a persona file
+_MOST_BYTES = 2**20  # of a persona file
 _ID = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 
 
@@ -59,9 +59,7 @@ def read_persona(path: Path) -> Persona:
     Raises:
         ConfigError: Naming the file, the field and what was expected.
     """
-    if path.is_file() and (size := path.stat().st_size) > _LARGEST:
-        raise ConfigError(f"{path}: profile must be a text of 1 to 20000 characters; the file has {size / 1e6:.1f} MB.")
-    data = read_yaml(path, "persona file")
+    data = read_yaml(path, "persona file", _MOST_BYTES)
     try:
         persona = Persona.model_validate(data)
     except ValidationError as err:

@@ -22,6 +22,7 @@ from coopera.report import charts, learned
 from coopera.report.budget import budget_of, day_rows, in_words
 from coopera.report.differing import as_page, offers_of
 from coopera.report.pictures import Album, embed
+from coopera.report.policy import content_policy
 from coopera.report.progress import figure
 from coopera.report.tree import reasons
 from coopera.rundir.directory import RunDir
@@ -127,6 +128,7 @@ def render(run: RunDir, album: Album) -> str:
     records = told_in_the_evening(run.hours(), evenings.values())
     people = run.people()
     days = _days(run, records, album, people)
+    style, script = ((TEMPLATES / name).read_text(encoding="utf-8") for name in ("style.css", "script.js"))
     return (
         _environment()
         .get_template("report.html.j2")
@@ -153,8 +155,9 @@ def render(run: RunDir, album: Album) -> str:
             },
             album=album,
             offline=_offline_roles(run.info.get("models", {})),
-            style=Markup((TEMPLATES / "style.css").read_text(encoding="utf-8")),
-            script=Markup((TEMPLATES / "script.js").read_text(encoding="utf-8")),
+            style=Markup(style),
+            script=Markup(script),
+            policy=content_policy(styles=[style], scripts=[script], coloured=True),
         )
     )
 

@@ -63,30 +63,44 @@ def _by_view(root: Path, paths: Sequence[str]) -> dict[str, list[Path]]:
     views: dict[str, list[Path]] = defaultdict(list)
     for path in paths:
         pure = PurePosixPath(path)
-        # a trace from elsewhere must not make the report read files outside the run
-        if pure.is_absolute() or ".." in pure.parts or pure.suffix not in _TYPES or not (root / pure).is_file():
-            continue
-        views[pure.stem.partition("-")[0]].append(root / pure)
+        if pure.suffix in _TYPES and _is_of_the_run(root / pure, root):
+            views[pure.stem.partition("-")[0]].append(root / pure)
     return dict(views)
+
+
+def _is_of_the_run(path: Path, root: Path) -> bool:
+    """Whether a path names a picture of the run: one from elsewhere, or a link, must not put other files on a page."""
+    try:
+        return path.resolve().is_relative_to(root.resolve()) and path.is_file()
+    except (OSError, ValueError, RuntimeError):  # such as a name that no file can have, or a link in a circle
+        return False
 
 
 def _encoded(
     hours: Mapping[tuple[int, int], Mapping[str, Sequence[Path]]], kept: int, *, small: bool
 ) -> dict[tuple[int, int], dict[str, list[str]]]:
     return {
-        key: {view: [_data_uri(path, small=small) for path in thin(files, kept)] for view, files in views.items()}
+        key: {
+            view: uris
+            for view, files in views.items()
+            if (uris := [uri for path in thin(files, kept) if (uri := _data_uri(path, small=small))])
+        }
         for key, views in hours.items()
     }
 
 
 def _data_uri(path: Path, *, small: bool) -> str:
+    """A frame as text; empty where it should be made smaller and is no picture."""
     data, kind = path.read_bytes(), _TYPES[path.suffix]
     if small:
-        from PIL import Image  # noqa: PLC0415  (most reports never need it)
+        from coopera.core.foreign.pictures import open_picture  # noqa: PLC0415  (most reports never need it)
 
-        with Image.open(io.BytesIO(data)) as image:
-            image.thumbnail(SMALL)
-            out = io.BytesIO()
-            image.save(out, "WEBP", quality=40)
+        out = io.BytesIO()
+        try:
+            with open_picture(data) as image:
+                image.thumbnail(SMALL)
+                image.save(out, "WEBP", quality=40)
+        except ValueError:
+            return ""
         data, kind = out.getvalue(), "image/webp"
     return f"data:{kind};base64,{base64.b64encode(data).decode()}"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -11,10 +9,12 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from pydantic import ValidationError
 
-from coopera.config.files import canonical_json, read_text, write_output
+from coopera.config.files import canonical_json, write_output
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_json, read_text
+from coopera.core.foreign.tables import read_table
 from coopera.evaluation.people.studies import Answers, Key, Made, Study
-from coopera.rundir.lives import read_answers
+from coopera.report.policy import content_policy
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 _COLUMNS = ("participant", "question", "answer")
@@ -40,7 +40,12 @@ def render(study: Study) -> str:
         lstrip_blocks=True,
     )
     style, script = ((TEMPLATES / name).read_text(encoding="utf-8") for name in ("study.css", "study.js"))
-    return environment.get_template("study.html.j2").render(study=study, style=Markup(style), script=Markup(script))
+    return environment.get_template("study.html.j2").render(
+        study=study,
+        style=Markup(style),
+        script=Markup(script),
+        policy=content_policy(styles=[style], scripts=[script]),
+    )
 
 
 def read_key(path: Path) -> Key:
@@ -50,7 +55,7 @@ def read_key(path: Path) -> Key:
         ConfigError: If it is no key.
     """
     try:
-        return Key.model_validate(read_answers(path))
+        return Key.model_validate(read_json(path))
     except ValidationError as err:
         raise ConfigError(f"{path}: this is no key of a user study ({_first(err)}).") from err
 
@@ -69,30 +74,25 @@ def read_participants(paths: Sequence[Path], study: str) -> list[Answers]:
             found += _from_paper(path, study)
             continue
         try:
-            found.append(Answers.model_validate(read_answers(path)))
+            found.append(Answers.model_validate(read_json(path)))
         except ValidationError as err:
             raise ConfigError(f"{path}: these are no answers to a user study ({_first(err)}).") from err
     return found
 
 
 def _from_paper(path: Path, study: str) -> list[Answers]:
-    reader = csv.reader(io.StringIO(read_text(path, "CSV file"), newline=""), strict=True)
+    rows = read_table(path, read_text(path, "CSV file"))
+    if tuple(name.strip().lower() for name in next(rows).cells) != _COLUMNS:
+        raise ConfigError(f"{path}, line 1: the columns must be {', '.join(_COLUMNS)}.")
     answers: dict[str, dict[str, str]] = {}
-    try:
-        if tuple(name.strip().lower() for name in next(reader, [])) != _COLUMNS:
-            raise ConfigError(f"{path}, line 1: the columns must be {', '.join(_COLUMNS)}.")
-        for cells in reader:
-            if not any(cell.strip() for cell in cells):
-                continue
-            if len(cells) != len(_COLUMNS):
-                raise ConfigError(f"{path}, line {reader.line_num}: expected 3 cells, found {len(cells)}.")
-            participant, question, answer = (cell.strip() for cell in cells)
-            given = answers.setdefault(participant, {})
-            if question in given:
-                raise ConfigError(f"{path}, line {reader.line_num}: {participant!r} answered {question} before.")
-            given[question] = answer.upper()
-    except csv.Error as err:
-        raise ConfigError(f"{path}, line {reader.line_num}: this is not valid CSV ({err}).") from err
+    for line, cells in rows:
+        if len(cells) != len(_COLUMNS):
+            raise ConfigError(f"{path}, line {line}: expected 3 cells, found {len(cells)}.")
+        participant, question, answer = (cell.strip() for cell in cells)
+        given = answers.setdefault(participant, {})
+        if question in given:
+            raise ConfigError(f"{path}, line {line}: {participant!r} answered {question} before.")
+        given[question] = answer.upper()
     return [Answers(study=study, participant=name, answers=given) for name, given in answers.items()]
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -144,20 +143,6 @@ def table(figures: Sequence[Figure]) -> list[list[str]]:
         numbers = [number(one.value), interval, control, number(one.paper), n]
         rows.append([one.check, one.measure, one.variant.replace("_", " "), *numbers, one.note])
     return rows
-
-
-def read_answers(path: Path) -> Any:
-    """Read a JSON file that a form or a user has written.
-
-    Raises:
-        ConfigError: If it cannot be read or is no JSON.
-    """
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as err:
-        raise ConfigError(f"{path}: the file cannot be read ({err.strerror or err}).") from err
-    except (ValueError, RecursionError) as err:
-        raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
 
 
 class _Kind(NamedTuple):

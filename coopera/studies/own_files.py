@@ -7,9 +7,9 @@ from pathlib import Path
 
 from coopera.config.schema import Config, Files
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.people.shipped import read_persona
 from coopera.simulation.homes.scene import Scene, dump_scene, load_scene
-from coopera.simulation.homes.untrusted import read_text
 
 
 def names_file(name: str) -> bool:
@@ -60,7 +60,7 @@ def meshes_of(scene: Scene) -> dict[str, str]:
     """The files of a home's meshes, by their names."""
     names = {part.file for thing in scene.objects for part in thing.mesh}
     folder = scene.meshes
-    return {} if folder is None else {name: read_text(folder / name) for name in sorted(names)}
+    return {} if folder is None else {name: read_text(folder / name, "mesh") for name in sorted(names)}
 
 
 def _ids(field: str, names: Iterable[str], id_in: Callable[[Path], str]) -> dict[str, tuple[str, Path]]:

@@ -5,8 +5,6 @@ A table is a CSV file with the columns hour, category, weighted_pct, stratum and
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -16,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
+from coopera.core.foreign.tables import read_table
 from coopera.core.time_use import CATEGORIES, DAY_TYPES, Category, DayType
 from coopera.evaluation.people.learners import Floats
 
@@ -31,7 +31,7 @@ SOURCE = (
 STRATA = {"O1": "employed singles, 25-44", "O2": "retired couples, 65+"}
 """Who the shipped table's groups of people are."""
 
-_MOST_BYTES = 2_000_000  # some eighty times the shipped table
+_MOST_BYTES = 2 * 2**20  # some eighty times the shipped table
 _STRATUM = re.compile(r"[\w+. -]{1,40}", re.ASCII)
 _HOUR = re.compile(r"[0-9]{1,2}", re.ASCII)
 _SUM_WITHIN = 1.0  # percent by which an hour's shares may miss 100, for rounding
@@ -111,18 +111,13 @@ def read_time_use(path: Path) -> TimeUse:
 
 def _rows(path: Path) -> Iterator[tuple[int, Mapping[str, str]]]:
     """The rows with their line numbers; empty lines are passed over."""
-    reader = csv.reader(io.StringIO(_text(path), newline=""), strict=True)
-    try:
-        header = [name.strip() for name in next(reader, [])]
-        _check_header(path, header)
-        for cells in reader:
-            if not any(cell.strip() for cell in cells):
-                continue
-            if len(cells) != len(header):
-                raise ConfigError(f"{path}, line {reader.line_num}: expected {len(header)} cells, found {len(cells)}.")
-            yield reader.line_num, {name: cell.strip() for name, cell in zip(header, cells, strict=True)}
-    except csv.Error as err:
-        raise ConfigError(f"{path}, line {reader.line_num}: this is not valid CSV ({err}).") from err
+    lines = read_table(path, _text(path))
+    header = [name.strip() for name in next(lines).cells]
+    _check_header(path, header)
+    for number, cells in lines:
+        if len(cells) != len(header):
+            raise ConfigError(f"{path}, line {number}: expected {len(header)} cells, found {len(cells)}.")
+        yield number, {name: cell.strip() for name, cell in zip(header, cells, strict=True)}
 
 
 def _text(path: Path) -> str:
@@ -131,18 +126,7 @@ def _text(path: Path) -> str:
         raise ConfigError(f"{path}: there is no such table of time use (the shipped one is named {names}).")
     if not path.is_file():
         raise ConfigError(f"{path}: a table of time use must be a file.")
-    try:
-        with path.open("rb") as file:
-            data = file.read(_MOST_BYTES + 1)
-    except OSError as err:
-        raise ConfigError(f"{path}: the table of time use cannot be read ({err.strerror or err}).") from err
-    if len(data) > _MOST_BYTES:
-        raise ConfigError(f"{path}: a table of time use has at most {_MOST_BYTES // 1_000_000} MB; this file has more.")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as err:
-        line = data[: err.start].count(b"\n") + 1
-        raise ConfigError(f"{path}, line {line}: the table of time use must be UTF-8 text.") from err
+    return read_text(path, "table of time use", _MOST_BYTES)
 
 
 def _check_header(path: Path, header: list[str]) -> None:

@@ -10,9 +10,10 @@ import yaml
 from pydantic import Field, ValidationError
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.hour import Example
 from coopera.core.people import Frozen
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 
 SHIPPED = Path(__file__).with_name("lora_instruct.yaml")
 TAIL = "### Response:\n"
@@ -53,7 +54,7 @@ def read_recipe(path: Path = SHIPPED) -> InstructRecipe:
         ConfigError: If the file cannot be read or a field is missing, unknown or wrong; names both.
     """
     try:
-        data: Any = load_yaml(path.read_text(encoding="utf-8"))
+        data: Any = load_yaml(read_text(path, "recipe", MOST_BYTES))
         if not isinstance(data, dict):
             raise ConfigError(f"{path}: the classifier's recipe must be a mapping of fields, not {data!r}.")
         return InstructRecipe.model_validate(data)
@@ -61,5 +62,5 @@ def read_recipe(path: Path = SHIPPED) -> InstructRecipe:
         first = err.errors(include_url=False)[0]
         field = ".".join(map(str, first["loc"]))
         raise ConfigError(f"{path}: {field}: {first['msg'].lower()}, not {first['input']!r}.") from None
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+    except yaml.YAMLError as err:
         raise ConfigError(f"{path}: the classifier's recipe cannot be read ({' '.join(str(err).split())}).") from err

@@ -10,10 +10,11 @@ import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.people import Frozen
 from coopera.simulation.bodies.arm import Chain, Joint
 from coopera.simulation.bodies.manipulator import Head, MobileManipulator
-from coopera.simulation.homes.untrusted import read_text, read_yaml
+from coopera.simulation.homes.untrusted import read_yaml
 from coopera.simulation.shapes.rotations import Array
 
 Number: TypeAlias = Annotated[float, Field(strict=True, ge=-100, le=100)]

@@ -12,7 +12,8 @@ from typing import Any
 import yaml
 
 from coopera.core.errors import ConfigError
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.foreign.files import read_text
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 from coopera.simulation.goals.reading import DEEPEST, read_goal
 from coopera.simulation.goals.tree import And, Eventually, Goal, Not, Or, Then, near
 
@@ -28,10 +29,7 @@ def read_goals(path: Path) -> dict[str, Goal]:
     Raises:
         ConfigError: If it cannot be used; names the file, the goal and what was expected.
     """
-    try:
-        return parse_goals(path.read_text(encoding="utf-8"), str(path))
-    except (OSError, UnicodeDecodeError) as err:
-        raise ConfigError(f"The goals {path} cannot be read: {' '.join(str(err).split())}.") from err
+    return parse_goals(read_text(path, "file of goals", MOST_BYTES), str(path))
 
 
 def parse_goals(text: str, source: str) -> dict[str, Goal]:

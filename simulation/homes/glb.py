@@ -6,21 +6,20 @@ format demands for it stands for its corners.
 
 from __future__ import annotations
 
-import io
-import json
 import math
 import struct
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, NoReturn, TypeVar
+from typing import Annotated, Any, NamedTuple, NoReturn, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 from pydantic import ConfigDict, Field, ValidationError
 from pydantic.alias_generators import to_camel
 
 from coopera.core.errors import ConfigError
-from coopera.simulation.homes.untrusted import MOST_BYTES, Loose
+from coopera.core.foreign.files import load_json, read_limited
+from coopera.core.foreign.pictures import open_picture
+from coopera.simulation.homes.untrusted import Loose
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -28,12 +27,18 @@ Item = TypeVar("Item")
 
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _TRIANGLES = 4
-_PICTURES = ("PNG", "JPEG", "WEBP")
 _UNKNOWN: Array = np.full(3, np.nan)
+_FARTHEST = 1e6  # metres from the origin
 _GAMMA = 1 / 2.2
 """Factors are light, colours on a screen are not."""
+MOST_PARTS = 10_000
+"""No more parts (a primitive at a node) are shown by a file."""
+MOST_CORNERS = 2_000_000
+"""No more corners, and no more triangles, have all that a file shows; a mesh counts at each node that shows it."""
+_MOST = 100_000  # entries of each list of the file's description
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
-_Index = Annotated[int, Field(ge=0)]
+_Index = Annotated[int, Field(ge=0, lt=2**40)]
+_Some: TypeAlias = Annotated[list[Item], Field(max_length=_MOST)]
 _Three = tuple[float, float, float]
 
 
@@ -100,11 +105,11 @@ class _Image(_Gltf):
 
 
 class _Mesh(_Gltf):
-    primitives: list[_Primitive] = []
+    primitives: _Some[_Primitive] = []
 
 
 class _Node(_Gltf):
-    children: list[_Index] = []
+    children: _Some[_Index] = []
     mesh: _Index | None = None
     matrix: Annotated[list[float], Field(min_length=16, max_length=16)] | None = None
     translation: _Three = (0.0, 0.0, 0.0)
@@ -124,25 +129,26 @@ class _Node(_Gltf):
 
 
 class _Scene(_Gltf):
-    nodes: list[_Index] = []
+    nodes: _Some[_Index] = []
 
 
 class _Document(_Gltf):
     scene: _Index = 0
-    scenes: list[_Scene] = []
-    nodes: list[_Node] = []
-    meshes: list[_Mesh] = []
-    materials: list[_Material] = []
-    textures: list[_Texture] = []
-    images: list[_Image] = []
-    accessors: list[_Accessor] = []
-    buffer_views: list[_View] = []
-    buffers: list[dict[str, Any]] = []
+    scenes: _Some[_Scene] = []
+    nodes: _Some[_Node] = []
+    meshes: _Some[_Mesh] = []
+    materials: _Some[_Material] = []
+    textures: _Some[_Texture] = []
+    images: _Some[_Image] = []
+    accessors: _Some[_Accessor] = []
+    buffer_views: _Some[_View] = []
+    buffers: _Some[dict[str, Any]] = []
 
 
 def rotation_matrix(wxyz: tuple[float, float, float, float]) -> Array:
-    """Turn a quaternion of any length but 0 into a rotation, shape (3, 3)."""
-    w, x, y, z = np.array(wxyz) / math.sqrt(sum(part * part for part in wxyz))
+    """Turn a quaternion into a rotation, shape (3, 3); not finite where its length is 0 or beyond all numbers."""
+    length = math.hypot(*wxyz)
+    w, x, y, z = np.array(wxyz) / length if length else np.full(4, np.nan)
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -161,18 +167,28 @@ def read_glb(path: Path) -> Mesh:
     return _Reader(path).mesh()
 
 
+def _mean(data: bytes) -> Array:
+    try:
+        with open_picture(data) as one:
+            pixels: Array = np.asarray(one.convert("RGB").resize((8, 8)), dtype=np.float64)
+    except ValueError:
+        return _UNKNOWN
+    return np.asarray(pixels.mean(axis=(0, 1)) / 255)
+
+
 class _Reader:
     """One file being read."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        self._means: dict[int, Array] = {}
         text, self._binary = self._chunks()
         try:
-            self._document = _Document.model_validate(json.loads(text))
+            self._document = _Document.model_validate(load_json(text))
         except ValidationError as err:
             first = err.errors(include_url=False)[0]
             self._refuse(".".join(map(str, first["loc"])) or "JSON", first["msg"])
-        except (ValueError, RecursionError) as err:
+        except ValueError as err:
             self._refuse("JSON", f"is not valid: {err}")
 
     def mesh(self) -> Mesh:
@@ -187,7 +203,7 @@ class _Reader:
         colours: list[Array] = []
         seen: set[int] = set()
         waiting = [(number, np.eye(4), "scenes") for number in reversed(roots)]
-        count = 0
+        count = shown = 0
         while waiting:
             number, above, field = waiting.pop()
             node = self._at(document.nodes, number, field)
@@ -200,7 +216,10 @@ class _Reader:
                 continue
             for n, primitive in enumerate(self._at(document.meshes, node.mesh, f"nodes.{number}.mesh").primitives):
                 points, faces = self._primitive(primitive, f"meshes.{node.mesh}.primitives.{n}")
-                corners.append(points @ here[:3, :3].T + here[:3, 3])
+                shown += len(faces)
+                if len(corners) >= MOST_PARTS or count + len(points) > MOST_CORNERS or shown > MOST_CORNERS:
+                    self._refuse(f"nodes.{number}", f"the file shows more than {MOST_CORNERS} corners or triangles")
+                corners.append(self._moved(points, here, f"nodes.{number}"))
                 triangles.append(faces + count)
                 colours.append(np.tile(self._colour(primitive.material), (len(faces), 1)))
                 count += len(points)
@@ -208,13 +227,15 @@ class _Reader:
             self._refuse("meshes", "shows nothing: there is no mesh with a POSITION in its scene")
         return Mesh(np.concatenate(corners), np.concatenate(triangles), np.concatenate(colours))
 
+    def _moved(self, points: Array, here: Array, field: str) -> Array:
+        with np.errstate(all="ignore"):
+            moved: Array = points @ here[:3, :3].T + here[:3, 3]
+        if not (np.abs(moved) < _FARTHEST).all():
+            self._refuse(field, "moves its mesh out of all bounds")
+        return moved
+
     def _chunks(self) -> tuple[bytes, bytes]:
-        try:
-            if self._path.stat().st_size > MOST_BYTES:
-                self._refuse("length", f"the file may be at most {MOST_BYTES >> 20} MB")
-            data = self._path.read_bytes()
-        except OSError as err:
-            raise ConfigError(f"{self._path}: the file cannot be read ({err.strerror or err}).") from err
+        data = read_limited(self._path)
         if len(data) < 20 or data[:4] != b"glTF":
             self._refuse("header", "must be that of a binary glTF file")
         version, length = struct.unpack_from("<II", data, 4)
@@ -272,12 +293,9 @@ class _Reader:
         if image.buffer_view is None:
             return _UNKNOWN
         view = self._at(self._document.buffer_views, image.buffer_view, f"images.{source}.bufferView")
-        try:
-            with Image.open(io.BytesIO(self._binary[view.byte_offset :][: view.byte_length]), formats=_PICTURES) as one:
-                pixels: Array = np.asarray(one.convert("RGB").resize((8, 8)), dtype=np.float64)
-                return np.asarray(pixels.mean(axis=(0, 1)) / 255)
-        except (OSError, ValueError, Image.DecompressionBombError):
-            return _UNKNOWN
+        if source not in self._means:
+            self._means[source] = _mean(self._binary[view.byte_offset :][: view.byte_length])
+        return self._means[source]
 
     def _corners_of_box(self, accessor: _Accessor, field: str) -> Array:
         if accessor.min is None or accessor.max is None or len(accessor.min) != 3 or len(accessor.max) != 3:
@@ -299,8 +317,9 @@ class _Reader:
         end = start + max(accessor.count - 1, 0) * stride + width * kind.itemsize
         if "uri" in buffer or view.buffer or (accessor.count and end > len(self._binary)):
             self._refuse(field, "must lie within the data of the file itself")
-        rows = np.ndarray((accessor.count, width), kind, self._binary, start, (stride, kind.itemsize))
-        return rows if accessor.count else np.zeros((0, width), kind)
+        if not accessor.count:
+            return np.zeros((0, width), kind)
+        return np.ndarray((accessor.count, width), kind, self._binary, start, (stride, kind.itemsize))
 
     def _at(self, items: list[Item], number: int, field: str) -> Item:
         if number >= len(items):

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.simulation.homes.glb import Array, Indices, Mesh
 from coopera.simulation.homes.scene import MeshPart, rgb_of
-from coopera.simulation.homes.untrusted import read_text
 
 MOST_TRIANGLES = 1500
 _CELLS = (64, 48, 32, 24, 16, 12, 8, 5)
@@ -24,8 +24,9 @@ _SHADES = 8
 _MOST_COLOURS = 6
 
 
-_LINE = re.compile(r"(?:v|vn)(?: -?\d+\.\d+){3}|f(?: \d+//\d+){3}")
-_FACE = re.compile(r"(\d+)//(\d+)")
+_LINE = re.compile(r"(?:v|vn)(?: -?\d{1,6}\.\d{1,6}){3}|f(?: \d{1,6}//\d{1,6}){3}", re.ASCII)
+_FACE = re.compile(r"(\d{1,6})//(\d{1,6})", re.ASCII)
+_MOST_BYTES = 2**20  # of a part's file: `MOST_TRIANGLES` need a fifth of it
 
 
 class Look(NamedTuple):
@@ -62,7 +63,7 @@ def part_file(folder: Path, part: MeshPart) -> Path:
         ConfigError: If it is no file as `look_of` makes them.
     """
     path = folder / part.file
-    lines = read_text(path).splitlines()
+    lines = read_text(path, "mesh", _MOST_BYTES).splitlines()
     points, normals = (sum(line.startswith(f"{kind} ") for line in lines) for kind in ("v", "vn"))
     corners = [(int(point), int(normal)) for line in lines for point, normal in _FACE.findall(line)]
     whole = all(_LINE.fullmatch(line) for line in lines)

@@ -18,6 +18,7 @@ from typing import Annotated, Any, Literal, Self, TypeAlias
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import load_json, read_text
 from coopera.core.household import ObjectMap, SceneId
 from coopera.core.people import Frozen
 from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, merge
@@ -25,6 +26,7 @@ from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, 
 SHIPPED = Path(__file__).parents[1] / "scenes"
 SCHEMA_VERSION = 1
 DOOR_WIDTH = 0.95
+MOST_ROOMS, MOST_THINGS = 500, 10_000
 
 ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
 """What a home may be called."""
@@ -155,10 +157,10 @@ class Scene(Frozen):
     version: Literal[1] = 1
     id: SceneId = Field(pattern=ID)
     seed: int | None = None
-    rooms: list[Room] = Field(min_length=1)
-    doors: list[Doorway] = []
-    objects: list[SceneObject] = []
-    stage: list[Wall] | None = None
+    rooms: list[Room] = Field(min_length=1, max_length=MOST_ROOMS)
+    doors: list[Doorway] = Field([], max_length=MOST_THINGS)
+    objects: list[SceneObject] = Field([], max_length=MOST_THINGS)
+    stage: list[Wall] | None = Field(None, max_length=MOST_THINGS)
     """Where the walls of an imported home stand, which need not be on the edges of its rooms."""
     _meshes: Path | None = PrivateAttr(None)
 
@@ -295,11 +297,7 @@ def load_scene(id_or_path: str | Path, folders: Sequence[Path] = ()) -> Scene:
     path = known.get(given, Path(given))
     if given not in known and not (path.suffix == ".json" or _is_file(path)):
         raise ConfigError(f"There is no scene {given!r}; known are {', '.join(sorted(known)) or 'none'}.")
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, ValueError) as err:  # ValueError: bytes that are no text, or a path that cannot be
-        raise ConfigError(f"The scene file {path} cannot be read: {err}.") from err
-    scene = parse_scene(text, str(path))
+    scene = parse_scene(read_text(path, "scene file"), str(path))
     if given in known and scene.id != given:
         raise ConfigError(f"The scene file {path}, field id: must be {given!r} as the file's name, not {scene.id!r}.")
     return _with_meshes(scene, path)
@@ -332,19 +330,15 @@ def parse_scene(text: str, source: str) -> Scene:
         ConfigError: If the text is no JSON or no home; names the field and what was expected.
     """
     try:
-        return Scene.model_validate(json.loads(text, parse_constant=_refuse))
-    except json.JSONDecodeError as err:
-        raise ConfigError(f"The scene file {source}, line {err.lineno}, is not valid JSON: {err.msg}.") from err
-    except RecursionError as err:
-        raise ConfigError(f"The scene file {source} is not valid JSON: it is nested too deeply.") from err
+        return Scene.model_validate(load_json(text))
     except ValidationError as err:
         first = err.errors()[0]
         field = ".".join(str(part) for part in first["loc"]) or "the whole file"
         raise ConfigError(f"The scene file {source}, field {field}: {first['msg']}.") from err
-
-
-def _refuse(constant: str) -> float:
-    raise json.JSONDecodeError(f"{constant} is no number", "", 0)
+    except json.JSONDecodeError as err:
+        raise ConfigError(f"The scene file {source}, line {err.lineno}, is not valid JSON: {err.msg}.") from err
+    except ValueError as err:
+        raise ConfigError(f"The scene file {source} is not valid JSON: {err}.") from err
 
 
 def dump_scene(scene: Scene) -> str:

@@ -10,7 +10,6 @@ SMPL's own axes are x left, y up, z forward; ours x forward, y left, z up. Motio
 from __future__ import annotations
 
 import math
-import zipfile
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -18,14 +17,18 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.arrays import read_arrays
 from coopera.simulation.bodies.humanoid import ANKLE, SIDES, SIZE, SLICES, STANDING, Side, forward
 from coopera.simulation.shapes.rotations import Array, wrapped
 
 COLUMNS = 322
 """PAPER App. C.2: Motion-X rows are root 3, body 63, hands 90, jaw 3, face 150, translation 3, shape 10."""
 _TRANSLATION = slice(309, 312)
+_RATES = ("mocap_frame_rate", "mocap_framerate")
+_AMASS = (*_RATES, "root_orient", "pose_body", "poses", "trans")
 _FPS = 30.0
 _MOST_FRAMES = 30_000
+_LARGEST = 1e4  # radians or metres
 _PARENTS = (-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19)
 _PELVIS, _SPINE, _HEAD = 0, 9, 15
 _ARM = {"left": (16, 18), "right": (17, 19)}
@@ -51,16 +54,13 @@ def read_capture(path: Path) -> Capture:
     Raises:
         ConfigError: If the file is none of these, damaged, or has values that are not finite.
     """
-    try:
-        data = np.load(path, allow_pickle=False)
-        found = _motion_x(path, data) if isinstance(data, np.ndarray) else _amass(path, dict(data))
-    except (OSError, EOFError, ValueError, zipfile.BadZipFile) as err:
-        raise ConfigError(f"The motion file {path} cannot be read: {err}.") from err
+    data = read_arrays(path, _AMASS)
+    found = _amass(path, data) if isinstance(data, dict) else _motion_x(path, data)
     frames = len(found.turns)
     if not 2 <= frames <= _MOST_FRAMES:
         raise ConfigError(f"The motion file {path} must have from 2 to {_MOST_FRAMES} frames, not {frames}.")
-    if not (np.isfinite(found.turns).all() and np.isfinite(found.translation).all()):
-        raise ConfigError(f"The motion file {path} holds numbers that are not finite.")
+    if not all((np.abs(part) < _LARGEST).all() for part in (found.turns, found.translation)):
+        raise ConfigError(f"The motion file {path} holds numbers that are not finite, or beyond {_LARGEST:g}.")
     return found
 
 
@@ -72,19 +72,20 @@ def _motion_x(path: Path, rows: Array) -> Capture:
 
 
 def _amass(path: Path, data: dict[str, Array]) -> Capture:
-    fps = next((float(data[key]) for key in ("mocap_frame_rate", "mocap_framerate") if key in data), 0.0)
-    if "root_orient" in data and "pose_body" in data:
-        turns = np.concatenate((data["root_orient"], data["pose_body"]), axis=1)
-    else:
-        turns = data.get("poses", np.zeros((0, 0)))[:, :66]
-    where = data.get("trans", np.zeros((0, 3)))
-    if turns.ndim != 2 or turns.shape[1] != 66 or where.shape != (len(turns), 3) or not 1.0 <= fps <= 1000.0:
+    rates = [data[key] for key in _RATES if key in data]
+    fps = float(rates[0].flat[0]) if rates and rates[0].size == 1 else 0.0
+    parts = ("root_orient", "pose_body") if {"root_orient", "pose_body"} <= data.keys() else ("poses",)
+    turns, where = [data.get(part, np.zeros((0, 0))) for part in parts], data.get("trans", np.zeros((0, 3)))
+    frames = len(where) if where.ndim == 2 else 0
+    whole = where.shape == (frames, 3) and all(one.ndim == 2 and len(one) == frames for one in turns)
+    width = sum(one.shape[1] for one in turns) if whole else 0
+    if not whole or not (width == 66 or (width > 66 and parts == ("poses",))) or not 1.0 <= fps <= 1000.0:
         raise ConfigError(
             f"The motion file {path} must be an AMASS file: poses (or root_orient and pose_body), trans, and "
             "mocap_frame_rate."
         )
     step = max(1, round(fps / _FPS))
-    thin = turns[::step].astype(np.float64)
+    thin = np.concatenate([one[::step, :66].astype(np.float64) for one in turns], axis=1)
     return Capture(thin.reshape(-1, 22, 3), where[::step].astype(np.float64), fps / step, "z")
 
 

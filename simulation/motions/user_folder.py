@@ -14,8 +14,9 @@ import yaml
 from pydantic import Field, ValidationError
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.people import Frozen
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 from coopera.simulation.motions.library import Hold, Library, Motion, Posture, load_library
 from coopera.simulation.motions.poses import clip
 
@@ -59,9 +60,9 @@ def _entries(folder: Path, names: set[str]) -> dict[str, Entry]:
     if not path.is_file():
         return {}
     try:
-        data: Any = load_yaml(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
-        raise ConfigError(f"The motion list {path} cannot be read: {err}.") from err
+        data: Any = load_yaml(read_text(path, "motion list", MOST_BYTES))
+    except yaml.YAMLError as err:
+        raise ConfigError(f"The motion list {path} cannot be read: {' '.join(str(err).split())}.") from err
     if not isinstance(data, dict):
         raise ConfigError(f"The motion list {path} must hold a mapping of file names.")
     found = {}
@@ -94,9 +95,6 @@ def _motion(path: Path, entry: Entry, shipped: Library) -> Motion:
 def _caption(path: Path) -> str:
     """The caption in the text beside a clip, else its name in words, in lower case and cut at a word."""
     beside = path.with_suffix(".txt")
-    try:
-        text = beside.read_text(encoding="utf-8").strip().split("\n")[0] if beside.is_file() else ""
-    except (OSError, UnicodeDecodeError) as err:
-        raise ConfigError(f"The caption {beside} cannot be read: {err}.") from err
+    text = read_text(beside, "caption", MOST_BYTES).strip().split("\n")[0] if beside.is_file() else ""
     words = " ".join((text or path.stem.replace("_", " ").replace("-", " ")).lower().rstrip(".").split())
     return words if len(words) <= _LONGEST else words[:_LONGEST].rsplit(" ", 1)[0]

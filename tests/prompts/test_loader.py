@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -167,11 +168,50 @@ def test_a_broken_file_is_refused_with_its_line(tmp_path: Path, was: str, now: s
         "{{ guesses | map('upper') }}",
         "{{ " + "(" * 500 + "1" + ")" * 500 + " }}",
         "{{ guesses | round }}",
+        "{% if guesses %}" * 101 + "x" + "{% endif %}" * 101,
+        "{% if guesses %}{{ 1 + 1 }}{% endif %}" * 900,
     ],
 )
 def test_a_template_cannot_reach_out_or_run_on(tmp_path: Path, attack: str) -> None:
     said = refusal(tmp_path, GOOD + attack + "\n")
     assert said.startswith(":13: ") or "nested too deeply" in said
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "{{ guesses | map('map', 'upper') | list }}",
+        "{{ guesses | map('map', 'upper') | join(', ') }}",
+        "{{ guesses | map('upper') | upper }}",
+        "{{ guesses | reverse | string }}",
+        "{{ guesses | select('string') ~ '' }}",
+        "{{ [guesses[0].upper] }}",
+        "{{ guesses[0].upper ~ '' }}",
+        "{{ guesses[0]['upper'] ~ '' }}",
+        "{{ guesses | map(attribute='upper') | list }}",
+        "{{ guesses | map(attribute='upper') | join }}",
+        "{{ ''.upper ~ '' }}",
+        "{{ range ~ '' }}",
+        "{% for guess in guesses %}{{ loop.cycle ~ '' }}{% endfor %}",
+    ],
+)
+def test_a_template_never_writes_out_where_something_lies_in_memory(tmp_path: Path, attack: str) -> None:
+    assert "cannot be written out" in refusal(tmp_path, GOOD + attack + "\n")
+
+
+def test_a_template_that_says_nothing_for_ever_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    overlay(tmp_path, HEAD + "{% for a in guesses %}{% for b in guesses %}{% endfor %}{% endfor %}\n{{ guesses[0] }}\n")
+    library = PromptLibrary(tmp_path)
+    assert library.render(GUESSES, {"guesses": ["nap"]}).text == "nap"
+    monkeypatch.setattr("coopera.prompts.sandbox.MAX_SECONDS", -1.0)  # of the clock, whatever the machine
+    with pytest.raises(PromptError, match="takes longer than"):
+        library.render(GUESSES, {"guesses": ["nap"]})
+
+
+@pytest.mark.parametrize("value", ["!!bool x", "!!timestamp x", "0x_", "2024-13-45", "[" * 200])
+def test_a_front_matter_of_odd_values_is_refused_with_its_line(tmp_path: Path, value: str) -> None:
+    said = refusal(tmp_path, GOOD.replace("temperature: 0.25", f"temperature: {value}"))
+    assert re.match(r":\d+: ", said)
 
 
 def test_a_prompt_that_grows_without_end_is_cut_short(tmp_path: Path) -> None:

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, ValidationInfo, field_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.lazy import made_once
 from coopera.core.people import TRAITS, BigFive, Frozen
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 from coopera.core.time_use import CATEGORIES, Category
 from coopera.models.offline.household.grammar import Template, cores, parse
 
@@ -288,8 +289,8 @@ def load(path: Path = SHIPPED) -> Household:
         ConfigError: Naming the file, the activity and the field, and what was expected.
     """
     try:
-        data = load_yaml(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+        data = load_yaml(read_text(path, "household file", MOST_BYTES))
+    except yaml.YAMLError as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
     if not isinstance(data, dict):
         found = "nothing" if data is None else f"a {type(data).__name__}"

@@ -11,8 +11,9 @@ import yaml
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, model_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
 from coopera.core.lazy import made_once
-from coopera.core.strict_yaml import load_yaml
+from coopera.core.strict_yaml import MOST_BYTES, load_yaml
 from coopera.models.offline.human.stated import Standing
 
 SHIPPED = Path(__file__).parent / "facts.yaml"
@@ -189,9 +190,9 @@ def load(path: Path = SHIPPED) -> FactsFile:
         ConfigError: Naming the file and the field, and what was expected.
     """
     try:
-        data = load_yaml(path.read_text(encoding="utf-8"))
+        data = load_yaml(read_text(path, "file of facts", MOST_BYTES))
         return FactsFile.model_validate(_with_tuples(data))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
+    except yaml.YAMLError as err:
         raise ConfigError(f"{path}: cannot be read as YAML: {' '.join(str(err).split())}") from err
     except ValidationError as err:
         first = err.errors(include_url=False)[0]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -13,8 +11,11 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_text
+from coopera.core.foreign.tables import read_table
 from coopera.simulation.homes.glb import Array
-from coopera.simulation.homes.untrusted import Loose, read_json, read_text
+from coopera.simulation.homes.scene import MOST_ROOMS, MOST_THINGS
+from coopera.simulation.homes.untrusted import Loose, read_json
 
 Three = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0, le=1e4)]
@@ -63,7 +64,7 @@ class SceneInstance(Loose):
 
     translation_origin: str | None = None
     stage_instance: Placed | None = None
-    object_instances: list[Instance] = []
+    object_instances: list[Instance] = Field([], max_length=MOST_THINGS)
     articulated_object_instances: list[Any] = []
 
 
@@ -84,7 +85,7 @@ class Region(Loose):
 
     name: str | None = None
     label: str | None = None
-    poly_loop: list[Three] = []
+    poly_loop: list[Three] = Field([], max_length=MOST_THINGS)
     floor_height: float | None = None
     extrusion_height: float | None = None
     min_bounds: Three | None = None
@@ -133,7 +134,7 @@ class Region(Loose):
 
 
 class _Semantics(Loose):
-    region_annotations: list[Region] = []
+    region_annotations: list[Region] = Field([], max_length=MOST_ROOMS)
 
 
 class CatalogueRow(NamedTuple):
@@ -223,7 +224,7 @@ class Folder:
         name = Path(placed.template_name).name.removesuffix(".stage_config.json")
         path = self.root / "stages" / f"{name}.stage_config.json"
         try:
-            return self._template(path, CatalogueRow()) if path.exists() else None
+            return self._template(path, CatalogueRow()) if _exists(path) else None
         except FileNotFoundError:
             return None
 
@@ -239,7 +240,7 @@ class Folder:
         file = Path(os.path.normpath(path.parent / asset))
         if not file.is_relative_to(os.path.normpath(self.root)):
             raise ConfigError(f"{path}, field {field}: must name a file within {self.root}, not {asset!r}.")
-        if not file.exists():
+        if not _exists(file):
             raise FileNotFoundError(f"{path}, field {field}: there is no file {file}.")
         return Template(config, file, _frame(config, path), row, "openings" in path.parts)
 
@@ -250,16 +251,23 @@ class Folder:
     @cached_property
     def _rows(self) -> dict[str, CatalogueRow]:
         path = self.root / "semantics" / "objects.csv"
-        table = csv.DictReader(io.StringIO(read_text(path)), restval="")
-        if "id" not in (table.fieldnames or []) or "super_category" not in (table.fieldnames or []):
+        lines = read_table(path, read_text(path))
+        names = next(lines).cells
+        if "id" not in names or "super_category" not in names:
             raise ConfigError(f"{path}, line 1: the columns must have the names id and super_category.")
-        try:
-            return {
-                row["id"]: CatalogueRow(*((row.get(name) or "").strip() for name in CatalogueRow._fields))
-                for row in table
-            }
-        except csv.Error as err:
-            raise ConfigError(f"{path}, line {table.line_num}: this is not valid CSV ({err}).") from err
+        rows = (dict(zip(names, cells, strict=False)) for _, cells in lines)
+        return {
+            row["id"]: CatalogueRow(*(row.get(name, "").strip() for name in CatalogueRow._fields))
+            for row in rows
+            if "id" in row
+        }
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # a name that no file can have
+        return False
 
 
 def _frame(config: AssetConfig, path: Path) -> Array:

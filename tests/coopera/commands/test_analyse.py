@@ -198,7 +198,7 @@ def test_wrong_answers_files_are_refused(coopera: Coopera, tmp_path: Path, name:
 def test_what_is_no_key_is_refused(coopera: Coopera, tmp_path: Path) -> None:
     (tmp_path / "key.json").write_text("[]")
     assert "no key of a user study" in coopera("analyse", "score", "key.json", "p.json").err
-    assert "cannot be read" in coopera("analyse", "score", "nothing.json", "p.json").err
+    assert "there is no such JSON file" in coopera("analyse", "score", "nothing.json", "p.json").err
 
 
 def change(path: Path, old: str, new: str) -> None:

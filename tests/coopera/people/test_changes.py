@@ -114,7 +114,7 @@ WRONG = [
     ("- a", "the file of changes must be a mapping of fields to values, not a list."),
     ("changes: " + "[" * 5000, "it is nested more than 64 deep"),
     ("changes: [" + "{text: a, day: 1}," * 10_001 + "]", "field changes: may have 10000 entries at most."),
-    ("#" * (4 * 2**20 + 1), "a file of changes has at most 4 MiB, and this one has more."),
+    ("#" * (4 * 2**20 + 1), "the file of changes has more than 4 MiB, and at most that many are read."),
 ]  # fmt: skip
 
 

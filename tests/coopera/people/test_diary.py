@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -163,10 +164,11 @@ def test_a_wrong_header_or_value_is_refused_in_one_sentence(tmp_path: Path, text
     assert said in str(err.value)
 
 
-def test_a_file_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("coopera.people.rows.LARGEST", 20)
-    with pytest.raises(ConfigError, match="has 42 bytes, and at most 20 are read"):
-        read_log(diary(tmp_path, HEADER + "0,09:00,10:00,Cook\n"))
+def test_a_file_that_is_too_large_is_refused(tmp_path: Path) -> None:
+    path = diary(tmp_path, HEADER)
+    os.truncate(path, 65 * 2**20)
+    with pytest.raises(ConfigError, match="has more than 64 MiB"):
+        read_log(path)
 
 
 def test_an_hour_that_a_diary_leaves_open_is_left_to_the_model(tmp_path: Path) -> None:
@@ -228,3 +230,13 @@ def test_any_text_under_a_diarys_header_is_a_diary_or_is_refused(
         assert read_log(path)
     except ConfigError:
         return
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.jsonl"])
+def test_a_log_of_more_rows_than_a_life_has_is_refused(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("coopera.people.rows.MOST_ROWS", 2)
+    rows = '{"day": 0}\n' * 3 if name.endswith("l") else "day,hour\n" + "0,9\n" * 3
+    with pytest.raises(ConfigError, match="at most 2 rows of a log are read"):
+        read_log(diary(tmp_path, rows, name))

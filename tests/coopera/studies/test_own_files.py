@@ -104,7 +104,7 @@ def test_check_and_run_refuse_the_same_people(coopera: Cli, tmp_path: Path, text
     ("args", "sentence"),
     [
         (["--humans", "rows.csv"], "rows.csv is a table; `coopera humans import"),
-        (["--scenes", "missing.json"], "missing.json cannot be read"),
+        (["--scenes", "missing.json"], "missing.json: there is no such scene file"),
         (["--scenes", "broken.json"], "broken.json, line 1, is not valid JSON"),
         (["--scenes", "empty.json"], "empty.json, field id: Field required"),
     ],

@@ -162,7 +162,7 @@ def test_yaml_that_holds_no_goals_is_refused_in_a_sentence(text, sentence) -> No
 
 
 def test_a_file_that_is_not_there_is_one_sentence(tmp_path) -> None:
-    with pytest.raises(ConfigError, match="cannot be read"):
+    with pytest.raises(ConfigError, match="there is no such file of goals"):
         read_goals(tmp_path / "none.yaml")
 
 

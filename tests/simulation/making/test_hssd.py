@@ -194,9 +194,9 @@ def _hundred_megabytes(name: str) -> Any:
     [
         (lambda r: (r / _INSTANCE).write_text("{"), _INSTANCE, "line 1"),
         (lambda r: (r / _REGIONS).write_text("[" * 100_000), _REGIONS, "nested too deeply"),
-        (lambda r: (r / _CONFIG).write_bytes(b"\xff\xfe{"), _CONFIG, "cannot be read"),
-        (lambda r: (r / _REGIONS).unlink(), _REGIONS, "No such file"),
-        (lambda r: (r / "semantics/objects.csv").unlink(), "objects.csv", "No such file"),
+        (lambda r: (r / _CONFIG).write_bytes(b"\xff\xfe{"), _CONFIG, "must be UTF-8 text"),
+        (lambda r: (r / _REGIONS).unlink(), _REGIONS, "there is no such JSON file"),
+        (lambda r: (r / "semantics/objects.csv").unlink(), "objects.csv", "there is no such file"),
         (lambda r: (r / "semantics/objects.csv").write_text("what,is\n1,2\n"), "objects.csv", "id and super_category"),
         (lambda r: (r / _CONFIG).unlink(), _INSTANCE, r"object_instances\.1\.template_name: there is no file b2mug"),
         (lambda r: (r / _GLB).unlink(), _CONFIG, "render_asset: there is no file"),
@@ -237,8 +237,8 @@ def _hundred_megabytes(name: str) -> Any:
         (_broken_glb(lambda d: d["accessors"][0].update(count=-1)), _GLB, r"accessors\.0\.count"),
         (_broken_glb(lambda d: d.update(meshes=[])), _GLB, r"nodes\.0\.mesh"),
         (_broken_glb(lambda d: d.update(nodes=[], scenes=[])), _GLB, "shows nothing"),
-        (_hundred_megabytes(_INSTANCE), _INSTANCE, "100 MB, and at most 50 MB"),
-        (_hundred_megabytes("semantics/objects.csv"), "objects.csv", "100 MB, and at most 50 MB"),
+        (_hundred_megabytes(_INSTANCE), _INSTANCE, "more than 64 MiB"),
+        (_hundred_megabytes("semantics/objects.csv"), "objects.csv", "more than 64 MiB"),
     ],
 )
 def test_what_is_wrong_in_a_folder_is_one_sentence_with_file_and_field(
