@@ -6,7 +6,7 @@ import importlib.metadata
 import platform
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -23,6 +23,7 @@ from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim
+from coopera.rundir.crash import in_words
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
 from coopera.rundir.trace_files import read_json, read_record, write_record
@@ -178,8 +179,13 @@ class RunDir:
 
     @property
     def state(self) -> str:
-        """State as run.json has it: running, stopped, failed or finished."""
-        return str(self.info["state"])
+        """How the run stands: running, stopped, failed or finished.
+
+        Where run.json says that it runs and its writer is gone, it has stopped: the process was killed, or found no
+        room to say how it ended.
+        """
+        state = str(self.info["state"])
+        return "stopped" if state == "running" and claim.is_gone(self.info) else state
 
     @property
     def resumable(self) -> bool:
@@ -204,13 +210,8 @@ class RunDir:
         if self._lock is None:
             return
         if self.state == "running":
-            if isinstance(error, (BudgetError, StoppedError, WaitingError)):
-                self._end("stopped", str(error))
-            elif isinstance(error, Exception):
-                what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
-                self._end("failed", what)
-            else:
-                self._end("stopped", "interrupted" if error else "the work ended before it was complete")
+            with suppress(OSError):  # a full disk, say: that this process has ended tells as much
+                self._end(*_how_it_ended(error))
         self._lock.close()
         self._lock = None
 
@@ -363,6 +364,17 @@ class RunDir:
 
     def _day(self, day: int) -> Path:
         return self.root / "trace" / f"day-{day:02d}"
+
+
+def _how_it_ended(error: BaseException | None) -> tuple[str, str]:
+    """The state of a run whose work ended before it was complete, and why."""
+    if isinstance(error, (BudgetError, StoppedError, WaitingError)):
+        return "stopped", str(error)
+    if isinstance(error, BrokenPipeError):
+        return "stopped", "nobody reads its output any more"
+    if error is None or isinstance(error, KeyboardInterrupt | SystemExit | GeneratorExit):
+        return "stopped", "interrupted" if error else "the work ended before it was complete"
+    return "failed", in_words(error)
 
 
 def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:

@@ -34,6 +34,7 @@ from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
+from coopera.rundir.crash import refusals_told
 from coopera.rundir.directory import RunDir
 from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
@@ -114,9 +115,10 @@ def resume_study(
             changes have changed since.
     """
     if (found := RunDir.open(path)).state == "finished":
-        return _completed(found)
+        with refusals_told():
+            return _completed(found)
     check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
-    with RunDir.resume(path, budget) as run:
+    with refusals_told(), RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
@@ -170,7 +172,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
         stop=stop,
         resumable=resumable,
     )
-    with made as run:
+    with refusals_told(), made as run:
         try:
             run.keep_homes(homes)
             with open_services(config, run, run.people(), prompts, logs) as services:
