@@ -42,7 +42,10 @@ def open_client(folder: Path) -> ClientAPI:
     from chromadb.config import Settings  # noqa: PLC0415
 
     with translated(str(folder)):
-        return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+        try:
+            return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+        except AttributeError as err:  # Chroma could not begin, and then stumbled over what it had not begun
+            raise MemoryStoreError(f"{folder}: the memory store cannot be opened: {err.__context__ or err}") from err
 
 
 def connect(url: str) -> ClientAPI:

@@ -319,9 +319,10 @@ class RunDir:
         return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
 
     def note_spent(self, spent: Spent) -> None:
-        """Keep what was spent in run.json."""
+        """Keep what was spent in run.json; where that cannot be written, the trace shows at least most of it."""
         self.info["spent"] = spent.model_dump()
-        self._write_info()
+        with suppress(OSError):  # what ended the work is to be told, not this
+            self._write_info()
 
     # The end
 
