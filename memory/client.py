@@ -44,8 +44,17 @@ def open_client(folder: Path) -> ClientAPI:
     with translated(str(folder)):
         try:
             return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
-        except AttributeError as err:  # Chroma could not begin, and then stumbled over what it had not begun
-            raise MemoryStoreError(f"{folder}: the memory store cannot be opened: {err.__context__ or err}") from err
+        except BaseException:
+            _forget(str(folder))
+            raise
+
+
+def _forget(folder: str) -> None:
+    """Have Chroma forget what it could not begin: it keeps it, and would give it to whoever opens the folder next."""
+    from chromadb.api.shared_system_client import SharedSystemClient  # noqa: PLC0415 - heavy
+
+    SharedSystemClient._identifier_to_system.pop(folder, None)
+    SharedSystemClient._identifier_to_refcount.pop(folder, None)
 
 
 def connect(url: str) -> ClientAPI:

@@ -62,20 +62,45 @@ def test_a_worker_that_is_killed_costs_its_job_and_another_does_it_again(tmp_pat
     assert not list(tmp_path.glob("late*"))
 
 
-def first_then_kill_the_other(errand: Errand) -> None:
-    """The first errand kills the process that has none yet; the second needs one."""
+def first_kill_the_idle(errand: Errand) -> None:
+    """An errand with deaths first kills the process that has none, and waits until that is dead."""
     if errand.deaths:
-        parent = os.getppid()
-        for other in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
-            if int(other) != os.getpid() and b"spawn_main" in Path(f"/proc/{other}/cmdline").read_bytes():
-                os.kill(int(other), signal.SIGKILL)
+        [idle] = [other for other in _siblings() if other != os.getpid()]
+        os.kill(idle, signal.SIGKILL)
+        while _state(idle) != "Z":
+            os.sched_yield()
     go(Errand(errand.name, errand.folder, errand.after))
+
+
+def _siblings() -> list[int]:
+    """The worker processes of this one's parent."""
+    every = [int(path.name) for path in Path("/proc").iterdir() if path.name.isdigit()]
+    return [one for one in every if _fields(one)[1:2] == [str(os.getppid())] and b"spawn_main" in _command(one)]
+
+
+def _fields(process: int) -> list[str]:
+    """State, parent and so on of a process; nothing of one that is gone."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return []
+
+
+def _state(process: int) -> str:
+    return (_fields(process) or ["Z"])[0]
+
+
+def _command(process: int) -> bytes:
+    try:
+        return Path(f"/proc/{process}/cmdline").read_bytes()
+    except OSError:
+        return b""
 
 
 def test_a_worker_that_is_killed_while_it_has_nothing_to_do_is_replaced(tmp_path: Path) -> None:
     folder = str(tmp_path)
     jobs = [Errand("a", folder, deaths=1), Errand("b", folder, after="a"), Errand("c", folder, after="a")]
-    ended = {end.job.name: end.error for end in work_through(jobs, first_then_kill_the_other, workers=2)}
+    ended = {end.job.name: end.error for end in work_through(jobs, first_kill_the_idle, workers=2)}
     assert ended == {"a": None, "b": None, "c": None}
 
 
