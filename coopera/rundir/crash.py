@@ -19,7 +19,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from coopera.config.files import reason
-from coopera.core.errors import ConfigError, CooperaError, RunError
+from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
 from coopera.core.setting import default_data_dir
 from coopera.core.version import __version__
 
@@ -56,6 +56,17 @@ def in_words(err: BaseException) -> str:
     if isinstance(err, sqlite3.Error):
         return f"A database cannot be used: {err}."
     return " ".join(f"{type(err).__name__}: {err}".split())
+
+
+def how_it_ended(error: BaseException | None) -> tuple[str, str]:
+    """The state of a run whose work ended before it was complete, and why."""
+    if isinstance(error, (BudgetError, StoppedError, WaitingError)):
+        return "stopped", str(error)
+    if isinstance(error, BrokenPipeError):
+        return "stopped", "nobody reads its output any more"
+    if error is None or isinstance(error, KeyboardInterrupt | SystemExit | GeneratorExit):
+        return "stopped", "interrupted" if error else "the work ended before it was complete"
+    return "failed", in_words(error)
 
 
 @contextmanager

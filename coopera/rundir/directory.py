@@ -15,7 +15,7 @@ from typing import IO, Any, Self
 from coopera.config.files import canonical_json, reason, write_atomic, write_output
 from coopera.config.prices import Prices, read_prices
 from coopera.config.schema import Config, load_config
-from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
+from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Persona
 from coopera.core.version import __version__
@@ -23,7 +23,7 @@ from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim
-from coopera.rundir.crash import in_words
+from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
 from coopera.rundir.trace_files import read_json, read_record, write_record
@@ -211,7 +211,7 @@ class RunDir:
             return
         if self.state == "running":
             with suppress(OSError):  # a full disk, say: that this process has ended tells as much
-                self._end(*_how_it_ended(error))
+                self._end(*how_it_ended(error))
         self._lock.close()
         self._lock = None
 
@@ -365,17 +365,6 @@ class RunDir:
 
     def _day(self, day: int) -> Path:
         return self.root / "trace" / f"day-{day:02d}"
-
-
-def _how_it_ended(error: BaseException | None) -> tuple[str, str]:
-    """The state of a run whose work ended before it was complete, and why."""
-    if isinstance(error, (BudgetError, StoppedError, WaitingError)):
-        return "stopped", str(error)
-    if isinstance(error, BrokenPipeError):
-        return "stopped", "nobody reads its output any more"
-    if error is None or isinstance(error, KeyboardInterrupt | SystemExit | GeneratorExit):
-        return "stopped", "interrupted" if error else "the work ended before it was complete"
-    return "failed", in_words(error)
 
 
 def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
