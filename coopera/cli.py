@@ -5,11 +5,14 @@ from __future__ import annotations
 import atexit
 import gc
 import logging
+import os
+import select
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -27,9 +30,11 @@ from coopera.commands import (
     scenes,
     sharing,
 )
-from coopera.core.errors import ConfigError, CooperaError, OldWordWarning
+from coopera.core.errors import OldWordWarning
 from coopera.core.naming import printable
 from coopera.core.version import __version__
+
+STOPPED = 130  # what shells give a program that Ctrl-C ended
 
 app = typer.Typer(
     name="coopera",
@@ -76,7 +81,7 @@ app.add_typer(analyse.app, name="analyse")
 def main(args: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 done, 1 the work failed, 2 the input is wrong, 130 stopped.
 
-    What is wrong is said in one sentence on standard error.
+    What is wrong is said in one sentence on standard error; what nobody foresaw stands in a log file that it names.
     """
     _log_plainly()
     atexit.register(gc.freeze)  # to look for garbage once more would hold the end up by a second
@@ -98,18 +103,55 @@ def _log_plainly() -> None:
 
 
 def _run(args: list[str]) -> int:
+    streams = sys.stdout, sys.stderr
     try:
         code = app(args, prog_name="coopera", standalone_mode=False)
-    except ConfigError as err:
-        return _fail(str(err), 2)
-    except CooperaError as err:
-        return _fail(str(err), 1)
+        for stream in _streams():  # what they refuse is to show here, not when Python ends
+            stream.flush()
     except typer.TyperException as err:
         return _fail(err.format_message(), 2)
-    except BrokenPipeError:  # the reader of a pipe, such as `head`, has seen enough
-        sys.stderr.close()
-        return 1
+    except (KeyboardInterrupt, typer.Abort):
+        return _fail("", STOPPED)
+    except SystemExit as err:
+        if not isinstance(err.__context__, BrokenPipeError):
+            raise
+        sys.stdout, sys.stderr = streams  # Typer takes every broken pipe for one of these, and replaces them
+        return _fail_with(err.__context__, args)
+    except BaseException as err:  # noqa: BLE001 - whatever it is, it is told in one sentence
+        return _fail_with(err, args)
     return code if isinstance(code, int) else 0
+
+
+def _fail_with(err: BaseException, args: list[str]) -> int:
+    if isinstance(err, BrokenPipeError) and any(map(_unread, _streams())):
+        return _fail("", 1)  # the reader of a pipe, such as `head`, has seen enough
+    from coopera.rundir.crash import told
+
+    return _fail(*told(err, args))
+
+
+def _streams() -> list[TextIO]:
+    """Standard output and standard error, as far as there are any."""
+    return [stream for stream in (sys.stdout, sys.stderr) if stream is not None and not stream.closed]
+
+
+def _unread(stream: TextIO) -> bool:
+    """Whether nobody is at the other end of a stream any more."""
+    with suppress(OSError, ValueError):
+        poller = select.poll()
+        poller.register(stream.fileno(), 0)
+        return any(event & (select.POLLERR | select.POLLHUP) for _, event in poller.poll(0))
+    return False
+
+
+def _silence() -> None:
+    """Have what is still to be written go nowhere, so that Python does not fail with it when it ends."""
+    for stream in _streams():
+        try:
+            stream.flush()
+        except (OSError, ValueError):
+            with suppress(OSError, ValueError), open(os.devnull, "w", encoding="utf-8") as nowhere:
+                os.dup2(nowhere.fileno(), stream.fileno())
 
 
 def _say_warning(usual: Callable[..., None], message: Warning | str, category: type[Warning], *where: Any) -> None:
@@ -121,8 +163,11 @@ def _say_warning(usual: Callable[..., None], message: Warning | str, category: t
 
 
 def _fail(sentence: str, code: int) -> int:
-    if sentence:
-        typer.echo(printable(f"coopera: {' '.join(sentence.split())}"), err=True)
+    with suppress(OSError, ValueError):
+        if sentence:
+            readable = " ".join(sentence.split()).encode(errors="backslashreplace").decode()
+            typer.echo(printable(f"coopera: {readable}"), err=True)
+    _silence()
     return code
 
 

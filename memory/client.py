@@ -42,7 +42,19 @@ def open_client(folder: Path) -> ClientAPI:
     from chromadb.config import Settings  # noqa: PLC0415
 
     with translated(str(folder)):
-        return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+        try:
+            return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
+        except BaseException:
+            _forget(str(folder))
+            raise
+
+
+def _forget(folder: str) -> None:
+    """Have Chroma forget what it could not begin: it keeps it, and would give it to whoever opens the folder next."""
+    from chromadb.api.shared_system_client import SharedSystemClient  # noqa: PLC0415 - heavy
+
+    SharedSystemClient._identifier_to_system.pop(folder, None)
+    SharedSystemClient._identifier_to_refcount.pop(folder, None)
 
 
 def connect(url: str) -> ClientAPI:

@@ -93,7 +93,7 @@ class Store:
                     raise DamagedMemoryError(str(folder), reason, interrupted=not was_closed(folder))
             unseal(folder)
             return cls(open_client(folder), str(folder), folder, holding)
-        except MemoryStoreError:
+        except BaseException:
             holding.close()
             raise
 

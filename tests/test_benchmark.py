@@ -9,10 +9,14 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from coopera.benchmark.grid_runs import do_run
 from coopera.cli import main
+from coopera.core.errors import RunError
+from coopera.rundir.claim import lock
 
 GRID = ["--methods", "ours,frequency_prior", "--settings", "1", "--episodes", "2", "--days", "2", "--hours", "2"]
 RESULTS = ("hours.csv", "tables.md", "tables.tex", "figures/breakdown_predicate.svg")
@@ -69,6 +73,26 @@ def test_wrong_input_is_refused_before_anything_is_written(
     assert main(["benchmark", *flags, "--out", str(tmp_path / "out")]) == 2
     assert sentence in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_benchmark_in_a_folder_in_which_another_one_works_is_refused_and_touches_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    live = tmp_path / "out" / "runs" / "live"
+    live.mkdir(parents=True)
+    (tmp_path / "out" / "grid.yaml").write_text("")
+    with lock(tmp_path / "out", "benchmark"):
+        assert main(["benchmark", "--episodes", "1", "--days", "1", "--out", str(tmp_path / "out")]) == 1
+    assert "another process is writing this benchmark; stop it first" in capsys.readouterr().err
+    assert live.is_dir()
+
+
+def test_a_run_that_a_worker_elsewhere_still_writes_is_not_removed(tmp_path: Path) -> None:
+    job = SimpleNamespace(folder=tmp_path / "run")
+    job.folder.mkdir()
+    with lock(job.folder), pytest.raises(RunError, match="another process is writing this run"):
+        do_run(job)
+    assert job.folder.is_dir()
 
 
 def test_a_misspelt_field_of_a_grid_file_is_named_with_its_file(

@@ -7,8 +7,8 @@ import socket
 from collections.abc import Generator, Sequence
 from typing import Any
 
-from coopera.core.errors import ConfigError, CooperaError
-from coopera.studies.workers import TRIES, Done, Queue, Work
+from coopera.core.errors import ConfigError, RunError
+from coopera.studies.workers import TRIES, Done, Queue, Work, attempt
 
 _PATIENCE = 10.0  # seconds
 
@@ -27,6 +27,7 @@ def work_on_ray(
 
     Raises:
         ConfigError: If Ray is not installed or the cluster cannot be reached.
+        RunError: If the cluster goes away meanwhile.
     """
     try:
         import ray  # noqa: PLC0415 - an optional extra
@@ -47,7 +48,7 @@ def work_on_ray(
     try:
         resources: Any = ray.cluster_resources  # untyped in ray
         slots = max(1, int(resources().get("CPU", 1)))
-        task = ray.remote(num_cpus=1, max_retries=TRIES - 1)(_try)
+        task = ray.remote(num_cpus=1, max_retries=TRIES - 1)(attempt)
         queue, running = Queue(list(jobs)), dict[Any, Any]()
         while queue.jobs or running:
             queue.end_at(deadline)
@@ -55,7 +56,7 @@ def work_on_ray(
                 running[task.remote(work, job)] = job
             if not running:
                 break
-            [ended], _ = ray.wait(list(running))
+            [ended], _ = _heard(ray, list(running), address)
             job = running.pop(ended)
             try:
                 error = ray.get(ended)
@@ -66,6 +67,17 @@ def work_on_ray(
         ray.shutdown()
 
 
+def _heard(ray: Any, running: list[Any], address: str) -> tuple[list[Any], list[Any]]:
+    """The first task that has ended, whether its process lives or not, and the others."""
+    try:
+        ended: tuple[list[Any], list[Any]] = ray.wait(running)
+    except (ray.exceptions.RayError, ConnectionError) as err:
+        raise RunError(
+            f"--ray {address}: the cluster is gone ({type(err).__name__}); run the same command again."
+        ) from err
+    return ended
+
+
 def _refuse_silent(address: str) -> None:
     """Refuse a host and port at which nothing answers: Ray itself would go on trying for minutes."""
     host, _, port = address.removeprefix("ray://").rpartition(":")
@@ -74,11 +86,3 @@ def _refuse_silent(address: str) -> None:
             socket.create_connection((host, int(port)), timeout=_PATIENCE).close()
         except (OSError, OverflowError) as err:
             raise ConfigError(f"--ray {address}: nothing answers there ({err}).") from None
-
-
-def _try(work: Work, job: Any) -> str | None:
-    try:
-        work(job)
-    except (CooperaError, OSError) as err:
-        return str(err) or type(err).__name__
-    return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
@@ -21,6 +22,7 @@ from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
+from coopera.rundir import claim
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json
 from coopera.studies.catalogues import load_catalogues, resolve
@@ -93,12 +95,28 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
     return Benchmark(out, grid, jobs)
 
 
-def claim_folder(bench: Benchmark) -> None:
-    """Make the folder, or go on in it if it holds the same grid.
+@contextmanager
+def claimed_folder(bench: Benchmark) -> Iterator[None]:
+    """Make the folder, or go on in it if it holds the same grid; while entered, nobody else works in it.
 
     Raises:
         ConfigError: If it cannot be written or holds something else.
+        RunError: If another process works in it.
     """
+    if not (bench.root / "grid.yaml").is_file() and bench.root.is_dir() and set(os.listdir(bench.root)) - {"lock"}:
+        raise ConfigError(f"out: {bench.root} is not empty and holds no benchmark; choose another folder.")
+    try:
+        bench.root.mkdir(parents=True, exist_ok=True)
+        lock = claim.lock(bench.root, "benchmark")
+    except OSError as err:
+        raise ConfigError(f"out: {bench.root} cannot be written ({reason(err)}).") from err
+    with lock:
+        _note_grid(bench)
+        yield
+
+
+def _note_grid(bench: Benchmark) -> None:
+    """Write grid.yaml, unless the folder holds the runs of a grid that differs in what may not."""
     path = bench.root / "grid.yaml"
     shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
@@ -115,8 +133,6 @@ def claim_folder(bench: Benchmark) -> None:
         before = Grid().model_dump(mode="json", include={"late_days", "early_days"}) | before
         if odd := [name for name in fixed if before.get(name) != now.get(name)]:
             raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
-    elif bench.root.is_dir() and any(bench.root.iterdir()):
-        raise ConfigError(f"out: {bench.root} is not empty and holds no benchmark; choose another folder.")
     try:
         write_atomic(path, text)
     except OSError as err:
@@ -152,7 +168,7 @@ def do_run(job: RunJob) -> None:
     if _is_done(job):
         return
     if not (job.folder / "run.json").is_file() or RunDir.open(job.folder).state != "finished":
-        shutil.rmtree(job.folder, ignore_errors=True)  # what was left by a start that was stopped
+        _clear(job.folder)
         run_study(job.config, resumable=False)
     run = RunDir.open(job.folder)
     hours = run.hours()
@@ -160,6 +176,13 @@ def do_run(job: RunJob) -> None:
         rows = rows_of(hours, run.evenings(), activity, job.labels)
     data = {"rows": [row.model_dump() for row in rows], "seconds": robot_seconds(hours)}
     write_atomic(job.folder / ROWS, canonical_json(data, indent=None))
+
+
+def _clear(folder: Path) -> None:
+    """Remove what was left by a start that was stopped, unless a worker elsewhere, as of Ray, still writes there."""
+    if folder.is_dir():
+        with claim.lock(folder):
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:

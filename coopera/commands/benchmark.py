@@ -81,9 +81,9 @@ def benchmark(
     found = bench.load_grid(grid, flags)
     shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
-    bench.claim_folder(planned)
-    failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
-    summary = write_results(planned)
+    with bench.claimed_folder(planned):
+        failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
+        summary = write_results(planned)
     if as_json:
         typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
     else:

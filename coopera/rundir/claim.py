@@ -19,8 +19,12 @@ def refuse_used(out: Path) -> None:
     """Refuse a folder that a new run cannot have.
 
     Raises:
-        ConfigError: If it holds another run, is not empty, or is a file.
+        ConfigError: If it holds another run, is not empty, or is a file, or if its name is no text.
     """
+    try:
+        os.fspath(out).encode()
+    except UnicodeEncodeError:
+        raise ConfigError(f"out: {out} must be UTF-8 text, since the run's files name it.") from None
     try:
         if (out / "run.json").exists():
             raise ConfigError(
@@ -71,8 +75,8 @@ def empty(root: Path, made: Sequence[Path]) -> None:
     clear(root, made)
 
 
-def lock(root: Path) -> IO[str]:
-    """Take the run's lock, which the system frees when this process ends, however it ends.
+def lock(root: Path, what: str = "run") -> IO[str]:
+    """Take the lock of a run's or a benchmark's folder, which the system frees when this process ends, however it does.
 
     Raises:
         RunError: If another process holds it.
@@ -83,7 +87,7 @@ def lock(root: Path) -> IO[str]:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         file.close()
-        raise RunError(f"{root}: another process is writing this run; stop it first, or wait for its end.") from None
+        raise RunError(f"{root}: another process is writing this {what}; stop it first, or wait for its end.") from None
     return file
 
 
@@ -99,12 +103,17 @@ def refuse_second_writer(path: Path, info: Mapping[str, Any]) -> None:
     Raises:
         RunError: Naming the process.
     """
+    if info["state"] == "running" and info.get("pid") != os.getpid() and is_gone(info) is False:
+        raise RunError(f"{path}: process {info['pid']} is still writing this run; stop it first, or wait for its end.")
+
+
+def is_gone(info: Mapping[str, Any]) -> bool | None:
+    """Whether the process that run.json names has ended; None where that cannot be told, as of another machine's."""
     pid = info.get("pid")
-    if info["state"] != "running" or info.get("host") != socket.gethostname() or not isinstance(pid, int):
-        return
+    if info.get("host") != socket.gethostname() or not isinstance(pid, int):
+        return None
     started = _start_of(pid)
-    if pid != os.getpid() and started is not None and info.get("pid_start") in (started, None):
-        raise RunError(f"{path}: process {pid} is still writing this run; stop it first, or wait for its end.")
+    return started is None or info.get("pid_start") not in (started, None)
 
 
 def _start_of(pid: int) -> int | None:

@@ -6,7 +6,7 @@ import importlib.metadata
 import platform
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -15,7 +15,7 @@ from typing import IO, Any, Self
 from coopera.config.files import canonical_json, reason, write_atomic, write_output
 from coopera.config.prices import Prices, read_prices
 from coopera.config.schema import Config, load_config
-from coopera.core.errors import BudgetError, ConfigError, CooperaError, RunError, StoppedError, WaitingError
+from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Persona
 from coopera.core.version import __version__
@@ -23,6 +23,7 @@ from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim
+from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
 from coopera.rundir.trace_files import read_json, read_record, write_record
@@ -178,8 +179,13 @@ class RunDir:
 
     @property
     def state(self) -> str:
-        """State as run.json has it: running, stopped, failed or finished."""
-        return str(self.info["state"])
+        """How the run stands: running, stopped, failed or finished.
+
+        Where run.json says that it runs and its writer is gone, it has stopped: the process was killed, or found no
+        room to say how it ended.
+        """
+        state = str(self.info["state"])
+        return "stopped" if state == "running" and claim.is_gone(self.info) else state
 
     @property
     def resumable(self) -> bool:
@@ -204,13 +210,8 @@ class RunDir:
         if self._lock is None:
             return
         if self.state == "running":
-            if isinstance(error, (BudgetError, StoppedError, WaitingError)):
-                self._end("stopped", str(error))
-            elif isinstance(error, Exception):
-                what = str(error) if isinstance(error, CooperaError) else f"{type(error).__name__}: {error}"
-                self._end("failed", what)
-            else:
-                self._end("stopped", "interrupted" if error else "the work ended before it was complete")
+            with suppress(OSError):  # a full disk, say: that this process has ended tells as much
+                self._end(*how_it_ended(error))
         self._lock.close()
         self._lock = None
 
@@ -318,9 +319,10 @@ class RunDir:
         return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
 
     def note_spent(self, spent: Spent) -> None:
-        """Keep what was spent in run.json."""
+        """Keep what was spent in run.json; where that cannot be written, the trace shows at least most of it."""
         self.info["spent"] = spent.model_dump()
-        self._write_info()
+        with suppress(OSError):  # what ended the work is to be told, not this
+            self._write_info()
 
     # The end
 

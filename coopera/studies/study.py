@@ -34,6 +34,7 @@ from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
+from coopera.rundir.crash import refusals_told
 from coopera.rundir.directory import RunDir
 from coopera.rundir.private import only_mine
 from coopera.rundir.stopping import Stop
@@ -115,10 +116,10 @@ def resume_study(
             changes have changed since.
     """
     if (found := RunDir.open(path)).state == "finished":
-        with only_mine(found.config.private):
+        with refusals_told(), only_mine(found.config.private):
             return _completed(found)
     check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
-    with only_mine(found.config.private), RunDir.resume(path, budget) as run:
+    with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)
         prompts = PromptLibrary(run.config.prompts)
         changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
@@ -164,6 +165,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
     specs = model_specs(config)
     check_money(config.budget, read_prices(config.budget.prices) if config.budget.prices else None, specs.values())
     with ExitStack() as stack:
+        stack.enter_context(refusals_told())
         stack.enter_context(only_mine(config.private))
         made = RunDir.create(
             config,

@@ -5,16 +5,16 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-import sqlite3
 import threading
 import time
 from collections.abc import Callable, Generator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
-from coopera.core.errors import CooperaError
+from coopera.rundir.crash import told
 
 Work = Callable[[Any], Any]
 TRIES = 3
@@ -96,12 +96,12 @@ def work_through(
 ) -> Generator[Done]:
     """Do all jobs in `workers` processes, yielding each as it ends.
 
-    A process serves many jobs, since starting one takes seconds. If it dies its job is tried again in a new one, at
-    most three times in all. The processes die with this one, however it dies.
+    A process serves many jobs, since starting one takes seconds. If it dies, at work or before it takes a job, the job
+    is tried again in a new one, at most three times in all. The processes die with this one, however it dies.
 
     Args:
         jobs: In the order in which they are to be started.
-        work: A function at the top of a module; raises `CooperaError` where a job fails for good.
+        work: A function at the top of a module; where it raises, the job has failed for good.
         workers: At least 1.
         deadline: By `time.monotonic`; no job is started after it.
     """
@@ -113,7 +113,8 @@ def work_through(
             for one in staff:
                 if one.job is None and (job := queue.take()) is not None:
                     one.job = job
-                    one.pipe.send(job)
+                    with suppress(OSError):  # it died while it had nothing to do, which shows below
+                        one.pipe.send(job)
             busy = [one for one in staff if one.job is not None]
             if not busy:
                 break
@@ -122,7 +123,8 @@ def work_through(
                 job, one.job = one.job, None
                 try:
                     error = one.pipe.recv()
-                except (EOFError, ConnectionResetError):
+                except (EOFError, OSError):
+                    one.pipe.close()
                     one.process.join()
                     staff[staff.index(one)] = _hire(context, work)
                     if queue.again(job):
@@ -172,11 +174,15 @@ def _serve(pipe: Connection, work: Work) -> None:
             job = pipe.recv()
         except EOFError:
             return
-        try:
-            work(job)
-        except KeyboardInterrupt:
-            return
-        except (CooperaError, OSError, sqlite3.Error) as err:  # a full disk may show in any of these
-            pipe.send(str(err) or type(err).__name__)
-        else:
-            pipe.send(None)
+        pipe.send(attempt(work, job))
+
+
+def attempt(work: Work, job: Any) -> str | None:
+    """Do a job; returns in one sentence why it failed, or None where it was done."""
+    try:
+        work(job)
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as err:  # noqa: BLE001 - it has no process of its own that could fail with it
+        return told(err, ["worker", str(getattr(job, "name", job))])[0]
+    return None

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from coopera.benchmark.grid_runs import claim_folder, plan, shared_config
+from coopera.benchmark.grid_runs import claimed_folder, plan, shared_config
 from coopera.config.schema import Config, Models, load_config
 from coopera.core.errors import ConfigError, RunError
 from coopera.evaluation.grid import read_grid
@@ -105,7 +105,8 @@ def test_a_benchmark_from_before_there_was_a_choice_goes_on_only_as_it_was_made(
 
     def claim(**run: str) -> None:
         grid = read_grid({"settings": ["1"], "methods": ["random"], **sizes, "run": run}, "the grid")
-        claim_folder(plan(grid, tmp_path / "benchmark", shared_config(grid, None, {"data_dir": tmp_path})))
+        with claimed_folder(plan(grid, tmp_path / "benchmark", shared_config(grid, None, {"data_dir": tmp_path}))):
+            pass
 
     claim(household="shared", intentions="hourly")
     path = tmp_path / "benchmark" / "grid.yaml"

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import os
 import signal
@@ -252,6 +253,21 @@ def test_a_reused_process_number_is_not_taken_for_the_writer(tmp_path: Path) -> 
     (run.root / "run.json").write_text(json.dumps(claimed))
     with RunDir.resume(run.root) as again:
         assert again.state == "running"
+
+
+def test_a_run_whose_writer_is_gone_does_not_say_that_it_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, text: str) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device", str(path))
+
+    with pytest.raises(RunError, match="the memory is full"), start(tmp_path / "run") as run:  # noqa: PT012
+        monkeypatch.setattr("coopera.rundir.directory.write_atomic", full)
+        raise RunError("the memory is full")
+    monkeypatch.undo()
+    assert info(run)["state"] == "running"
+    assert RunDir.open(run.root).state == "running"  # this process still is
+    claimed = info(run) | {"pid_start": 1}
+    (run.root / "run.json").write_text(json.dumps(claimed))
+    assert RunDir.open(run.root).state == "stopped"
 
 
 def test_a_folder_that_is_taken_is_left_as_it_was(tmp_path: Path) -> None:

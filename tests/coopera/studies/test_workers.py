@@ -8,6 +8,8 @@ import sys
 import threading
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -58,6 +60,125 @@ def test_a_worker_that_is_killed_costs_its_job_and_another_does_it_again(tmp_pat
     }
     assert len(list(tmp_path.glob("doomed.try*"))) == 3
     assert not list(tmp_path.glob("late*"))
+
+
+def first_kill_the_idle(errand: Errand) -> None:
+    """An errand with deaths first kills the process that has none, and waits until that is dead."""
+    if errand.deaths:
+        [idle] = [other for other in _siblings() if other != os.getpid()]
+        os.kill(idle, signal.SIGKILL)
+        while _state(idle) != "Z":
+            os.sched_yield()
+    go(Errand(errand.name, errand.folder, errand.after))
+
+
+def _siblings() -> list[int]:
+    """The worker processes of this one's parent."""
+    every = [int(path.name) for path in Path("/proc").iterdir() if path.name.isdigit()]
+    return [one for one in every if _fields(one)[1:2] == [str(os.getppid())] and b"spawn_main" in _command(one)]
+
+
+def _fields(process: int) -> list[str]:
+    """State, parent and so on of a process; nothing of one that is gone."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return []
+
+
+def _state(process: int) -> str:
+    return (_fields(process) or ["Z"])[0]
+
+
+def _command(process: int) -> bytes:
+    try:
+        return Path(f"/proc/{process}/cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
+def test_a_worker_that_is_killed_while_it_has_nothing_to_do_is_replaced(tmp_path: Path) -> None:
+    folder = str(tmp_path)
+    jobs = [Errand("a", folder, deaths=1), Errand("b", folder, after="a"), Errand("c", folder, after="a")]
+    ended = {end.job.name: end.error for end in work_through(jobs, first_kill_the_idle, workers=2)}
+    assert ended == {"a": None, "b": None, "c": None}
+
+
+def stumble(errand: Errand) -> None:
+    raise TypeError("nobody foresaw this")
+
+
+def test_a_job_that_fails_unexpectedly_is_told_in_a_sentence_with_its_log_and_not_done_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COOPERA_DATA_DIR", str(tmp_path))
+    [end] = work_through([Errand("a")], stumble)
+    [log] = (tmp_path / "crashes").iterdir()
+    assert end.error
+    assert "TypeError: nobody foresaw this. Details: " + str(log) in end.error
+    assert "worker a" in log.read_text()
+
+
+class FakeRay:
+    """A cluster whose tasks run at once, and whose process dies with some of them, however often they are tried."""
+
+    class exceptions:  # noqa: N801 - as Ray has it
+        class RayError(Exception): ...
+
+        class WorkerCrashedError(RayError): ...
+
+    def __init__(self, dying: str = "", gone: bool = False) -> None:
+        self.dying, self.gone = dying, gone
+        self.open = False
+
+    def init(self, **given: object) -> None:
+        self.open = True
+
+    def shutdown(self) -> None:
+        self.open = False
+
+    def cluster_resources(self) -> dict[str, float]:
+        return {"CPU": 2.0}
+
+    def remote(self, **given: object) -> Any:
+        def decorated(function: Any) -> Any:
+            def task(work: Any, job: Errand) -> tuple[Any, ...]:
+                return (None, job.name) if job.name == self.dying else (function(work, job), job.name)
+
+            return SimpleNamespace(remote=task)
+
+        return decorated
+
+    def wait(self, tasks: list[Any]) -> tuple[list[Any], list[Any]]:
+        if self.gone:
+            raise self.exceptions.RayError("the head is gone")
+        return tasks[:1], tasks[1:]
+
+    def get(self, task: tuple[Any, str]) -> Any:
+        if task[1] == self.dying:
+            raise self.exceptions.WorkerCrashedError("SIGKILL")
+        return task[0]
+
+
+def test_a_killed_worker_of_a_cluster_costs_its_job_and_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ray = FakeRay(dying="doomed")
+    monkeypatch.setitem(sys.modules, "ray", ray)
+    folder = str(tmp_path)
+    jobs = [Errand("doomed", folder), Errand("b", folder), Errand("late", folder, after="doomed")]
+    ended = {end.job.name: end.error for end in work_on_ray(jobs, go, address="local")}
+    died = "its process died 3 times (WorkerCrashedError)"
+    assert ended == {"b": None, "doomed": died, "late": f"doomed failed: {died}"}
+    assert not ray.open
+
+
+def test_a_cluster_that_goes_away_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    ray = FakeRay(gone=True)
+    monkeypatch.setitem(sys.modules, "ray", ray)
+    with pytest.raises(RunError, match="--ray local: the cluster is gone"):
+        list(work_on_ray([Errand("a")], stumble, address="local"))
+    assert not ray.open
 
 
 PARENT = """

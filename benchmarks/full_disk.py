@@ -1,0 +1,351 @@
+"""Is every run that a full disk ends told of in a sentence, and gone on with? `python -m benchmarks.full_disk`.
+
+A run of one day is done once undisturbed, and its writes are counted: whatever needs room under its folder and its data
+folder, by Python, by SQLite and by Chroma. Then it is done again and again, each time with another of these writes
+refused for want of room, is resumed once there is room, and is compared with the undisturbed run. The refusals come
+from a library of some hundred lines (`full_disk.c`), which takes a C compiler (`cc`) and Linux.
+
+A write that is refused either stays the only one (`once`), or writes half of what it was given, and nothing is taken
+from then on (`full`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import atexit
+import hashlib
+import importlib
+import itertools
+import json
+import math
+import mmap
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from coopera.core.errors import CooperaError
+
+SOURCE = Path(__file__).with_suffix(".c")
+MODES = ("once", "full")
+_STATE = struct.Struct("4q")
+_COMPARED = ("metrics.csv", "summary.json")
+
+
+class Trial(NamedTuple):
+    """What came of one refused write: `wrong` is empty where all went as it should."""
+
+    place: int
+    name: str
+    mode: str
+    code: int
+    said: str
+    wrong: str
+
+
+_NAMES, _NAME = 16_384, 64  # as in full_disk.c
+_UNLIKE = re.compile(r"[0-9a-f]{8}-[0-9a-f]{4}-[-0-9a-f]*|\.\d+\.tmp|\d+")
+
+
+class Disk:
+    """The steering of `full_disk.c`, loaded into this process before it began."""
+
+    def __init__(self, base: Path) -> None:
+        """Take the folder that `under_watch` made ready."""
+        self.base = base
+        self.root = base / "disk"
+        file = (base / "state").open("r+b")
+        self._state = mmap.mmap(file.fileno(), _STATE.size + _NAMES * _NAME)
+
+    def arm(self, place: int, mode: str) -> None:
+        """Let the write of this number fail, counted from 1 and from now; 0 lets none fail."""
+        self._state[: _STATE.size] = _STATE.pack(0, place, MODES.index(mode), 0)
+
+    def disarm(self) -> None:
+        """Let no further write fail, and note how many there were so far."""
+        (self.base / "writes").write_text(str(self.writes))
+        self._state[8:16] = bytes(8)
+
+    @property
+    def writes(self) -> int:
+        """How many writes there were since `arm`."""
+        return int(_STATE.unpack(self._state[: _STATE.size])[0])
+
+    @property
+    def noted(self) -> int:
+        """How many there were before `disarm`."""
+        return int((self.base / "writes").read_text())
+
+    def name(self, place: int) -> str:
+        """What the write of this number was: the call, and the end of the path."""
+        at = _STATE.size + (place - 1) * _NAME
+        return self._state[at : at + _NAME].split(b"\0")[0].decode(errors="replace")
+
+    @property
+    def refused(self) -> int:
+        """How many of them failed."""
+        return int(_STATE.unpack(self._state[: _STATE.size])[3])
+
+
+class Survey:
+    """One undisturbed run, and the trials that are compared with it."""
+
+    def __init__(self, disk: Disk, flags: Sequence[str], data: Path | None = None) -> None:
+        """Do the undisturbed run and count its writes.
+
+        Args:
+            disk: Where.
+            flags: Of `coopera run`, without `--out`.
+            data: A data folder that knows the texts of this run; None has one run fill it beforehand.
+        """
+        self.disk = disk
+        self.flags = list(flags)
+        self.run = disk.root / "run"
+        self._warm = disk.base / "data"
+        disk.root.mkdir()
+        if data is None:
+            self._start()
+            shutil.copytree(disk.root / "data", self._warm)
+        else:
+            shutil.copytree(data, self._warm)
+        self._clean()
+        disk.arm(0, "once")
+        code, said = self._start()
+        assert code == 0, said
+        self.names = [disk.name(place) for place in range(1, disk.noted + 1)]
+        self._whole = self._content()
+        _import(json.loads((disk.base / "modules.json").read_text()))
+
+    def trial(self, place: int, mode: str) -> Trial:
+        """Refuse one write, or all from there on; then resume with room, or start anew where there is no run yet."""
+        self._clean()
+        self.disk.arm(place, mode)
+        code, said = self._start()
+        refused = self.disk.refused
+        self.disk.arm(0, "once")
+        last = said.strip().rpartition("\n")[2]
+        return Trial(place, self.names[place - 1], mode, code, last, self._judge(code, said, refused))
+
+    def sample(self, each: int) -> list[int]:
+        """Numbers of writes: of those with the same call to the same kind of file, the first and each `each`-th.
+
+        Their order is by chance, so that some of them say something about all.
+        """
+        met: Counter[str] = Counter()
+        found = []
+        for place, name in enumerate(self.names, 1):
+            kind = _UNLIKE.sub("#", name)
+            if met[kind] % each == 0:
+                found.append(place)
+            met[kind] += 1
+        return sorted(found, key=lambda place: hashlib.sha256(str(place).encode()).digest())
+
+    def _judge(self, code: int, said: str, refused: int) -> str:
+        if not refused:
+            return "" if code == 0 else f"failed without a refused write: {said}"
+        if "Traceback" in said or "Exception ignored" in said or "panicked" in said:
+            return f"traceback: {said}"
+        if code not in (0, 1, 2) or (code and not _sentence(said)):
+            return f"exit code {code} without a sentence: {said}"
+        begun = (self.run / "run.json").is_file()
+        true = ("finished",) if code == 0 else ("failed", "stopped", "finished")
+        if begun and (state := self._state()) not in true:
+            return f"untrue: the state is {state}, and the exit code was {code}"
+        if not begun:  # the same command is as good as new
+            left = [path.name for path in self.run.parent.glob("run*")]
+            return f"not resumable: no run is there, and the folder is left: {left}" if left or not code else ""
+        if code == 0:
+            return self._differences()
+        again, why = self._child(["resume", str(self.run)])
+        if again:
+            return f"not resumable: exit code {again}: {why} (after: {said})"
+        return self._differences()
+
+    def _state(self) -> str:
+        from coopera.rundir.directory import RunDir  # noqa: PLC0415 - heavy
+
+        try:
+            return RunDir.open(self.run).state
+        except CooperaError as err:
+            return str(err)
+
+    def _differences(self) -> str:
+        now = self._content()
+        odd = sorted(name for name in now.keys() | self._whole.keys() if now.get(name) != self._whole.get(name))
+        return f"different: {', '.join(odd)}" if odd else ""
+
+    def _content(self) -> dict[str, Any]:
+        """What is compared, by name."""
+        run = self.run
+        found: dict[str, Any] = {name: _sha(run / name) for name in _COMPARED}
+        found["report.html"] = (run / "report.html").is_file()
+        for path in (run / "trace").rglob("*"):
+            if path.is_file():
+                found[str(path.relative_to(run))] = _without_clock(path) if path.suffix == ".json" else _sha(path)
+        for folder in ("frames", "adapters", "people"):
+            found |= {str(path.relative_to(run)): _sha(path) for path in (run / folder).rglob("*") if path.is_file()}
+        found |= {str(path): True for path in run.rglob(".*.tmp")}
+        return found | {"memories": json.loads((self.disk.base / "memories.json").read_text())}
+
+    def _start(self) -> tuple[int, str]:
+        return self._child(["run", *self.flags, "--out", str(self.run)])
+
+    def _child(self, args: Sequence[str]) -> tuple[int, str]:
+        """Do a command in a process of its own; returns its exit code and what it said on standard error."""
+        said = self.disk.base / "stderr"
+        os.environ["COOPERA_DATA_DIR"] = str(self.disk.root / "data")
+        sys.stdout.flush()
+        child = os.fork()
+        if child == 0:
+            _redirect(said, self.disk.base / "stdout")
+            os._exit(_work(args, self.run, self.disk))
+        _, status = os.waitpid(child, 0)
+        return os.waitstatus_to_exitcode(status), said.read_text()
+
+    def _clean(self) -> None:
+        for inside in self.disk.root.iterdir():
+            shutil.rmtree(inside)
+        shutil.copytree(self._warm, self.disk.root / "data")
+
+
+def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
+    """A whole life of the program in a forked process; where it succeeds, memories and modules are noted."""
+    from coopera.cli import main  # noqa: PLC0415 - heavy
+
+    code, base = 70, disk.base
+    try:
+        code = main(args)
+        atexit._run_exitfuncs()
+        disk.disarm()
+        if code == 0:
+            (base / "memories.json").write_text(json.dumps(_memories(run / "memory"), sort_keys=True))
+            (base / "modules.json").write_text(json.dumps([name for name in sys.modules if name != "__main__"]))
+    except BaseException:  # noqa: BLE001 - it is shown, as Python would
+        sys.excepthook(*sys.exc_info())
+    finally:
+        for stream in (sys.stdout, sys.stderr):
+            stream.flush()
+    return code
+
+
+def _memories(folder: Path) -> dict[str, list[Any]]:
+    from coopera.memory import MemoryStream  # noqa: PLC0415 - heavy
+    from coopera.memory.embeddings import by_identity  # noqa: PLC0415
+    from coopera.memory.store import Store  # noqa: PLC0415
+
+    found: dict[str, list[Any]] = {}
+    store = Store.open(folder)
+    for name in store.streams():
+        model = (store.raw(name).metadata or {})["model"]
+        with MemoryStream.open(folder, name, by_identity(model), create=False) as stream:
+            found[name] = [list(record) for record in stream.records()]
+    store.close()
+    return found
+
+
+def _redirect(err: Path, out: Path) -> None:
+    for number, path in ((1, out), (2, err)):
+        file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(file, number)
+        os.close(file)
+
+
+def _import(names: Iterable[str]) -> None:
+    """Import what a run imports, so that each trial need not."""
+    for name in names:
+        try:
+            importlib.import_module(name)
+        except Exception:  # noqa: BLE001 - some names are none of a module of its own
+            continue
+
+
+def _sentence(said: str) -> bool:
+    return any(line.startswith("coopera: ") for line in said.splitlines())
+
+
+def _sha(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "missing"
+
+
+def _without_clock(path: Path) -> Any:
+    record = json.loads(path.read_text())
+    for call in record.get("calls", []):
+        call.pop("seconds", None)
+    return record
+
+
+def under_watch(base: Path) -> None:
+    """Begin this program again with `full_disk.c` loaded, unless it is."""
+    if os.environ.get("FULL_DISK_STATE"):
+        return
+    library = base / "full_disk.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", str(library), str(SOURCE), "-ldl"], check=True)
+    (base / "state").write_bytes(bytes(_STATE.size + _NAMES * _NAME))
+    (base / "tmp").mkdir()
+    os.environ |= {
+        "LD_PRELOAD": str(library),
+        "FULL_DISK_STATE": str(base / "state"),
+        "FULL_DISK_ROOT": str(base / "disk"),
+        "FULL_DISK_BASE": str(base),
+        "TMPDIR": str(base / "tmp"),
+    }
+    sys.stdout.flush()
+    os.execv(sys.executable, sys.orig_argv[:1] + sys.orig_argv[1:])
+
+
+def main() -> None:
+    """Do the trials that the arguments ask for, and print what came of them."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--hours", type=int, default=4)
+    parser.add_argument("--pictures", default="none")
+    parser.add_argument("--modes", default=",".join(MODES))
+    parser.add_argument(
+        "--each", type=int, default=1, help="of writes of one kind, refuse the first and each so-many-th"
+    )
+    parser.add_argument("--data", type=Path, help="a data folder that knows the texts of such a run, to begin sooner")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="begin no trial after so many minutes")
+    parser.add_argument(
+        "--record", type=Path, help="keep each trial here, as a line of JSON, and do none that is there"
+    )
+    parser.add_argument("--named", default="", help="only writes in whose name this regular expression is found")
+    given = parser.parse_args()
+    until = time.monotonic() + 60 * given.minutes
+    base = Path(os.environ.get("FULL_DISK_BASE") or tempfile.mkdtemp(prefix="full-disk-"))
+    under_watch(base)
+    flags = ["--humans", "amara", "--days", "1", "--hours", str(given.hours), "--pictures", given.pictures]
+    survey = Survey(Disk(base), flags, given.data)
+    print(f"{len(survey.names)} writes, {len(survey.sample(given.each))} of them in the sample", flush=True)
+    before = given.record.read_text().splitlines() if given.record and given.record.is_file() else []
+    ended = [Trial(**json.loads(line)) for line in before]
+    known = {(one.name, one.place // given.each, one.mode) for one in ended}
+    for place, mode in itertools.product(survey.sample(given.each), given.modes.split(",")):
+        name = survey.names[place - 1]
+        if (name, place // given.each, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
+            continue
+        ended.append(survey.trial(place, mode))
+        if given.record:
+            with given.record.open("a") as file:
+                file.write(json.dumps(ended[-1]._asdict()) + "\n")
+    print(f"{len(survey.names)} writes; {table(ended)}")
+    print("".join(f"{one}\n" for one in ended if one.wrong), end="")
+    shutil.rmtree(base)
+
+
+def table(ended: Sequence[Trial]) -> str:
+    """The trials in numbers."""
+    kinds = Counter(one.wrong.partition(":")[0] or "as it should be" for one in ended)
+    codes = sorted(Counter(one.code for one in ended).items())
+    told = [f"{kind}: {n}" for kind, n in kinds.items()] + [f"exit code {code}: {n}" for code, n in codes]
+    return f"{len(ended)} trials; {'; '.join(told)}"
+
+
+if __name__ == "__main__":
+    main()
