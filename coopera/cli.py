@@ -13,6 +13,7 @@ import typer
 from coopera.commands import (
     analyse,
     benchmark,
+    doctor,
     humans,
     listing,
     memory,
@@ -57,6 +58,7 @@ app.command()(run.resume)
 app.command("list")(listing.list_what)
 app.command()(reports.trace)
 app.command()(reports.report)
+app.command()(doctor.doctor)
 app.command()(benchmark.benchmark)
 app.command()(replay.replay)
 app.command()(sharing.leaderboard)

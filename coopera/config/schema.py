@@ -13,8 +13,8 @@ from coopera.config.complaints import complaint
 from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
+from coopera.config.sections import KeptAdapters, Text
 from coopera.config.sections import Models as Models
-from coopera.config.sections import Text
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.hour import SearchSizes
@@ -147,6 +147,7 @@ class Config(Frozen):
             flag="--learning",
         ),
     ] = "warm"
+    keep_adapters: KeptAdapters = "all"
     identity: Annotated[
         Literal["known", "unknown"],
         Setting(
