@@ -50,7 +50,7 @@ def world_after(record: HourRecord) -> dict[str, Any]:
         RunError: If it is not what was written.
     """
     poses, sha = record.world.get("poses"), record.world.get("sha256")
-    if not isinstance(poses, dict) or digest(poses) != sha:
+    if not isinstance(poses, dict) or digest(poses) != sha:  # of a trace that was read, so of finite numbers
         label = Clock(day=record.episode_day, hour=record.hour).label
         raise RunError(f"The trace of day {record.day}, {label}, was altered: world.poses does not fit world.sha256.")
     return poses

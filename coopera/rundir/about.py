@@ -6,10 +6,17 @@ import importlib.metadata
 import platform
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from typing import Any
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from coopera.config.prices import Prices
+from coopera.core.errors import RunError
 from coopera.core.version import __version__
+from coopera.models.settings import Spent
 from coopera.rundir import claim
+from coopera.rundir.trace_files import damaged, read_json
 
 SCHEMA = 2
 _PACKAGES = [
@@ -25,6 +32,39 @@ _PACKAGES = [
     "torch",
     "transformers",
 ]
+
+
+class _Told(BaseModel):
+    """The shape of run.json, as far as it is read; other fields may stand there."""
+
+    model_config = ConfigDict(strict=True, extra="allow")
+    state: Literal["running", "stopped", "failed", "finished"]
+    prompts: dict[str, str] = {}
+    models: dict[str, str] = {}
+    knowledge: dict[str, str] = {}
+    versions: dict[str, str] = {}
+    resumable: bool = True
+    prices: Annotated[Prices | None, Field(strict=False)] = None
+    spent: Annotated[Spent, Field(strict=False)] = Spent()
+
+
+def read_about(path: Path) -> dict[str, Any]:
+    """Read run.json.
+
+    Raises:
+        RunError: If it is damaged, or newer than this version understands; names the file and the field.
+    """
+    info = read_json(path)
+    schema = info.get("schema") if isinstance(info, dict) else None
+    if not isinstance(schema, int) or isinstance(schema, bool):
+        raise RunError(f"{path}: the field schema is missing, so this run cannot be read.")
+    if schema > SCHEMA:
+        raise RunError(f"{path}: schema {schema} was written by a newer coopera; this one knows {SCHEMA}.")
+    try:
+        _Told.model_validate(info)
+    except ValidationError as err:
+        raise damaged(path, err) from err
+    return dict(info)
 
 
 def about(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:

@@ -20,10 +20,10 @@ from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim, retention, seals
-from coopera.rundir.about import SCHEMA, about, now
+from coopera.rundir.about import SCHEMA, about, now, read_about
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
-from coopera.rundir.trace_files import read_json, read_record, write_record
+from coopera.rundir.trace_files import read_record, write_record
 
 _LOG = logging.getLogger(__name__)
 
@@ -111,13 +111,7 @@ class RunDir:
         """
         if not (path / "run.json").is_file():
             raise ConfigError(f"{path}: this folder holds no run (there is no run.json in it).")
-        info = read_json(path / "run.json")
-        if not isinstance(info, dict) or not isinstance(info.get("schema"), int):
-            raise RunError(f"{path / 'run.json'}: the field schema is missing, so this run cannot be read.")
-        if info["schema"] > SCHEMA:
-            raise RunError(
-                f"{path / 'run.json'}: schema {info['schema']} was written by a newer coopera; this one knows {SCHEMA}."
-            )
+        info = read_about(path / "run.json")
         return cls(path, load_config(path / "config.yaml"), info, None)
 
     @classmethod
@@ -249,7 +243,7 @@ class RunDir:
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
         self._stop.check()
-        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
+        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))]
 
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
@@ -299,7 +293,11 @@ class RunDir:
 
     def hours_done(self) -> list[tuple[int, int]]:
         """(day, hour) of each hour of which there is a trace, in order, without reading it."""
-        return [(day, int(path.stem[5:])) for day in self.days() for path in sorted(self._day(day).glob("hour-*.json"))]
+        return [
+            (day, int(path.stem[5:]))
+            for day in self.days()
+            for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))
+        ]
 
     def hours(self) -> list[HourRecord]:
         """All hours of the run, in order."""

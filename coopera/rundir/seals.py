@@ -89,7 +89,7 @@ def seal_of_start(root: Path, info: Mapping[str, Any]) -> Seal:
 def seal_of_day(root: Path, day: int) -> Seal:
     """What a finished day has, without what goes because of it."""
     trace = root / "trace" / f"day-{day:02d}"
-    paths = [*trace.glob("hour-*.json"), trace / "evening.json"]
+    paths = [*trace.glob("hour-[0-9][0-9].json"), trace / "evening.json"]
     for name in _OF_A_DAY:
         paths += [path for path in (root / name / f"day-{day:02d}").rglob("*") if path.is_file()]
     whole = [path for path in sorted(paths) if not path.name.startswith(".") and path.suffix != ".part"]

@@ -24,13 +24,13 @@ FRAME = "frames/day-01/hour-09/robot-0.webp"
 
 def config(out: Path, **more: object) -> Config:
     given = {"days": 2, "hours": 1, "frames": 1, "frame_size": (32, 32), **more}
-    return Config(out=out, data_dir=out.parent / "data", **given)
+    return Config(out=out, **given)
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def whole(tmp_path_factory: pytest.TempPathFactory, letters: Path) -> Path:
     out = tmp_path_factory.mktemp("doctor") / "whole"
-    run_study(config(out))
+    run_study(config(out, data_dir=letters))
     return out
 
 
@@ -161,7 +161,7 @@ REFUSED = [
 
 
 @pytest.fixture(scope="module")
-def stopped(whole: Path) -> Path:
+def stopped(whole: Path, letters: Path) -> Path:
     out = whole.parent / "stopped"
 
     def stop(event: dict[str, object]) -> None:
@@ -169,7 +169,7 @@ def stopped(whole: Path) -> Path:
             raise StoppedError("The run was interrupted.")
 
     with pytest.raises(StoppedError):
-        run_study(config(out, pictures="none"), on_event=stop)
+        run_study(config(out, pictures="none", data_dir=letters), on_event=stop)
     return out
 
 
@@ -199,7 +199,9 @@ def test_a_stopped_run_that_was_mended_goes_on_as_if_nothing_had_been(stopped: P
     assert content(run)["memory"] == content(other)["memory"]
 
 
-def test_a_memory_that_was_lost_is_rebuilt_when_the_run_goes_on(stopped: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_a_memory_that_was_lost_is_rebuilt_when_the_run_goes_on(
+    stopped: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     run, other = copied(stopped, "memoryless"), copied(stopped, "remembering")
     shutil.rmtree(run / "memory")
     for one in (run, other):
@@ -225,6 +227,27 @@ def test_a_run_of_a_version_without_seals_goes_on_and_is_sealed(
         "seal-end.json",
     }
     assert examine(run) == []
+
+
+def test_a_run_that_keeps_the_newest_adapters_alone_goes_on_as_one_that_keeps_all(whole: Path, letters: Path) -> None:
+    kept = {}
+    for kind in ("all", "last"):
+        out = whole.parent / f"keeps-{kind}"
+
+        def stop(event: dict[str, object]) -> None:
+            if (event["node"], event["day"]) == ("record", 2):
+                raise StoppedError("The run was interrupted.")
+
+        with pytest.raises(StoppedError):
+            run_study(config(out, days=3, pictures="none", keep_adapters=kind, data_dir=letters), on_event=stop)
+        resume_study(out)
+        kept[kind] = {path.relative_to(out): path.read_bytes() for path in (out / "adapters").rglob("*.*")}
+        assert examine(out) == []
+    last = {path: data for path, data in kept["all"].items() if "day-02" in path.parts or path.name == "examples.jsonl"}
+    assert kept["last"] == last
+    removed = seals.read_seal(seals.day_seal(whole.parent / "keeps-last", 1))
+    assert removed is not None
+    assert "adapters/day-00/task/kernel.npz" in removed.removed
 
 
 def test_seals_are_the_same_for_the_same_files(whole: Path) -> None:
@@ -260,8 +283,6 @@ def test_trace_and_report_say_in_a_line_that_something_is_not_as_it_was(
         said = coopera(command, run)
         assert said.code == 0
         assert said.err == (
-            f"coopera: {run}: {FRAME} is missing and 1 other files; `coopera doctor {run}` tells more.\n"
-            if command == "nothing"
-            else f"coopera: {run}: trace/day-00/evening.json is missing and 1 other files; "
-            f"`coopera doctor {run}` tells more.\n"
+            f"coopera: {run}: trace/day-00/evening.json is missing and 1 other files; `coopera doctor {run}` tells "
+            f"more.\n"
         )
