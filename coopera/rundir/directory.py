@@ -135,16 +135,24 @@ class RunDir:
             raise RunError(f"{path}: this run kept nothing to go on from, as those of a benchmark; start it anew.")
         claim.refuse_second_writer(path, run.info)
         run._lock = claim.lock(path)
-        seals.refuse_broken(path)
-        for half in path.rglob(".*.tmp"):  # what a killed writer left
-            half.unlink(missing_ok=True)
-        run._rows = run._rows_of_all()
-        if budget is not None:
-            run.config = run.config.model_copy(update={"budget": budget})
-            write_atomic(path / "config.yaml", run.config.to_yaml())
-        run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
-        run._write_info()
+        try:
+            run._take_up(budget)
+        except BaseException:
+            run._lock.close()
+            raise
         return run
+
+    def _take_up(self, budget: Budget | None) -> None:
+        """Go on as the one who writes, if all that was finished is as it was."""
+        seals.refuse_broken(self.root)
+        for half in self.root.rglob(".*.tmp"):  # what a killed writer left
+            half.unlink(missing_ok=True)
+        self._rows = self._rows_of_all()
+        if budget is not None:
+            self.config = self.config.model_copy(update={"budget": budget})
+            write_atomic(self.root / "config.yaml", self.config.to_yaml())
+        self.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
+        self._write_info()
 
     def keep_homes(self, files: Mapping[str, str]) -> None:
         """Write the files of homes that no catalogue has, by name, into the folder `scenes`, as people are kept."""

@@ -206,8 +206,9 @@ def in_one_line(root: Path) -> str:
     found = broken(root)
     if not found:
         return ""
-    first, more = found[0], f" and {len(found) - 1} other files" if len(found) > 1 else ""
-    told = f"{first.file} is missing" if first.what == "missing" else f"{first.file} was altered"
+    first, others = found[0], len(found) - 1
+    more = f", and so {'is' if others == 1 else 'are'} {others} more" if others else ""
+    told = f"{first.file} is missing" if first.what == "missing" else f"{first.file} is not as it was"
     return f"{root}: {told}{more}; `coopera doctor {root}` tells more."
 
 

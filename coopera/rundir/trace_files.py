@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -72,6 +73,7 @@ def _checked(path: Path, record: Record) -> Record:
     Raises:
         RunError: Naming the file and the field.
     """
+    _check_name(path, record)
     if not isinstance(record, HourRecord):
         return record
     try:
@@ -81,6 +83,17 @@ def _checked(path: Path, record: Record) -> Record:
     if not isinstance(record.world.get("poses", {}), dict):
         raise RunError(f"{path}: the field world.poses is damaged (expected a home's state).")
     return record
+
+
+def _check_name(path: Path, record: HourRecord | Evening) -> None:
+    """Refuse a record under the name of another, where the name says a day and an hour."""
+    found = re.fullmatch(r"day-(\d+)/(?:hour-(\d+)|evening)\.json", f"{path.parent.name}/{path.name}")
+    if found is None:
+        return
+    if record.day != int(found[1]):
+        raise RunError(f"{path}: the field day is damaged (expected {int(found[1])}).")
+    if isinstance(record, HourRecord) and found[2] is not None and record.hour != int(found[2]):
+        raise RunError(f"{path}: the field hour is damaged (expected {int(found[2])}).")
 
 
 def damaged(path: Path, err: ValidationError) -> RunError:

@@ -102,7 +102,7 @@ def test_a_spoilt_trace_is_shown_or_refused_and_nothing_else(run: RunDir) -> Non
                 print_trees(run, None, None, quiet)
                 run.summary()
                 if number % 10 == 0:
-                    render(run, Album({}, 0))
+                    render(run, Album({}, 0, 0, small=False))
             except CooperaError as err:
                 refused.append(str(err))
         file.write_text(before)

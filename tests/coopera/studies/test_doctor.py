@@ -283,6 +283,6 @@ def test_trace_and_report_say_in_a_line_that_something_is_not_as_it_was(
         said = coopera(command, run)
         assert said.code == 0
         assert said.err == (
-            f"coopera: {run}: trace/day-00/evening.json is missing and 1 other files; `coopera doctor {run}` tells "
+            f"coopera: {run}: trace/day-00/evening.json is missing, and so is 1 more; `coopera doctor {run}` tells "
             f"more.\n"
         )
