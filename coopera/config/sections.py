@@ -18,7 +18,7 @@ KeptAdapters = Annotated[
     Field(pattern=r"^(all|last|every:[1-9][0-9]{0,2})$"),
     Setting(
         "Which evenings' trained classifiers a run keeps, of each episode: all, the newest alone (last), or those of "
-        "every Nth evening besides (every:N). The examples are kept in any case.",
+        "every Nth evening besides (every:N); examples are always kept.",
         "all, last or every:N, such as every:5",
         flag="--keep-adapters",
         metavar="all|last|every:N",

@@ -26,7 +26,7 @@ REMADE = "remade.json"
 FIGURES = ("metrics.csv", "summary.json")
 REPORT = "report.html"
 
-_LASTING = ("schema", "prompts", "models", "knowledge", "versions", "resumable", "prices", "started")
+_LASTING = ("schema", "prompts", "models", "knowledge", "versions", "resumable", "prices")
 _OF_A_DAY = ("frames", "video", "adapters")
 
 
