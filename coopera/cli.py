@@ -19,6 +19,7 @@ import typer
 from coopera.commands import (
     analyse,
     benchmark,
+    doctor,
     humans,
     listing,
     memory,
@@ -66,6 +67,7 @@ app.command()(run.resume)
 app.command("list")(listing.list_what)
 app.command()(reports.trace)
 app.command()(reports.report)
+app.command()(doctor.doctor)
 app.command()(benchmark.benchmark)
 app.command()(replay.replay)
 app.command()(sharing.leaderboard)

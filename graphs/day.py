@@ -37,7 +37,7 @@ from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
 from coopera.graphs.players.player import HumanContext
 from coopera.graphs.players.real_person import Verdict
 from coopera.graphs.players.together import together
-from coopera.graphs.recorded import forget_ahead, remember_day, take_over_hour
+from coopera.graphs.recorded import forget_ahead, remember_day, take_over_hour, told
 from coopera.graphs.robots.learning import account_of
 from coopera.graphs.robots.traits import accounts, revise
 from coopera.graphs.services import Services
@@ -139,8 +139,8 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     if measures:
         services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
     heard = [(one.hour, one.human, one.robot) for one in _told(services, plan)]
-    told = [(hour, human, robot) for hour, human, robot in heard if human is not None and robot is not None]
-    questions = [partial(_hour_feedback, ctx, *one) for one in told]
+    answered = [(hour, human, robot) for hour, human, robot in heard if human is not None and robot is not None]
+    questions = [partial(_hour_feedback, ctx, *one) for one in answered]
     if ctx.player.one_by_one:
         together(measures)
         meant = [question() for question in questions]
@@ -148,7 +148,7 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
         waits = bool(measures) or not services.ask.instant("human")
         meant = together([*measures, *questions], waits=waits)[len(measures) :]
     items: list[FeedbackItem] = []
-    for (hour, _, _), said in zip(told, meant, strict=True):
+    for (hour, _, _), said in zip(answered, meant, strict=True):
         items += services.answering.given(said, services.rng(Address(plan.person, plan.episode_day, hour, "answering")))
     return {"feedback": items, "calls": services.ask.take_calls()}
 
@@ -232,11 +232,7 @@ def _as_it_was(services: Services, state: DayState, past: Evening) -> dict[str, 
 
 def _told(services: Services, plan: DayPlan) -> list[HourRecord]:
     """The day's hours as the evening speaks of them: the person's own, or those of a stranger in their place."""
-    hours = services.recorder.read_day(plan.day)
-    if services.stranger is None:
-        return hours
-    others = ((hour, services.stranger(plan, hour.hour)) for hour in hours)
-    return [hour.model_copy(update={"human": other}) for hour, other in others if other is not None]
+    return told(plan, services.recorder.read_day(plan.day), services.stranger)
 
 
 def _unmeasured(services: Services, plan: DayPlan) -> list[HourRecord]:

@@ -12,6 +12,7 @@ from coopera.core.lazy import made_once
 from coopera.core.randomness import Address
 from coopera.graphs.human import build_human_graph, human_hour
 from coopera.graphs.players.player import HumanInput, HumanState
+from coopera.graphs.recorded import remember_lived
 from coopera.graphs.services import Services
 
 _graph = made_once()(build_human_graph)
@@ -53,7 +54,4 @@ class LivedNow:
 
     def end(self, services: Services, plan: DayPlan, clock: Clock, human: HumanHour | None) -> None:
         """Have the person remember the hour, and nothing of it or later besides."""
-        memories = services.memories("human", plan.episode, plan.person)
-        memories.forget_from(clock.now)
-        if human:
-            memories.add(human.intention.text, [task.act.describe() for task in human.tasks], clock.now)
+        remember_lived(services, plan, clock, human)

@@ -29,7 +29,10 @@ class DamagedMemoryError(MemoryStoreError):
 
     def __init__(self, where: str, what: str, *, interrupted: bool = False) -> None:
         """Tell of the damage and of the way out."""
-        super().__init__(f"{where}: the memory is damaged: {what}; `coopera memory repair` rebuilds it from its texts")
+        super().__init__(
+            f"{where}: the memory is damaged: {what}; `coopera memory repair` rebuilds it from its texts, if these are "
+            f"whole, and `coopera doctor --repair` from the trace of its run"
+        )
         self.where = where
         self.what = what
         self.interrupted = interrupted

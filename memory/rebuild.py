@@ -13,7 +13,7 @@ import logging
 import math
 import shutil
 import sqlite3
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -107,6 +107,34 @@ def heal(found: DamagedMemoryError, embeddings: Embeddings) -> None:
     _LOG.warning("%s: %s, after a crash; rebuilt from its texts without loss (kept: %s)", folder, found.what, kept)
 
 
+def texts(folder: Path) -> dict[str, list[Record]]:
+    """Read what a store remembers, by stream, without opening it: neither its vectors nor its index are looked at.
+
+    Raises:
+        MemoryStoreError: If a text is missing or altered, or nothing can be read.
+    """
+    salvages = _salvage(folder)
+    for one in salvages:
+        if one.missing or one.altered:
+            raise MemoryStoreError(f"{folder}: {one.missing + one.altered} texts of {one.stream!r} are not as written")
+    return {one.stream: one.records for one in salvages}
+
+
+def rewrite(folder: Path, streams: Mapping[str, Sequence[Record]], embeddings: Embeddings) -> Path | None:
+    """Put a store of these records in the place of whatever is there; return where that is kept, if anything was.
+
+    The caller sees to it that nobody has the store open.
+    """
+    if not folder.exists():
+        folder.mkdir(parents=True)
+    found = any(folder.iterdir())
+    salvages = [_Salvage(name, identity(embeddings), list(records), 0, 0) for name, records in streams.items()]
+    kept = _exchange(folder, salvages, {identity(embeddings): embeddings})
+    if not found:
+        kept.rmdir()
+    return kept if found else None
+
+
 def _exchange(folder: Path, salvages: list[_Salvage], models: Mapping[str, Embeddings]) -> Path:
     """Put a new store of the salvaged records in the place of the damaged one; return where that now is."""
     fresh, kept = repaired(folder), _unused(folder.with_name(f"{folder.name}.damaged"))
@@ -154,7 +182,8 @@ def _salvage(folder: Path) -> list[_Salvage]:
             ]
     except (sqlite3.Error, ValueError, KeyError, UnicodeDecodeError) as err:
         raise MemoryStoreError(
-            f"{folder}: the texts of the memory cannot be read either ({err}), so that nothing can be rebuilt"
+            f"{folder}: the texts of the memory cannot be read either ({err}); `coopera doctor --repair` rebuilds them "
+            f"from the trace of their run"
         ) from err
 
 

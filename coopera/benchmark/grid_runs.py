@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any, Literal
 
 import yaml
+from pydantic import ValidationError
 
 from coopera.config.at_most import at_most, smaller
 from coopera.config.declared import in_words_of_today
-from coopera.config.files import canonical_json, reason, write_atomic
+from coopera.config.files import canonical_json, read_yaml, reason, write_atomic
 from coopera.config.schema import AS_BEFORE, Config, load_config
 from coopera.core.errors import ConfigError, RunError
+from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
 from coopera.evaluation.grid import Grid, Life, lives, read_grid
@@ -24,7 +26,7 @@ from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
 from coopera.rundir import claim
 from coopera.rundir.directory import RunDir
-from coopera.rundir.trace_files import read_json
+from coopera.rundir.trace_files import damaged, read_json
 from coopera.studies.catalogues import load_catalogues, resolve
 from coopera.studies.own_files import names_file
 from coopera.studies.workers import Done, work_through
@@ -121,8 +123,10 @@ def _note_grid(bench: Benchmark) -> None:
     shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
     text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
     if path.is_file():
-        before, now = load_yaml(path.read_text(encoding="utf-8")), load_yaml(text)
+        before, now = read_yaml(path, "grid of this benchmark"), load_yaml(text)
         for key in ("run", "shared"):
+            if not isinstance(before.get(key) or {}, dict):
+                raise ConfigError(f"{path}: {key} must be a mapping of settings to values.")
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
         before["shared"] = {**AS_BEFORE, **before["shared"]}
         for one in (before, now):  # what `shared` says of these counts, however it was asked for
@@ -197,9 +201,9 @@ def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
     whole = [job for job in bench.jobs if job.life not in begun] or bench.jobs
     for job in whole:
         if job.after is not None and _is_done(job):
-            data = read_json(job.folder / ROWS)
-            rows += [Row.model_validate(row) for row in data["rows"]]
-            seconds.setdefault(job.labels["method"], []).extend(data["seconds"])
+            done = _read_rows(job)
+            rows += done.rows
+            seconds.setdefault(job.labels["method"], []).extend(done.seconds)
     if not rows:
         raise RunError(f"{bench.root}: no run of this benchmark is finished, so there is nothing to show.")
     models = bench.jobs[0].config.models.model_dump()
@@ -220,14 +224,37 @@ def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
     return rows, card, seconds
 
 
+class _Done(Frozen):
+    """The file rows.json: a row for each hour, and how long the robot took in those that it helped in."""
+
+    rows: list[Row]
+    seconds: list[float]
+
+
+def _read_rows(job: RunJob) -> _Done:
+    """Read what a run left for the tables.
+
+    Raises:
+        RunError: If it is damaged, or does not hold all of the run's hours.
+    """
+    path = job.folder / ROWS
+    try:
+        done = _Done.model_validate(read_json(path))
+    except ValidationError as err:
+        raise damaged(path, err) from err
+    if len(done.rows) != (hours := len(job.config.day_hours) * len(job.config.schedule or [])):
+        raise RunError(
+            f"{path}: it has {len(done.rows)} rows, where the run has {hours} hours; delete it to redo the run."
+        )
+    return done
+
+
 def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
     """Read a grid file and lay flags over it; a flag of None was not given.
 
     Raises:
         ConfigError: Naming the file or the flags, the field and what was expected.
     """
-    from coopera.config.files import read_yaml  # noqa: PLC0415
-
     data = read_yaml(path, "grid file") if path else {}
     given = {name: value for name, value in flags.items() if value is not None}
     if path:

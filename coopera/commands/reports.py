@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -22,6 +23,7 @@ def trace(
     from coopera.rundir.directory import RunDir
 
     found = RunDir.open(run)
+    _warn(run)
     (print_json if as_json else print_trees)(found, day, hour)
 
 
@@ -34,6 +36,15 @@ def report(run: RunPath, as_json: AsJson = False) -> None:
     from coopera.rundir.private import only_mine
 
     found = RunDir.open(run)
+    _warn(run)
     with only_mine(found.config.private):
         path = write_report(found)
     typer.echo(json.dumps({"report": str(path), "bytes": path.stat().st_size}) if as_json else f"Report: {path}")
+
+
+def _warn(run: Path) -> None:
+    """Say in one line where something of the run is missing or altered, and go on."""
+    from coopera.rundir.seals import in_one_line
+
+    if odd := in_one_line(run):
+        typer.echo(f"coopera: {odd}", err=True)

@@ -13,8 +13,8 @@ from coopera.config.complaints import complaint
 from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
+from coopera.config.sections import KeptAdapters, Private, Text
 from coopera.config.sections import Models as Models
-from coopera.config.sections import Private, Text
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.hour import SearchSizes
@@ -35,8 +35,7 @@ SMALL, LARGE = (320, 240), (1024, 768)
 class Config(Frozen):
     """What to run. `None` means "as the setting has it"; `coopera.studies.catalogues.resolve` fills that in.
 
-    A setting is declared here and nowhere else: its errors, its flag, its help and its place in
-    docs/reference/settings.md follow from the field and its `Setting`.
+    A setting is declared here and nowhere else; errors, flag, help and docs/reference/settings.md follow from it.
     """
 
     setting: Annotated[
@@ -148,6 +147,7 @@ class Config(Frozen):
             flag="--learning",
         ),
     ] = "warm"
+    keep_adapters: KeptAdapters = "all"
     identity: Annotated[
         Literal["known", "unknown"],
         Setting(

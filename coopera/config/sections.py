@@ -1,4 +1,4 @@
-"""Parts of the configuration that have fields of their own."""
+"""Parts of the configuration: those that have fields of their own, and types with their words."""
 
 from __future__ import annotations
 
@@ -12,6 +12,18 @@ from coopera.core.setting import Setting
 from coopera.models.given import GivenModel, as_spec, by_role
 
 Text = Annotated[str, Field(min_length=1)]
+
+KeptAdapters = Annotated[
+    str,
+    Field(pattern=r"^(all|last|every:[1-9][0-9]{0,2})$"),
+    Setting(
+        "Which evenings' trained classifiers a run keeps, of each episode: all, the newest alone (last), or those of "
+        "every Nth evening besides (every:N); examples are always kept.",
+        "all, last or every:N, such as every:5",
+        flag="--keep-adapters",
+        metavar="all|last|every:N",
+    ),
+]
 
 _MODEL = "a model such as offline"
 

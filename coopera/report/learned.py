@@ -46,7 +46,7 @@ def calibration(verdicts: Iterable[tuple[float, bool]]) -> list[Bin]:
     """Compare what was said (P(yes) of each verdict) with what was right, in five bins of equal width."""
     bins: list[list[tuple[float, bool]]] = [[] for _ in range(BINS)]
     for probability, right in verdicts:
-        bins[min(int(probability * BINS), BINS - 1)].append((probability, right))
+        bins[min(int(min(max(probability, 0), 1) * BINS), BINS - 1)].append((probability, right))
     return [
         Bin(
             number / BINS,

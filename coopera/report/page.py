@@ -25,6 +25,7 @@ from coopera.report.pictures import Album, embed
 from coopera.report.policy import content_policy
 from coopera.report.progress import figure
 from coopera.report.tree import reasons
+from coopera.rundir import seals
 from coopera.rundir.directory import RunDir
 from coopera.rundir.summary import day_entry, headline, needed, pooled
 from coopera.rundir.trace_files import intention_verdicts
@@ -97,6 +98,7 @@ def write_report(run: RunDir) -> Path:
         html = render(run, gather_pictures(run, max(album.size - over, 0)))
     try:
         write_atomic(path, html)
+        seals.seal_report(run.root)
     except OSError as err:
         raise RunError(f"{path}: the report cannot be written ({err.strerror or err}).") from err
     return path

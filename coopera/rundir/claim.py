@@ -56,10 +56,11 @@ def make_folder(out: Path) -> list[Path]:
 
 def clear(root: Path, made: Sequence[Path]) -> None:
     """Undo a start that failed: our files go, and so do the folders that were made for them."""
-    for name in ("config.yaml", "run.json", "lock"):
+    for name in ("config.yaml", "run.json", "seal.json", "lock"):
         with suppress(OSError):
             (root / name).unlink()
-    shutil.rmtree(root / "people", ignore_errors=True)
+    for name in ("people", "scenes"):
+        shutil.rmtree(root / name, ignore_errors=True)
     for folder in made:
         with suppress(OSError):  # one that is not empty holds something of others, and stays
             folder.rmdir()

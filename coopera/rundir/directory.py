@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.metadata
-import platform
+import logging
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -18,30 +16,17 @@ from coopera.config.schema import Config, load_config
 from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import Persona
-from coopera.core.version import __version__
 from coopera.evaluation.measuring import told_in_the_evening
 from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
-from coopera.rundir import claim
+from coopera.rundir import claim, retention, seals
+from coopera.rundir.about import SCHEMA, about, now, read_about
 from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
-from coopera.rundir.trace_files import read_json, read_record, write_record
+from coopera.rundir.trace_files import read_record, write_record
 
-SCHEMA = 2
-_PACKAGES = [
-    "chromadb",
-    "langchain-core",
-    "langgraph",
-    "numpy",
-    "peft",
-    "pillow",
-    "pybullet",
-    "pydantic",
-    "scikit-learn",
-    "torch",
-    "transformers",
-]
+_LOG = logging.getLogger(__name__)
 
 
 class RunDir:
@@ -97,7 +82,7 @@ class RunDir:
             raise ConfigError("out: a folder for the run must be given.")
         prices = read_prices(config.budget.prices) if config.budget.prices else None
         root, made = config.out, claim.make_folder(config.out)
-        info = _info(prompts, models) | {"knowledge": dict(knowledge or {}), "resumable": resumable}
+        info = about(prompts, models) | {"knowledge": dict(knowledge or {}), "resumable": resumable}
         info |= {"prices": prices.model_dump(by_alias=True)} if prices else {}
         lock = None
         try:
@@ -105,6 +90,7 @@ class RunDir:
             write_atomic(root / "config.yaml", config.to_yaml())
             for persona in people:
                 write_persona(persona, root / "people")
+            seals.seal_start(root, info)
             write_atomic(root / "run.json", canonical_json(info))
         except (OSError, CooperaError) as err:
             if lock:
@@ -126,13 +112,7 @@ class RunDir:
         """
         if not (path / "run.json").is_file():
             raise ConfigError(f"{path}: this folder holds no run (there is no run.json in it).")
-        info = read_json(path / "run.json")
-        if not isinstance(info, dict) or not isinstance(info.get("schema"), int):
-            raise RunError(f"{path / 'run.json'}: the field schema is missing, so this run cannot be read.")
-        if info["schema"] > SCHEMA:
-            raise RunError(
-                f"{path / 'run.json'}: schema {info['schema']} was written by a newer coopera; this one knows {SCHEMA}."
-            )
+        info = read_about(path / "run.json")
         return cls(path, load_config(path / "config.yaml"), info, None)
 
     @classmethod
@@ -141,7 +121,8 @@ class RunDir:
 
         Raises:
             ConfigError: If the folder holds no run.
-            RunError: If the run is finished, another process is still writing it, or it kept nothing to go on from.
+            RunError: If the run is finished, another process is still writing it, it kept nothing to go on from, or a
+                file that it sealed is missing or altered.
         """
         run = cls.open(path)
         if run.state == "finished":
@@ -155,20 +136,30 @@ class RunDir:
             raise RunError(f"{path}: this run kept nothing to go on from, as those of a benchmark; start it anew.")
         claim.refuse_second_writer(path, run.info)
         run._lock = claim.lock(path)
-        for half in path.rglob(".*.tmp"):  # what a killed writer left
-            half.unlink(missing_ok=True)
-        run._rows = run._rows_of_all()
-        if budget is not None:
-            run.config = run.config.model_copy(update={"budget": budget})
-            write_atomic(path / "config.yaml", run.config.to_yaml())
-        run.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
-        run._write_info()
+        try:
+            run._take_up(budget)
+        except BaseException:
+            run._lock.close()
+            raise
         return run
+
+    def _take_up(self, budget: Budget | None) -> None:
+        """Go on as the one who writes, if all that was finished is as it was."""
+        seals.refuse_broken(self.root)
+        for half in self.root.rglob(".*.tmp"):  # what a killed writer left
+            half.unlink(missing_ok=True)
+        self._rows = self._rows_of_all()
+        if budget is not None:
+            self.config = self.config.model_copy(update={"budget": budget})
+            write_atomic(self.root / "config.yaml", self.config.to_yaml())
+        self.info |= {**claim.writer(), "state": "running", "reason": "", "ended": None}
+        self._write_info()
 
     def keep_homes(self, files: Mapping[str, str]) -> None:
         """Write the files of homes that no catalogue has, by name, into the folder `scenes`, as people are kept."""
         for name, text in files.items():
             write_output(self.root / "scenes" / name, text)
+        seals.seal_start(self.root, self.info)
 
     def discard(self) -> None:
         """Take back a run that was only just created, so that its folder is as it was before."""
@@ -261,7 +252,7 @@ class RunDir:
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
         self._stop.check()
-        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-*.json"))]
+        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))]
 
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
@@ -270,6 +261,32 @@ class RunDir:
         for record in told_in_the_evening(self.read_day(evening.day), [evening]):
             self._rows[record.day, record.hour] = metrics_rows(record)
         self._write_metrics()
+        self._seal(evening.day)
+
+    def seal_days(self) -> None:
+        """Seal what is finished and is not sealed yet: the run was killed in between, or begun by an older version."""
+        if not seals.is_sealed(self.root):
+            _LOG.warning("%s: was begun by a version that sealed nothing; what stands is sealed now", self.root)
+            seals.seal_start(self.root, self.info)
+        for day in self.days():
+            if self.evening_file(day).is_file() and not seals.day_seal(self.root, day).is_file():
+                self._seal(day)
+            elif seal := seals.read_seal(seals.day_seal(self.root, day)):
+                retention.remove(self.root, seal.removed)
+
+    def seal_of_day(self, day: int) -> seals.Seal:
+        """The seal of a finished day."""
+        seal, evening = seals.seal_of_day(self.root, day), self.read_evening(day)
+        assert evening is not None
+        past, before = self.read_evening(day - 1), seals.read_seal(seals.day_seal(self.root, day - 1))
+        gone = retention.superseded(self.config.keep_adapters, evening, past, before, seal)
+        return seal.model_copy(update={"removed": gone})
+
+    def _seal(self, day: int) -> None:
+        """Seal a finished day, and only then remove what it makes superfluous."""
+        seal = self.seal_of_day(day)
+        seals.write_seal(seals.day_seal(self.root, day), seal)
+        retention.remove(self.root, seal.removed)
 
     def adapters_folder(self, day: int) -> Path:
         """The folder adapters/day-DD, made if need be."""
@@ -285,7 +302,11 @@ class RunDir:
 
     def hours_done(self) -> list[tuple[int, int]]:
         """(day, hour) of each hour of which there is a trace, in order, without reading it."""
-        return [(day, int(path.stem[5:])) for day in self.days() for path in sorted(self._day(day).glob("hour-*.json"))]
+        return [
+            (day, int(path.stem[5:]))
+            for day in self.days()
+            for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))
+        ]
 
     def hours(self) -> list[HourRecord]:
         """All hours of the run, in order."""
@@ -333,15 +354,28 @@ class RunDir:
         return summary
 
     def write_figures(self) -> dict[str, Any]:
-        """Write metrics.csv and summary.json from the trace, and return the summary."""
+        """Write metrics.csv and summary.json from the trace, seal them, and return the summary."""
         summary = self.summary()
         self._rows = self._rows_of_all()
         self._write_metrics()
         write_atomic(self.root / "summary.json", canonical_json(summary))
+        seals.seal_end(self.root)
         return summary
 
+    def metrics_so_far(self) -> str:
+        """metrics.csv as the last evening left it."""
+        rows, days = self._rows_of_all(), {evening.day for evening in self.evenings()}
+        return metrics_csv(row for key in sorted(rows) if key[0] in days for row in rows[key])
+
+    def rewrite_figures(self) -> None:
+        """Write what a run has of figures: at its end all of them, and before that metrics.csv."""
+        if self.state == "finished":
+            self.write_figures()
+        else:
+            write_atomic(self.root / "metrics.csv", self.metrics_so_far())
+
     def _end(self, state: str, why: str) -> None:
-        self.info |= {"state": state, "reason": why, "ended": _now()}
+        self.info |= {"state": state, "reason": why, "ended": now()}
         self._write_info()
 
     def _write_info(self) -> None:
@@ -365,32 +399,3 @@ class RunDir:
 
     def _day(self, day: int) -> Path:
         return self.root / "trace" / f"day-{day:02d}"
-
-
-def _info(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
-    return {
-        "schema": SCHEMA,
-        "state": "running",
-        "reason": "",
-        **claim.writer(),
-        "started": _now(),
-        "ended": None,
-        "versions": {
-            "coopera": __version__,
-            "python": platform.python_version(),
-            **{name: version for name in _PACKAGES if (version := _version(name))},
-        },
-        "prompts": dict(prompts),
-        "models": dict(models),
-    }
-
-
-def _version(package: str) -> str | None:
-    try:
-        return importlib.metadata.version(package)
-    except importlib.metadata.PackageNotFoundError:
-        return None
-
-
-def _now() -> str:
-    return datetime.now(UTC).isoformat(timespec="seconds")

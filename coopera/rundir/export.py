@@ -61,6 +61,8 @@ def export(run: RunDir, out: Path) -> dict[str, Any]:
         rows, frames = _write_hours(run, hours, out / "hours"), _write_episodes(run, hours, out / "episodes")
     except OSError as err:
         raise RunError(f"{out}: the data set cannot be written ({reason(err)}).") from err
+    except (OverflowError, ValueError) as err:
+        raise RunError(f"{run.root}: a number of the trace is too large for a data set ({err}).") from err
     return {"out": str(out), "hours": rows, "episodes": len({hour.day for hour in hours}), "frames": frames}
 
 

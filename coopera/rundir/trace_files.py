@@ -7,6 +7,8 @@ in words), `human.found.objects` (fixed and movable together) and `world.moved` 
 from __future__ import annotations
 
 import json
+import math
+import re
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -60,11 +62,46 @@ def _read_record(path: Path, kind: type[Record], state: tuple[int, int, int]) ->
         _rename(data)
         _complete(data)
     try:
-        return kind.model_validate(data)
+        return _checked(path, kind.model_validate(data))
     except ValidationError as err:
-        first = err.errors(include_url=False)[0]
-        field = ".".join(str(part) for part in first["loc"])
-        raise RunError(f"{path}: the field {field} is damaged ({first['msg'].lower()}).") from err
+        raise damaged(path, err) from err
+
+
+def _checked(path: Path, record: Record) -> Record:
+    """Refuse what an hour's free part cannot be.
+
+    Raises:
+        RunError: Naming the file and the field.
+    """
+    _check_name(path, record)
+    if not isinstance(record, HourRecord):
+        return record
+    try:
+        human_outcomes(record)
+    except (ValidationError, TypeError) as err:
+        raise RunError(f"{path}: the field world.outcomes is damaged (expected a list of what came of acts).") from err
+    if not isinstance(record.world.get("poses", {}), dict):
+        raise RunError(f"{path}: the field world.poses is damaged (expected a home's state).")
+    return record
+
+
+def _check_name(path: Path, record: HourRecord | Evening) -> None:
+    """Refuse a record under the name of another, where the name says a day and an hour."""
+    found = re.fullmatch(r"day-(\d+)/(?:hour-(\d+)|evening)\.json", f"{path.parent.name}/{path.name}")
+    if found is None:
+        return
+    if record.day != int(found[1]):
+        raise RunError(f"{path}: the field day is damaged (expected {int(found[1])}).")
+    if isinstance(record, HourRecord) and found[2] is not None and record.hour != int(found[2]):
+        raise RunError(f"{path}: the field hour is damaged (expected {int(found[2])}).")
+
+
+def damaged(path: Path, err: ValidationError) -> RunError:
+    """Say which field of a file is not what it should be."""
+    first = err.errors(include_url=False)[0]
+    field = ".".join(str(part) for part in first["loc"])
+    what = f"field {field}" if field else "file"
+    return RunError(f"{path}: the {what} is damaged ({first['msg'].lower()}).")
 
 
 def read_json(path: Path) -> Any:
@@ -74,11 +111,17 @@ def read_json(path: Path) -> Any:
         RunError: If the file cannot be read or is no JSON.
     """
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(path.read_text(encoding="utf-8"), parse_float=_finite, parse_constant=_finite)
     except OSError as err:
         raise _unreadable(path, err) from err
-    except ValueError as err:
+    except (ValueError, RecursionError) as err:
         raise RunError(f"{path}: the file is damaged ({err}).") from err
+
+
+def _finite(text: str) -> float:
+    if not math.isfinite(number := float(text)):
+        raise ValueError(f"{text} is no number that a trace can hold")
+    return number
 
 
 def _unreadable(path: Path, err: OSError) -> RunError:
@@ -108,7 +151,8 @@ def _complete(data: dict[str, Any]) -> None:
     success = data.get("success")
     given, counts = (success.get("help"), success.get("predicate")) if isinstance(success, dict) else (None, None)
     if isinstance(given, dict) and isinstance(counts, dict) and "accepted" not in given:
-        given["accepted"] = counts.get("tp", 0) + counts.get("fp", 0)
+        found = [counts.get("tp", 0), counts.get("fp", 0)]
+        given["accepted"] = sum(found) if all(isinstance(one, int) for one in found) else None
 
 
 def _derive(data: dict[str, Any], record: HourRecord) -> None:
@@ -137,5 +181,10 @@ def _underive(data: dict[str, Any]) -> None:
     if isinstance(human, dict) and isinstance(human.get("found"), dict):
         human["found"].pop("objects", None)
     if isinstance(robot, dict):
-        for one in robot.get("outcomes", []):
-            one.pop("task", None)
+        for one in _listed(robot.get("outcomes")):
+            if isinstance(one, dict):
+                one.pop("task", None)
+
+
+def _listed(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []

@@ -146,17 +146,10 @@ def open_services(
             home=_Homes(stack, config, embeddings, run.root),
             stream=_Streams(stack, run.root / "memory" if run.resumable else RamClient(), embeddings),
             embeddings=embeddings,
-            learner=Learner(
-                {kind: _classifier(config, method, kind, embeddings, prompts.instruct) for kind in KINDS},
-                run,
-                config.seed,
-                config.learning,
-                dict(zip(KINDS, method.replay, strict=True)),
-                turns=method.turns,
-            ),
+            learner=_learner(config, run, embeddings, prompts),
             identity_known=config.identity == "known",
             hourly_traits=config.traits == "hourly",
-            own=OwnRobot(make, run, config.seed) if (make := _own_robot(config, method, people, embeddings)) else None,
+            own=_own_pupil(config, run, people, embeddings),
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
@@ -170,6 +163,31 @@ def open_services(
             life=EarlierLife(days) if days else LivedNow(),
             stranger=days.stranger if days and method.swapped else None,
         )
+
+
+def open_pupil(
+    config: Config, run: RunDir, people: Mapping[str, Persona], embeddings: Embeddings
+) -> Learner | OwnRobot:
+    """Who learns in a run's evenings, with its files in `run`."""
+    own = _own_pupil(config, run, people, embeddings)
+    return own or _learner(config, run, embeddings, PromptLibrary(config.prompts))
+
+
+def _learner(config: Config, run: RunDir, embeddings: Embeddings, prompts: PromptLibrary) -> Learner:
+    method = find_method(config.method)
+    return Learner(
+        {kind: _classifier(config, method, kind, embeddings, prompts.instruct) for kind in KINDS},
+        run,
+        config.seed,
+        config.learning,
+        dict(zip(KINDS, method.replay, strict=True)),
+        turns=method.turns,
+    )
+
+
+def _own_pupil(config: Config, run: RunDir, people: Mapping[str, Persona], embeddings: Embeddings) -> OwnRobot | None:
+    make = _own_robot(config, find_method(config.method), people, embeddings)
+    return OwnRobot(make, run, config.seed) if make else None
 
 
 def open_living(config: Config) -> Living:

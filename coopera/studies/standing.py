@@ -23,6 +23,8 @@ from coopera.core.hour import DayPlan
 from coopera.graphs import STATE_TYPES, build_study_graph
 from coopera.rundir.directory import RunDir
 
+CHECKPOINTS = "checkpoints.sqlite"
+"""File of a run."""
 THREAD: RunnableConfig = {"configurable": {"thread_id": "study"}}
 """Under which a run's checkpoints stand."""
 _LOG = logging.getLogger(__name__)
@@ -56,17 +58,21 @@ def give_up_if_wrong(file: Path, plans: Sequence[DayPlan], done: int) -> None:
         plans: The days of the run.
         done: How many hours and evenings stand in the trace.
     """
-    if not file.is_file():
-        return
-    try:
-        with open_checkpoints(file) as saver:
-            problem = "ahead of the trace" if _steps(saver, plans) > done else ""
-    except (sqlite3.DatabaseError, ValueError, TypeError, LookupError) as err:
-        problem = f"damaged ({err})"
-    if problem:
+    if problem := wrong_checkpoints(file, plans, done):
         _LOG.warning("%s: the checkpoints are %s; the run goes on from its trace", file, problem)
         for part in (file, *(file.with_name(f"{file.name}{end}") for end in ("-wal", "-shm"))):
             part.unlink(missing_ok=True)
+
+
+def wrong_checkpoints(file: Path, plans: Sequence[DayPlan], done: int) -> str:
+    """What `give_up_if_wrong` would give checkpoints up for, in words; empty where they are right or not there."""
+    if not file.is_file():
+        return ""
+    try:
+        with open_checkpoints(file) as saver:
+            return "ahead of the trace" if _steps(saver, plans) > done else ""
+    except (sqlite3.DatabaseError, ValueError, TypeError, LookupError) as err:
+        return f"damaged ({err})"
 
 
 @contextmanager

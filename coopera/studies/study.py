@@ -8,6 +8,7 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
+from langchain_core.embeddings import Embeddings
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.graph.state import CompiledStateGraph
@@ -34,6 +35,7 @@ from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
+from coopera.rundir import seals
 from coopera.rundir.crash import refusals_told
 from coopera.rundir.directory import RunDir
 from coopera.rundir.private import only_mine
@@ -42,7 +44,8 @@ from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
 from coopera.studies.own_files import home_files
-from coopera.studies.standing import THREAD, give_up_if_wrong, open_checkpoints, serializer, steps_done
+from coopera.studies.remembered import bring_to_the_trace
+from coopera.studies.standing import CHECKPOINTS, THREAD, give_up_if_wrong, open_checkpoints, serializer, steps_done
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
@@ -242,7 +245,7 @@ def _carry_on(
     ask_person: Interview,
 ) -> dict[str, Any]:
     plans = plan_days(run.config)
-    with _checkpoints(run, plans) as saver:
+    with _checkpoints(run, plans, services.embeddings) as saver:
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(THREAD).values else {"schedule": plans}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
@@ -258,21 +261,26 @@ def _carry_on(
 
 
 def _completed(run: RunDir) -> dict[str, Any]:
-    """Write what a finished run lacks: it was killed before the end, or its files were lost."""
-    lost = [name for name in ("metrics.csv", "summary.json") if not (run.root / name).is_file()]
-    summary = run.write_figures() if lost else run.summary()
-    if run.resumable and not (run.root / "report.html").is_file():
+    """Write what a finished run lacks: it was killed before the end, or its files were lost or altered."""
+    seals.refuse_broken(run.root)
+    odd = {one.file for one in seals.broken(run.root)}
+    lost = {name for name in (*seals.FIGURES, seals.REPORT) if name in odd or not (run.root / name).is_file()}
+    summary = run.write_figures() if lost & set(seals.FIGURES) else run.summary()
+    if run.resumable and seals.REPORT in lost:
         write_report(run)
     return summary
 
 
 @contextmanager
-def _checkpoints(run: RunDir, plans: Sequence[DayPlan]) -> Iterator[BaseCheckpointSaver[Any]]:
+def _checkpoints(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) -> Iterator[BaseCheckpointSaver[Any]]:
+    """Checkpoints and memories that agree with the trace."""
     if not run.resumable:
         yield InMemorySaver(serde=serializer())
         return
-    file = run.root / "checkpoints.sqlite"
+    file = run.root / CHECKPOINTS
     give_up_if_wrong(file, plans, steps_done(run, plans))
+    bring_to_the_trace(run, plans, embeddings)
+    run.seal_days()
     with open_checkpoints(file) as saver:
         yield saver
 

@@ -1,0 +1,142 @@
+"""What a run's memories hold by its trace, and the store put right where it holds something else."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeAlias
+
+from langchain_core.embeddings import Embeddings
+
+from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.core.hour import DayPlan
+from coopera.core.people import PersonId
+from coopera.evaluation import find_method
+from coopera.graphs.recorded import remember_day, remember_guess, remember_lived, told
+from coopera.graphs.robots.robot_view import Memories
+from coopera.memory import MemoryStream, Record
+from coopera.memory.damage import damage
+from coopera.memory.folder import locked
+from coopera.memory.ram import RamClient
+from coopera.memory.rebuild import rewrite, texts
+from coopera.rundir.directory import RunDir
+from coopera.rundir.earlier_life import open_earlier_life
+
+Texts: TypeAlias = Mapping[str, Sequence[Record]]
+"""Records by the name of their stream."""
+_LOG = logging.getLogger(__name__)
+
+
+def memory_folder(run: RunDir) -> Path:
+    """Where a run has its memories."""
+    return run.root / "memory"
+
+
+def by_the_trace(run: RunDir, plans: Sequence[DayPlan]) -> Texts:
+    """What everybody remembers after the hours and evenings that stand in the trace; streams without a record are out.
+
+    Raises:
+        RunError: If an hour or an evening cannot be read.
+    """
+    ram, method, days = _Ram(), find_method(run.config.method), open_earlier_life(run.config)
+    for plan in plans:
+        hours = []
+        for position, hour in enumerate(plan.hours):
+            if (record := run.read_hour(plan.day, hour)) is None:
+                break
+            hours.append(record)
+            if days is None:
+                remember_lived(ram, plan, plan.clock(position), record.human)
+            if record.robot is not None:
+                remember_guess(ram, plan, plan.clock(position), record.robot)
+        if method.robot and run.read_evening(plan.day):
+            remember_day(ram, plan, told(plan, hours, days.stranger if days and method.swapped else None))
+    found = {name: list(stream.records()) for name, stream in sorted(ram.streams.items())}
+    return {name: records for name, records in found.items() if records}
+
+
+def difference(folder: Path, wanted: Texts, *, may_be_ahead: bool = False) -> str:
+    """What a store's texts lack, or have too much, compared with the trace; empty where they are the same.
+
+    That of a run which was stopped may be ahead: a resume drops what did not come into the trace.
+    """
+    if not folder.exists():
+        return "it is missing" if wanted else ""
+    try:
+        found = texts(folder)
+    except MemoryStoreError as err:
+        return f"it cannot be read ({err})"
+    for name in sorted({*wanted, *found}):
+        here, there = list(found.get(name, [])), list(wanted.get(name, []))
+        if (here[: len(there)] if may_be_ahead else here) != there:
+            return f"{name} has {len(here)} records, and not the {len(there)} of the trace"
+    return ""
+
+
+def index_damage(folder: Path) -> str:
+    """What is wrong with a store besides its texts; empty where nothing is."""
+    if not folder.exists():
+        return ""
+    try:
+        with locked(folder):
+            return damage(folder, everything=True) or ""
+    except ConfigError as err:
+        return str(err)
+
+
+def bring_to_the_trace(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) -> None:
+    """Have a run remember what its trace says, and no more; its memories are not open yet.
+
+    Texts of an hour that did not come into the trace are dropped; a store that lacks something is written anew.
+    """
+    folder, wanted = memory_folder(run), by_the_trace(run, plans)
+    if not (what := difference(folder, wanted)) or _cut(folder, wanted, embeddings):
+        return
+    kept = rewrite(folder, wanted, embeddings)
+    aside = f"; what was there is kept in {kept}" if kept else ""
+    _LOG.warning("%s: %s; the memory was rebuilt from the trace%s", folder, what, aside)
+
+
+def _cut(folder: Path, wanted: Texts, embeddings: Embeddings) -> bool:
+    """Drop what a store has at its end beyond the trace; return whether it is then as the trace says."""
+    try:
+        found = texts(folder) if folder.exists() else {}
+        ahead = {name: here[len(wanted.get(name, [])) :] for name, here in found.items()}
+        for name, records in ahead.items():
+            if records:
+                with MemoryStream.open(folder, name, embeddings) as stream:
+                    stream.forget_from(records[0].hour)
+    except (ConfigError, MemoryStoreError):
+        return False
+    return not difference(folder, wanted)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ram:
+    """Memories without a store; implements `coopera.graphs.recorded.Remembering`."""
+
+    client: RamClient = field(default_factory=RamClient)
+    streams: dict[str, MemoryStream] = field(default_factory=dict)
+
+    def memories(self, owner: str, episode: int, person: PersonId) -> Memories:
+        stem = f"{owner}/{episode}/{person}"
+        return Memories(self._stream(f"{stem}/intentions"), self._stream(f"{stem}/tasks"))
+
+    def _stream(self, name: str) -> MemoryStream:
+        if name not in self.streams:
+            self.streams[name] = MemoryStream.open(self.client, name, _Unread())
+        return self.streams[name]
+
+
+class _Unread(Embeddings):
+    """Vectors for texts that nobody searches."""
+
+    dimension = 1
+
+    def embed_documents(self, texts: list[str]) -> list[list[float]]:
+        return [[1.0]] * len(texts)
+
+    def embed_query(self, text: str) -> list[float]:
+        return [1.0]
