@@ -133,17 +133,11 @@ def tried(trial: Trial, whole: Whole, out: Path, seed: int) -> Trial:
     folder = out / f"trial-{trial.number:03d}"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    run, older = folder / "run", folder / "older"
-    if trial.harm:  # one life that leaves an older copy, and one that is to be rolled back
-        _life(trial, folder, moment_of(whole, rng, ("hours", "evening")), count_it=False)
-        older.mkdir()
-        for part in run.glob("checkpoints.sqlite*"):
-            shutil.copy(part, older)
+    if trial.harm:
+        _roll_back(trial, whole, folder, rng)
     for _ in range(trial.kills):
         if _life(trial, folder, moment_of(whole, rng)) != -signal.SIGKILL:
             break
-    if trial.harm:
-        _harm(trial.harm, run, older, rng)
     code = _life(trial, folder, None)
     said = (folder / "said").read_text()
     if code == 0:
@@ -157,14 +151,30 @@ def tried(trial: Trial, whole: Whole, out: Path, seed: int) -> Trial:
     return trial
 
 
-def moment_of(whole: Whole, rng: np.random.Generator, places: Sequence[str] = _PLACES[1:]) -> Moment:
+def _roll_back(trial: Trial, whole: Whole, folder: Path, rng: np.random.Generator) -> None:
+    """Two lives, of which the first leaves an older copy of the checkpoints; then harm is done to them."""
+    run, older = folder / "run", folder / "older"
+    begun = [n for n, step in enumerate(whole.steps) if _place(step) != "end" and n > len(whole.steps) // 8]
+    first, second = sorted(int(n) for n in rng.choice(begun, 2, replace=False))
+    _life(trial, folder, _before(whole, first))
+    older.mkdir()
+    for part in run.glob("checkpoints.sqlite*"):
+        shutil.copy(part, older)
+    if _life(trial, folder, _before(whole, second)) == -signal.SIGKILL:  # a run that is finished needs none any more
+        _harm(trial.harm, run, older, rng)
+
+
+def moment_of(whole: Whole, rng: np.random.Generator) -> Moment:
     """Draw a moment: over time, or over the steps of a place that is drawn first."""
     if rng.random() < 0.5:
         return Moment(seconds=float(rng.uniform(0, whole.seconds)))
-    place = rng.choice(list(places))
+    place = rng.choice(_PLACES[1:])
     steps = [n for n, step in enumerate(whole.steps) if _place(step) == place] or list(range(len(whole.steps)))
-    at = int(rng.choice(steps))
-    return Moment(step=whole.steps[at], nth=whole.steps[: at + 1].count(whole.steps[at]))
+    return _before(whole, int(rng.choice(steps)))
+
+
+def _before(whole: Whole, step: int) -> Moment:
+    return Moment(step=whole.steps[step], nth=whole.steps[: step + 1].count(whole.steps[step]))
 
 
 def _place(step: str) -> str:
@@ -174,15 +184,15 @@ def _place(step: str) -> str:
     return "end" if re.search(r"summary\.json|run\.json|report\.html|rows\.json|results/", step) else "hours"
 
 
-def _life(trial: Trial, folder: Path, moment: Moment | None, *, count_it: bool = True) -> int:
+def _life(trial: Trial, folder: Path, moment: Moment | None) -> int:
     """Begin the run or go on with it, until it ends or dies; its exit code, -9 where it was killed."""
     if trial.sort == "benchmark" or not (folder / "run").exists():
         arguments = _command(trial.sort, folder)
     else:
         arguments = ["resume", "run"]
     code = live(arguments, folder, moment)
-    if code == -signal.SIGKILL and moment is not None and count_it:
-        trial.struck.append(f"{where(folder / 'run', SORTS[trial.sort])}")
+    if code == -signal.SIGKILL and moment is not None:
+        trial.struck.append(where(folder / "run", SORTS[trial.sort]))
     return code
 
 
@@ -265,6 +275,7 @@ def show(done: Sequence[Trial], seed: int, seconds: float) -> None:
     verdicts = Counter(one.verdict for one in done)
     data = {"trials": len(done), "kills": sum(struck.values()), "seed": seed, "seconds": round(seconds)}
     print(json.dumps({**data, **{name: verdicts[name] for name in ("equal", "refused", "different")}}))
+    sys.exit(verdicts["different"] > 0)
 
 
 if __name__ == "__main__":

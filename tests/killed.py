@@ -14,12 +14,13 @@ from coopera.studies import assemble
 from tests.fakes import LetterEmbeddings
 
 NODES = [
-    *((study, name) for name in ("next_day",)),
-    *((day, name) for name in ("start_day",)),
+    (study, "next_day"),
+    (day, "start_day"),
+    (day, "hour"),
     *((hour, name) for name in ("live", "demonstrate", "help_person", "finish", "score", "record")),
-    *((day, name) for name in ("hour", "feedback", "infer_traits", "learn", "end_day")),
+    *((day, name) for name in ("feedback", "infer_traits", "learn", "end_day")),
 ]
-"""The functions of the nodes, in the order in which a day comes to them."""
+"""The functions of the nodes, in the order of the kills: the first hour as a whole, the second node by node."""
 
 
 def live(run: Path, place: int | None) -> None:
