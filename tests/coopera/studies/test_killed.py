@@ -10,7 +10,7 @@ from benchmarks.run_contents import contents, differences
 from coopera.graphs import build_day_graph, build_study_graph
 from coopera.graphs.hour import build_hour_graph
 from tests.fakes import LetterEmbeddings
-from tests.killed import NODES, live
+from tests.coopera.studies.killed import NODES, live
 
 RENAMED = {"live": "human", "help_person": "robot"}
 
