@@ -9,8 +9,8 @@ from benchmarks.one_life import in_a_process
 from benchmarks.run_contents import contents, differences
 from coopera.graphs import build_day_graph, build_study_graph
 from coopera.graphs.hour import build_hour_graph
-from tests.fakes import LetterEmbeddings
 from tests.coopera.studies.killed import NODES, live
+from tests.fakes import LetterEmbeddings
 
 RENAMED = {"live": "human", "help_person": "robot"}
 
