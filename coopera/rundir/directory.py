@@ -340,8 +340,10 @@ class RunDir:
         return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
 
     def note_spent(self, spent: Spent) -> None:
-        """Keep what was spent in run.json; where that cannot be written, the trace shows at least most of it."""
+        """Keep what was spent in run.json; at the end what an evening asked that was killed counts, too."""
         self.info["spent"] = spent.model_dump()
+        if self.state == "finished":
+            self.info["spent"] = self.spent().model_dump()
         with suppress(OSError):  # what ended the work is to be told, not this
             self._write_info()
 

@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from coopera.studies.heap import one_arena
+
+HEAPS = """
+import ctypes, re, tempfile, threading
+from coopera.studies.heap import one_arena
+assert one_arena()
+libc = ctypes.CDLL(None)
+libc.malloc.restype = libc.fopen.restype = ctypes.c_void_p
+libc.malloc_info.argtypes = (ctypes.c_int, ctypes.c_void_p)
+libc.fclose.argtypes = (ctypes.c_void_p,)
+ready = threading.Barrier(9)
+
+def work():
+    libc.malloc(ctypes.c_size_t(1000))
+    ready.wait()
+    ready.wait()
+
+for _ in range(8):
+    threading.Thread(target=work).start()
+ready.wait()
+with tempfile.NamedTemporaryFile() as told:
+    file = libc.fopen(told.name.encode(), b"w")
+    libc.malloc_info(0, file)
+    libc.fclose(file)
+    print(len(re.findall("<heap nr", told.read().decode())))
+ready.wait()
+"""
+
+
+def test_the_threads_of_a_run_share_one_heap() -> None:
+    if not one_arena():
+        pytest.skip("this C library has no such setting")
+    told = subprocess.run([sys.executable, "-c", HEAPS], check=True, capture_output=True, text=True)
+    assert told.stdout == "1\n"
