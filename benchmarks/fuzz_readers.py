@@ -143,7 +143,7 @@ def _read_hssd(root: Path) -> object:
     hssd = Folder(root)
     scene = hssd.scene(SCENE)
     regions = [(one.title, one.floor, one.x0, one.x1, one.z0, one.z1) for one in hssd.regions(SCENE, required=True)]
-    made = []
+    made: list[tuple[object, object, bool]] = []
     for number, one in enumerate(scene.object_instances):
         try:
             made.append((hssd.template(SCENE, number, one.template_name), one.scale, one.by_mass))

@@ -175,7 +175,7 @@ class Codes:
             ago = np.where(done > 0, 1 + moved[:hour][::-1].argmax(0), 24)
             lies, rested = self._lie(moves, hour)
             at, before = hour - HOURS[0], np.minimum(done, 2)
-            columns = [at, state, lies, activity, state * (len(_STAGES) + 1) + stage]
+            columns: list[Any] = [at, state, lies, activity, state * (len(_STAGES) + 1) + stage]
             columns += [lies * (len(_RESTED) + 1) + rested, at * 3 + before, state * 3 + before]
             contexts.append(np.stack([np.broadcast_to(column, count) for column in columns], 1))
             numbers.append(np.stack([np.full(count, hour), np.full(count, stage), done, ago], 1).astype(float))

@@ -61,7 +61,7 @@ def refuse_missing(path: Path, rows: Rows, needed: tuple[str, ...]) -> None:
 def _csv(path: Path, text: str) -> Rows:
     lines = read_table(path, text)
     header = [name.strip().lower() for name in next(lines).cells]
-    rows = []
+    rows: list[Row] = []
     for number, cells in lines:
         if len(cells) != len(header):
             raise ConfigError(

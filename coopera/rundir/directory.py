@@ -172,8 +172,7 @@ class RunDir:
     def state(self) -> str:
         """How the run stands: running, stopped, failed or finished.
 
-        Where run.json says that it runs and its writer is gone, it has stopped: the process was killed, or found no
-        room to say how it ended.
+        Where it says that it runs and its writer is gone, it has stopped: killed, or without room to say how it ended.
         """
         state = str(self.info["state"])
         return "stopped" if state == "running" and claim.is_gone(self.info) else state
@@ -332,9 +331,8 @@ class RunDir:
     def spent(self) -> Spent:
         """What models were paid for so far: as noted at the end, or, after a kill, at least what the trace shows."""
         noted = Spent.model_validate(self.info.get("spent", {}))
-        calls = [call for hour in self.hours() for call in hour.calls]
-        calls += [call for evening in self.evenings() for call in evening.calls]
-        paid = [call for call in calls if not call.cached]
+        records: list[HourRecord | Evening] = [*self.hours(), *self.evenings()]
+        paid = [call for record in records for call in record.calls if not call.cached]
         tokens = sum(call.tokens_in + call.tokens_out for call in paid)
         money = self.prices.bill(paid)["spent"] if self.prices else 0.0
         return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
