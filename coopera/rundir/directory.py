@@ -32,8 +32,8 @@ _LOG = logging.getLogger(__name__)
 class RunDir:
     """One run's folder; implements `coopera.core.protocols.Recorder`.
 
-    The process that writes holds a lock on the file `lock` and is named in run.json. Used as a context manager
-    it records how the work ended: `finished` after `finish`, else `stopped` or `failed`, each of which may be resumed.
+    Who writes holds a lock on the file `lock` and is named in run.json. Used as a context manager it records how the
+    work ended: `finished` after `finish`, else `stopped` or `failed`, each of which may be resumed.
 
     Attributes:
         root: The folder.
@@ -386,8 +386,9 @@ class RunDir:
         return {(record.day, record.hour): metrics_rows(record) for record in hours}
 
     def _write_metrics(self) -> None:
-        rows = [row for key in sorted(self._rows) for row in self._rows[key]]
-        write_atomic(self.root / "metrics.csv", metrics_csv(rows))
+        write_atomic(
+            self.root / "metrics.csv", metrics_csv(row for key in sorted(self._rows) for row in self._rows[key])
+        )
 
     def hour_file(self, day: int, hour: int) -> Path:
         """The file trace/day-DD/hour-HH.json, there or not."""
