@@ -382,13 +382,11 @@ class RunDir:
         write_atomic(self.root / "run.json", canonical_json(self.info))
 
     def _rows_of_all(self) -> dict[tuple[int, int], list[dict[str, Any]]]:
-        hours = told_in_the_evening(self.hours(), self.evenings())
-        return {(record.day, record.hour): metrics_rows(record) for record in hours}
+        return {(r.day, r.hour): metrics_rows(r) for r in told_in_the_evening(self.hours(), self.evenings())}
 
     def _write_metrics(self) -> None:
-        write_atomic(
-            self.root / "metrics.csv", metrics_csv(row for key in sorted(self._rows) for row in self._rows[key])
-        )
+        rows = [row for key in sorted(self._rows) for row in self._rows[key]]
+        write_atomic(self.root / "metrics.csv", metrics_csv(rows))
 
     def hour_file(self, day: int, hour: int) -> Path:
         """The file trace/day-DD/hour-HH.json, there or not."""
