@@ -40,7 +40,7 @@ class Past:
         self._calls: dict[_Key, deque[ModelCall]] = defaultdict(deque)
         self._seeing: set[Role] = set()
         self._instant: set[Role] = set()
-        files = sorted((run / "trace").glob("day-*/*.json"))
+        files = [path for path in sorted((run / "trace").glob("day-*/*.json")) if path.stem != "seal"]
         if not files:
             raise ConfigError(f"the model recorded:{run} cannot be opened: this folder holds no run with a trace")
         for path in files:

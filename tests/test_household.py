@@ -42,6 +42,8 @@ def truth(run: Path) -> dict[str, str | bytes]:
 
 def _without_clocks(path: Path) -> str:
     record = json.loads(path.read_text())
+    if path.stem == "seal":  # the sums of files with clocks in them
+        return json.dumps([sorted(record["files"]), record["removed"]])
     for call in record["calls"]:
         call.pop("seconds")
     return json.dumps(record)

@@ -123,3 +123,9 @@ def _start_of(pid: int) -> int | None:
         return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[19])
     except (OSError, ValueError, IndexError):
         return None
+
+
+def sweep(root: Path) -> None:
+    """Remove what a killed writer left half written in a run."""
+    for half in root.rglob(".*.tmp"):
+        half.unlink(missing_ok=True)

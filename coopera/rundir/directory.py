@@ -146,8 +146,7 @@ class RunDir:
     def _take_up(self, budget: Budget | None) -> None:
         """Go on as the one who writes, if all that was finished is as it was."""
         seals.refuse_broken(self.root)
-        for half in self.root.rglob(".*.tmp"):  # what a killed writer left
-            half.unlink(missing_ok=True)
+        claim.sweep(self.root)
         self._rows = self._rows_of_all()
         if budget is not None:
             self.config = self.config.model_copy(update={"budget": budget})
@@ -350,6 +349,7 @@ class RunDir:
     def finish(self) -> dict[str, Any]:
         """Write metrics.csv and summary.json, record that the run is finished, and return the summary."""
         summary = self.write_figures()
+        self.info["spent"] = self.spent().model_dump()
         self._end("finished", "")
         return summary
 

@@ -60,7 +60,7 @@ def by_the_trace(run: RunDir, plans: Sequence[DayPlan]) -> Texts:
 def difference(folder: Path, wanted: Texts, *, may_be_ahead: bool = False) -> str:
     """What a store's texts lack, or have too much, compared with the trace; empty where they are the same.
 
-    That of a run which was stopped may be ahead: a resume drops what did not come into the trace.
+    That of a run which was stopped may be ahead, by what a step remembered that did not come to its end.
     """
     if not folder.exists():
         return "it is missing" if wanted else ""
@@ -86,31 +86,22 @@ def index_damage(folder: Path) -> str:
         return str(err)
 
 
-def bring_to_the_trace(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) -> None:
-    """Have a run remember what its trace says, and no more; its memories are not open yet.
+def bring_to_the_trace(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) -> bool:
+    """Have a run remember all that its trace says; its memories are not open yet.
 
-    Texts of an hour that did not come into the trace are dropped; a store that lacks something is written anew.
+    What a step remembered that has not come into the trace stays: the step goes on from its checkpoint, or is done
+    again and then forgets it first. A store that lacks something is written anew, and checkpoints do not fit it.
+
+    Returns:
+        Whether the store was written anew.
     """
     folder, wanted = memory_folder(run), by_the_trace(run, plans)
-    if not (what := difference(folder, wanted)) or _cut(folder, wanted, embeddings):
-        return
+    if not (what := difference(folder, wanted, may_be_ahead=True)):
+        return False
     kept = rewrite(folder, wanted, embeddings)
     aside = f"; what was there is kept in {kept}" if kept else ""
     _LOG.warning("%s: %s; the memory was rebuilt from the trace%s", folder, what, aside)
-
-
-def _cut(folder: Path, wanted: Texts, embeddings: Embeddings) -> bool:
-    """Drop what a store has at its end beyond the trace; return whether it is then as the trace says."""
-    try:
-        found = texts(folder) if folder.exists() else {}
-        ahead = {name: here[len(wanted.get(name, [])) :] for name, here in found.items()}
-        for name, records in ahead.items():
-            if records:
-                with MemoryStream.open(folder, name, embeddings) as stream:
-                    stream.forget_from(records[0].hour)
-    except (ConfigError, MemoryStoreError):
-        return False
-    return not difference(folder, wanted)
+    return True
 
 
 @dataclass(frozen=True, slots=True)

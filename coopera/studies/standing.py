@@ -60,8 +60,13 @@ def give_up_if_wrong(file: Path, plans: Sequence[DayPlan], done: int) -> None:
     """
     if problem := wrong_checkpoints(file, plans, done):
         _LOG.warning("%s: the checkpoints are %s; the run goes on from its trace", file, problem)
-        for part in (file, *(file.with_name(f"{file.name}{end}") for end in ("-wal", "-shm"))):
-            part.unlink(missing_ok=True)
+        give_up(file)
+
+
+def give_up(file: Path) -> None:
+    """Remove checkpoints; the run goes on from its trace."""
+    for part in (file, *(file.with_name(f"{file.name}{end}") for end in ("-wal", "-shm"))):
+        part.unlink(missing_ok=True)
 
 
 def wrong_checkpoints(file: Path, plans: Sequence[DayPlan], done: int) -> str:

@@ -35,7 +35,7 @@ from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
 from coopera.report.page import write_report
-from coopera.rundir import seals
+from coopera.rundir import claim, seals
 from coopera.rundir.crash import refusals_told
 from coopera.rundir.directory import RunDir
 from coopera.rundir.private import only_mine
@@ -46,7 +46,15 @@ from coopera.studies.catalogues import find_person, resolve
 from coopera.studies.heap import one_arena
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
-from coopera.studies.standing import CHECKPOINTS, THREAD, give_up_if_wrong, open_checkpoints, serializer, steps_done
+from coopera.studies.standing import (
+    CHECKPOINTS,
+    THREAD,
+    give_up,
+    give_up_if_wrong,
+    open_checkpoints,
+    serializer,
+    steps_done,
+)
 
 Event = Mapping[str, Any]
 """That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
@@ -266,8 +274,11 @@ def _carry_on(
 def _completed(run: RunDir) -> dict[str, Any]:
     """Write what a finished run lacks: it was killed before the end, or its files were lost or altered."""
     seals.refuse_broken(run.root)
+    claim.sweep(run.root)
     odd = {one.file for one in seals.broken(run.root)}
     lost = {name for name in (*seals.FIGURES, seals.REPORT) if name in odd or not (run.root / name).is_file()}
+    if seals.is_sealed(run.root) and not seals.sealed_sha(run.root, seals.REPORT):
+        lost.add(seals.REPORT)
     summary = run.write_figures() if lost & set(seals.FIGURES) else run.summary()
     if run.resumable and seals.REPORT in lost:
         write_report(run)
@@ -282,7 +293,8 @@ def _checkpoints(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) 
         return
     file = run.root / CHECKPOINTS
     give_up_if_wrong(file, plans, steps_done(run, plans))
-    bring_to_the_trace(run, plans, embeddings)
+    if bring_to_the_trace(run, plans, embeddings):
+        give_up(file)
     run.seal_days()
     with open_checkpoints(file) as saver:
         yield saver

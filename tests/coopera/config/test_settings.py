@@ -93,7 +93,7 @@ def test_a_flag_sets_its_field(
 ) -> None:
     asked: list[Config] = []
 
-    class EnoughError(Exception):
+    class EnoughError(SystemExit):
         pass
 
     def stop(config: Config) -> Config:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from coopera.benchmark.grid_runs import RunJob, claim_folder, gather, plan
+from coopera.benchmark.grid_runs import RunJob, claimed_folder, gather, plan
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
@@ -139,8 +139,8 @@ def grid() -> Grid:
 @pytest.mark.parametrize("text", ["3", "run: [a]", "shared: 7", "run: {hours: [", "- 1"])
 def test_a_grid_file_of_the_wrong_shape_is_refused(tmp_path: Path, grid: Grid, text: str) -> None:
     (tmp_path / "grid.yaml").write_text(text)
-    with pytest.raises(ConfigError, match=r"grid.yaml"):
-        claim_folder(plan(grid, tmp_path, Config()))
+    with pytest.raises(ConfigError, match=r"grid.yaml"), claimed_folder(plan(grid, tmp_path, Config())):
+        pass
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,7 @@ def test_a_missing_hour_or_category_is_refused_for_each_stratum_and_day_type(tmp
         (b"hour,category,weighted_pct,stratum,day_type\n0,tv\n", r"line 2: expected 5 cells, found 2"),
         (b'hour,category,weighted_pct,stratum,day_type\n0,"tv', r"line 2: this is not valid CSV"),
         (b"hour,category,weighted_pct,stratum,day_type\n0,\xff", r"line 2: the table of time use must be UTF-8"),
-        (b"\n" * 2_000_001, r"at most 2 MB"),
+        (b"\n" * 2_000_001, r"at most 500000 lines"),
     ],
 )
 def test_what_is_no_table_is_refused(tmp_path: Path, content: bytes, said: str) -> None:
