@@ -21,7 +21,7 @@ from coopera.studies.findings import TRUTH, Finding, findings
 from coopera.studies.own_files import home_files
 from coopera.studies.remade import film_again, learn_again
 from coopera.studies.remembered import by_the_trace, memory_folder
-from coopera.studies.standing import CHECKPOINTS, give_up_if_wrong, steps_done
+from coopera.studies.standing import CHECKPOINTS, give_up, give_up_if_wrong, steps_done
 from coopera.studies.study import plan_days
 
 
@@ -142,6 +142,8 @@ def _make_again(run: RunDir, left: Sequence[Finding]) -> dict[str, str]:
 
         def remember(files: list[str]) -> dict[str, str]:
             kept = rewrite(memory_folder(run), by_the_trace(run, plans), embeddings)
+            if run.state != "finished":  # what a step had remembered is gone, so it is not to go on in its midst
+                give_up(run.root / CHECKPOINTS)
             return dict.fromkeys(files, f"what was there is kept in {kept.name}") if kept else {}
 
         def learn(files: list[str]) -> dict[str, str]:
