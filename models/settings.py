@@ -183,3 +183,11 @@ class Spent(Frozen):
     calls: int = 0
     tokens: int = 0
     money: float = 0.0
+
+    def at_least(self, other: Spent) -> Spent:
+        """The larger of the two, figure by figure."""
+        return Spent(
+            calls=max(self.calls, other.calls),
+            tokens=max(self.tokens, other.tokens),
+            money=max(self.money, other.money),
+        )

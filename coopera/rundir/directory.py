@@ -329,20 +329,20 @@ class RunDir:
 
     def spent(self) -> Spent:
         """What models were paid for so far: as noted at the end, or, after a kill, at least what the trace shows."""
-        noted = Spent.model_validate(self.info.get("spent", {}))
         records: list[HourRecord | Evening] = [*self.hours(), *self.evenings()]
         paid = [call for record in records for call in record.calls if not call.cached]
         tokens = sum(call.tokens_in + call.tokens_out for call in paid)
         money = self.prices.bill(paid)["spent"] if self.prices else 0.0
-        return Spent(calls=max(noted.calls, len(paid)), tokens=max(noted.tokens, tokens), money=max(noted.money, money))
+        return self._noted().at_least(Spent(calls=len(paid), tokens=tokens, money=money))
 
     def note_spent(self, spent: Spent) -> None:
-        """Keep what was spent in run.json; at the end what an evening asked that was killed counts, too."""
-        self.info["spent"] = spent.model_dump()
-        if self.state == "finished":
-            self.info["spent"] = self.spent().model_dump()
+        """Keep what was spent in run.json; what was noted at the end, with an evening that was killed, is no less."""
+        self.info["spent"] = self._noted().at_least(spent).model_dump()
         with suppress(OSError):  # what ended the work is to be told, not this
             self._write_info()
+
+    def _noted(self) -> Spent:
+        return Spent.model_validate(self.info.get("spent", {}))
 
     # The end
 

@@ -55,9 +55,6 @@ def _repaired(run: RunDir, found: Sequence[Finding]) -> list[Finding]:
         found, left = [*found, *left], findings(run, index=False)
     still = {one.file for one in left}
     every = {one.file: one for one in (*left, *found)}
-    for file, one in every.items():
-        if one.part in ("people", "homes") and file not in still:
-            notes.pop(file, None)  # it was about a file that is whole again
     return [one._replace(mended=file not in still, note=notes.get(file, "")) for file, one in every.items()]
 
 

@@ -141,7 +141,9 @@ def _people(run: RunDir, plans: Sequence[DayPlan]) -> Iterator[Finding]:
     try:
         run.people()
     except CooperaError as err:
-        file, _, what = str(err).partition(": ")
+        place, _, what = str(err).partition(": ")
+        file, _, line = place.partition(", line ")
+        what = f"line {line}: {what}" if line else what
         yield Finding("people", _name(run, Path(file)) if file.startswith(str(run.root)) else "people", what)
 
 
