@@ -20,15 +20,18 @@ if TYPE_CHECKING:
     from coopera.checks.method import check_method
     from coopera.config.schema import Config
     from coopera.rundir.directory import RunDir
+    from coopera.studies.environment import make_env, recorded_life
     from coopera.studies.several import run_studies
     from coopera.studies.study import resume_study, run_study
 
-__all__ = ["Config", "RunDir", "check_method", "resume_study", "run_studies", "run_study"]
+__all__ = ["Config", "RunDir", "check_method", "make_env", "recorded_life", "resume_study", "run_studies", "run_study"]
 
 _HOME = {
     "Config": "coopera.config.schema",
     "check_method": "coopera.checks.method",
     "RunDir": "coopera.rundir.directory",
+    "make_env": "coopera.studies.environment",
+    "recorded_life": "coopera.studies.environment",
     "run_studies": "coopera.studies.several",
     "resume_study": "coopera.studies.study",
     "run_study": "coopera.studies.study",

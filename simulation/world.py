@@ -117,6 +117,15 @@ class World:
         """Captions of the motions the person's body can do, sorted."""
         return self._library.captions
 
+    def caption_of(self, text: str) -> str:
+        """The caption of the motion that a free-form text means, whatever the place."""
+        return self._library.ranked(text, self._ground.rank)[0].caption
+
+    @property
+    def motion_classes(self) -> list[str]:
+        """The coarse labels of these motions, which a percept gives, sorted."""
+        return self._library.classes
+
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
         """The object-room mapping as things now stand, sorted by name."""
         if kind == "fixed":

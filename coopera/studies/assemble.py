@@ -234,7 +234,11 @@ def _own_robot(
 
 def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path) -> World:
     """Open one of a run's homes as it was built, the run's own copy if it has one; it is to be closed after use."""
-    layout = open_layout(config, scene, run)
+    return open_world(config, open_layout(config, scene, run), embeddings)
+
+
+def open_world(config: Config, layout: Scene, embeddings: Embeddings) -> World:
+    """A home, given as data, as the configuration says; it is to be closed after use."""
     motions = load_motions(config.motions)
     match = _nearest_motions(embeddings, motions)
     return World(

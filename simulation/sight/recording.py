@@ -31,7 +31,8 @@ from coopera.simulation.ways.navigation import Stand
 
 TICKS = 30
 """Ticks per second."""
-_PERSON_SPEED, _ROBOT_SPEED = 1.1, 0.8  # metres per second
+PERSON_SPEED, ROBOT_SPEED = 1.1, 0.8
+"""Metres per second."""
 _SHOWN = 1.3
 """Seconds of a walk that a shot shows before the act."""
 _MOTION = 8.0
@@ -108,6 +109,15 @@ def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
     return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
 
 
+def seconds_at_place(step: Handle | Open | Play | Give) -> float:
+    """How long a step takes where it is done, without the way there."""
+    if isinstance(step, Play):
+        ticks = _SETTLE + round(max(_MOTION, 2 * step.motion.keys.period) * TICKS)
+    else:
+        ticks = _TURN + _REACH + (2 if isinstance(step, Give) else 1) * _HOLD + _BACK
+    return ticks / TICKS
+
+
 class Filming:
     """Turns the steps of a plan into shots."""
 
@@ -160,7 +170,7 @@ class Filming:
         if walk is None or len(walk.points) < 2:
             return 0, lambda tick: there
         drives = agent in self.robots
-        track, speed = Track.along(walk.points), (_ROBOT_SPEED if drives else _PERSON_SPEED) / TICKS
+        track, speed = Track.along(walk.points), (ROBOT_SPEED if drives else PERSON_SPEED) / TICKS
         ticks = min(math.ceil(track.marks[-1] / speed), round(_SHOWN * TICKS))
         carries = walk.carries is not None
 
