@@ -29,7 +29,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,10 +42,14 @@ _STATE = struct.Struct("4q")
 
 
 class Trial(NamedTuple):
-    """What came of one refused write: `wrong` is empty where all went as it should."""
+    """What came of one refused write: `wrong` is empty where all went as it should.
+
+    `which`: its kind, and the how-manieth of that kind it was; the same in each run, unlike `place` and `name`.
+    """
 
     place: int
     name: str
+    which: str
     mode: str
     code: int
     said: str
@@ -126,6 +130,7 @@ class Survey:
         code, said = self._start()
         assert code == 0, said
         self.names = [disk.name(place) for place in range(1, disk.noted + 1)]
+        self.which = list(_numbered(_UNLIKE.sub("#", name) for name in self.names))
         self._whole = self._content()
 
     def trial(self, place: int, mode: str) -> Trial:
@@ -136,21 +141,16 @@ class Survey:
         refused = self.disk.refused
         self.disk.arm(0, "once")
         last = said.strip().rpartition("\n")[2]
-        return Trial(place, self.names[place - 1], mode, code, last, self._judge(code, said, refused))
+        which, wrong = self.which[place - 1], self._judge(code, said, refused)
+        return Trial(place, self.names[place - 1], which, mode, code, last, wrong)
 
     def sample(self, each: int) -> list[int]:
         """Numbers of writes: of those with the same call to the same kind of file, the first and each `each`-th.
 
         Their order is by chance, so that some of them say something about all.
         """
-        met: Counter[str] = Counter()
-        found = []
-        for place, name in enumerate(self.names, 1):
-            kind = _UNLIKE.sub("#", name)
-            if met[kind] % each == 0:
-                found.append(place)
-            met[kind] += 1
-        return sorted(found, key=lambda place: hashlib.sha256(str(place).encode()).digest())
+        found = [place for place, which in enumerate(self.which, 1) if int(which.rpartition(" ")[2]) % each == 0]
+        return sorted(found, key=lambda place: hashlib.sha256(self.which[place - 1].encode()).digest())
 
     def _judge(self, code: int, said: str, refused: int) -> str:
         if not refused:
@@ -186,8 +186,10 @@ class Survey:
         return f"different: {', '.join(odd)}" if odd else ""
 
     def _content(self) -> Contents:
-        """What the last command that succeeded has left."""
+        """What the last command that succeeded has left, but for memories that a resume found damaged and kept."""
         found: Contents = json.loads((self.disk.base / "contents.json").read_text())
+        others = found.pop("other files", {})
+        found["other files"] = {name: what for name, what in others.items() if not name.startswith("memory.damaged")}
         found["left behind"] = {str(path): "there" for path in self.run.rglob(".*.tmp")}
         return found
 
@@ -233,6 +235,14 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     return code
 
 
+def _numbered(kinds: Iterable[str]) -> Iterator[str]:
+    """Each kind with a number that counts those before it."""
+    met: Counter[str] = Counter()
+    for kind in kinds:
+        yield f"{kind} {met[kind]}"
+        met[kind] += 1
+
+
 def _redirect(err: Path, out: Path) -> None:
     for number, path in ((1, out), (2, err)):
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
@@ -250,13 +260,16 @@ def _import(names: Iterable[str]) -> None:
 
 
 def _warm_up(flags: Sequence[str], base: Path, data: Path) -> None:
-    """Live such a day in this process, off the watched disk and without what has threads: homes and words then stay."""
+    """Live such a day in this process, off the watched disk and without what has threads, so that much stays loaded."""
     from coopera import Config, run_study  # noqa: PLC0415 - heavy
+    from coopera.report.page import write_report  # noqa: PLC0415
+    from coopera.rundir.directory import RunDir  # noqa: PLC0415
 
     given = dict(zip((flag.removeprefix("--") for flag in flags[::2]), flags[1::2], strict=True))
     days, hours = int(given["days"]), int(given["hours"])
     config = Config(humans=[given["humans"]], days=days, hours=hours, pictures="none", data_dir=data, out=base / "warm")
     run_study(config, resumable=False)
+    write_report(RunDir.open(base / "warm"))
     gc.collect()
     gc.freeze()
 
@@ -308,10 +321,10 @@ def main() -> None:
     print(f"{len(survey.names)} writes, {len(survey.sample(given.each))} of them in the sample", flush=True)
     before = given.record.read_text().splitlines() if given.record and given.record.is_file() else []
     ended = [Trial(**json.loads(line)) for line in before]
-    known = {(one.name, one.place // given.each, one.mode) for one in ended}
+    known = {(one.which, one.mode) for one in ended}
     for place, mode in itertools.product(survey.sample(given.each), given.modes.split(",")):
-        name = survey.names[place - 1]
-        if (name, place // given.each, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
+        name, which = survey.names[place - 1], survey.which[place - 1]
+        if (which, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
             continue
         ended.append(survey.trial(place, mode))
         if given.record:
