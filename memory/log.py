@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 4  # 3 MB of MiniLM's, and as many records as there are texts
+_BLOCKS_IN_RAM = 2  # 1.5 MB of MiniLM's; what is older counts little (`coopera.memory.scan`)
 _TEXTS_IN_RAM = 2048  # a month of thirteen hours a day, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
 
@@ -157,7 +157,9 @@ class Log:
         with translated(self.where):
             rows = self._collection.get(ids=self._ids(positions), include=["documents", "metadatas"])
         texts, metadatas = rows["documents"] or [], rows["metadatas"] or []
-        stored = {position_of(key): (text, meta or {}) for key, text, meta in zip(rows["ids"], texts, metadatas, strict=True)}
+        stored = {
+            position_of(key): (text, meta or {}) for key, text, meta in zip(rows["ids"], texts, metadatas, strict=True)
+        }
         found = {}
         for position in positions:
             if position not in stored:
