@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import atexit
+import gc
 import hashlib
 import importlib
 import itertools
@@ -28,23 +29,27 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from benchmarks.run_contents import Contents, contents, differences
 from coopera.core.errors import CooperaError
 
 SOURCE = Path(__file__).with_suffix(".c")
 MODES = ("once", "full")
 _STATE = struct.Struct("4q")
-_COMPARED = ("metrics.csv", "summary.json")
 
 
 class Trial(NamedTuple):
-    """What came of one refused write: `wrong` is empty where all went as it should."""
+    """What came of one refused write: `wrong` is empty where all went as it should.
+
+    `which`: its kind, and the how-manieth of that kind it was; the same in each run, unlike `place` and `name`.
+    """
 
     place: int
     name: str
+    which: str
     mode: str
     code: int
     said: str
@@ -117,12 +122,16 @@ class Survey:
         else:
             shutil.copytree(data, self._warm)
         self._clean()
+        self._start()
+        _import(json.loads((disk.base / "modules.json").read_text()))
+        _warm_up(flags, disk.base, self._warm)
+        self._clean()
         disk.arm(0, "once")
         code, said = self._start()
         assert code == 0, said
         self.names = [disk.name(place) for place in range(1, disk.noted + 1)]
+        self.which = list(_numbered(_UNLIKE.sub("#", name) for name in self.names))
         self._whole = self._content()
-        _import(json.loads((disk.base / "modules.json").read_text()))
 
     def trial(self, place: int, mode: str) -> Trial:
         """Refuse one write, or all from there on; then resume with room, or start anew where there is no run yet."""
@@ -132,21 +141,16 @@ class Survey:
         refused = self.disk.refused
         self.disk.arm(0, "once")
         last = said.strip().rpartition("\n")[2]
-        return Trial(place, self.names[place - 1], mode, code, last, self._judge(code, said, refused))
+        which, wrong = self.which[place - 1], self._judge(code, said, refused)
+        return Trial(place, self.names[place - 1], which, mode, code, last, wrong)
 
     def sample(self, each: int) -> list[int]:
         """Numbers of writes: of those with the same call to the same kind of file, the first and each `each`-th.
 
         Their order is by chance, so that some of them say something about all.
         """
-        met: Counter[str] = Counter()
-        found = []
-        for place, name in enumerate(self.names, 1):
-            kind = _UNLIKE.sub("#", name)
-            if met[kind] % each == 0:
-                found.append(place)
-            met[kind] += 1
-        return sorted(found, key=lambda place: hashlib.sha256(str(place).encode()).digest())
+        found = [place for place, which in enumerate(self.which, 1) if int(which.rpartition(" ")[2]) % each == 0]
+        return sorted(found, key=lambda place: hashlib.sha256(self.which[place - 1].encode()).digest())
 
     def _judge(self, code: int, said: str, refused: int) -> str:
         if not refused:
@@ -178,22 +182,16 @@ class Survey:
             return str(err)
 
     def _differences(self) -> str:
-        now = self._content()
-        odd = sorted(name for name in now.keys() | self._whole.keys() if now.get(name) != self._whole.get(name))
+        odd = differences(self._whole, self._content())
         return f"different: {', '.join(odd)}" if odd else ""
 
-    def _content(self) -> dict[str, Any]:
-        """What is compared, by name."""
-        run = self.run
-        found: dict[str, Any] = {name: _sha(run / name) for name in _COMPARED}
-        found["report.html"] = (run / "report.html").is_file()
-        for path in (run / "trace").rglob("*"):
-            if path.is_file():
-                found[str(path.relative_to(run))] = _without_clock(path) if path.suffix == ".json" else _sha(path)
-        for folder in ("frames", "adapters", "people"):
-            found |= {str(path.relative_to(run)): _sha(path) for path in (run / folder).rglob("*") if path.is_file()}
-        found |= {str(path): True for path in run.rglob(".*.tmp")}
-        return found | {"memories": json.loads((self.disk.base / "memories.json").read_text())}
+    def _content(self) -> Contents:
+        """What the last command that succeeded has left, but for memories that a resume found damaged and kept."""
+        found: Contents = json.loads((self.disk.base / "contents.json").read_text())
+        others = found.pop("other files", {})
+        found["other files"] = {name: what for name, what in others.items() if not name.startswith("memory.damaged")}
+        found["left behind"] = {str(path): "there" for path in self.run.rglob(".*.tmp")}
+        return found
 
     def _start(self) -> tuple[int, str]:
         return self._child(["run", *self.flags, "--out", str(self.run)])
@@ -217,8 +215,9 @@ class Survey:
 
 
 def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
-    """A whole life of the program in a forked process; where it succeeds, memories and modules are noted."""
+    """A whole life of the program in a forked process; where it succeeds, what it left and its modules are noted."""
     from coopera.cli import main  # noqa: PLC0415 - heavy
+    from coopera.memory.embeddings import bundled  # noqa: PLC0415
 
     code, base = 70, disk.base
     try:
@@ -226,7 +225,7 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
         atexit._run_exitfuncs()
         disk.disarm()
         if code == 0:
-            (base / "memories.json").write_text(json.dumps(_memories(run / "memory"), sort_keys=True))
+            (base / "contents.json").write_text(json.dumps(contents(run, bundled())))
             (base / "modules.json").write_text(json.dumps([name for name in sys.modules if name != "__main__"]))
     except BaseException:  # noqa: BLE001 - it is shown, as Python would
         sys.excepthook(*sys.exc_info())
@@ -236,19 +235,12 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     return code
 
 
-def _memories(folder: Path) -> dict[str, list[Any]]:
-    from coopera.memory import MemoryStream  # noqa: PLC0415 - heavy
-    from coopera.memory.embeddings import by_identity  # noqa: PLC0415
-    from coopera.memory.store import Store  # noqa: PLC0415
-
-    found: dict[str, list[Any]] = {}
-    store = Store.open(folder)
-    for name in store.streams():
-        model = (store.raw(name).metadata or {})["model"]
-        with MemoryStream.open(folder, name, by_identity(model), create=False) as stream:
-            found[name] = [list(record) for record in stream.records()]
-    store.close()
-    return found
+def _numbered(kinds: Iterable[str]) -> Iterator[str]:
+    """Each kind with a number that counts those before it."""
+    met: Counter[str] = Counter()
+    for kind in kinds:
+        yield f"{kind} {met[kind]}"
+        met[kind] += 1
 
 
 def _redirect(err: Path, out: Path) -> None:
@@ -267,19 +259,23 @@ def _import(names: Iterable[str]) -> None:
             continue
 
 
+def _warm_up(flags: Sequence[str], base: Path, data: Path) -> None:
+    """Live such a day in this process, off the watched disk and without what has threads, so that much stays loaded."""
+    from coopera import Config, run_study  # noqa: PLC0415 - heavy
+    from coopera.report.page import write_report  # noqa: PLC0415
+    from coopera.rundir.directory import RunDir  # noqa: PLC0415
+
+    given = dict(zip((flag.removeprefix("--") for flag in flags[::2]), flags[1::2], strict=True))
+    days, hours = int(given["days"]), int(given["hours"])
+    config = Config(humans=[given["humans"]], days=days, hours=hours, pictures="none", data_dir=data, out=base / "warm")
+    run_study(config, resumable=False)
+    write_report(RunDir.open(base / "warm"))
+    gc.collect()
+    gc.freeze()
+
+
 def _sentence(said: str) -> bool:
     return any(line.startswith("coopera: ") for line in said.splitlines())
-
-
-def _sha(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "missing"
-
-
-def _without_clock(path: Path) -> Any:
-    record = json.loads(path.read_text())
-    for call in record.get("calls", []):
-        call.pop("seconds", None)
-    return record
 
 
 def under_watch(base: Path) -> None:
@@ -325,10 +321,10 @@ def main() -> None:
     print(f"{len(survey.names)} writes, {len(survey.sample(given.each))} of them in the sample", flush=True)
     before = given.record.read_text().splitlines() if given.record and given.record.is_file() else []
     ended = [Trial(**json.loads(line)) for line in before]
-    known = {(one.name, one.place // given.each, one.mode) for one in ended}
+    known = {(one.which, one.mode) for one in ended}
     for place, mode in itertools.product(survey.sample(given.each), given.modes.split(",")):
-        name = survey.names[place - 1]
-        if (name, place // given.each, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
+        name, which = survey.names[place - 1], survey.which[place - 1]
+        if (which, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
             continue
         ended.append(survey.trial(place, mode))
         if given.record:

@@ -24,8 +24,9 @@ from random import Random
 from types import FrameType
 from typing import Any, NamedTuple, NoReturn
 
-from benchmarks.fuzz_mutations import blend
-from benchmarks.fuzz_readers import READERS, Reader, Target
+from benchmarks.fuzzing import READERS
+from benchmarks.fuzzing.kit import Reader, Target
+from benchmarks.fuzzing.mutations import blend
 from coopera.core.errors import LONGEST
 
 MOST_SECONDS = 10

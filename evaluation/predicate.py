@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
+REMEMBERED = 1024
+"""Vectors kept; 3 MB of MiniLM's."""
 
 
 class Classes(Protocol):
@@ -64,6 +66,10 @@ class Predicate:
 
     def _vector(self, text: str) -> Floats:
         """A text's vector in float64; the names of a home's things come again every hour."""
-        if text not in self._vectors:
-            self._vectors[text] = np.asarray(self.embeddings.embed_query(text), dtype=np.float64)
-        return self._vectors[text]
+        vector = self._vectors.get(text)
+        if vector is None:
+            vector = np.asarray(self.embeddings.embed_query(text), dtype=np.float64)
+            if len(self._vectors) >= REMEMBERED:
+                self._vectors.pop(next(iter(self._vectors)), None)
+            self._vectors[text] = vector
+        return vector

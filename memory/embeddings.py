@@ -22,7 +22,8 @@ from coopera.memory.minilm import Vector
 
 _LOG = logging.getLogger(__name__)
 _HUGGING_FACE = "Hugging Face "
-_IN_RAM = 65_536  # vectors kept in RAM; 100 MB of MiniLM's
+_IN_RAM = 65_536  # vectors kept in RAM where there is no file; 100 MB of MiniLM's
+_BEFORE_DISK = 2048  # those in RAM where a file holds all
 _PER_QUERY = 500
 _UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
@@ -131,7 +132,8 @@ class CachedEmbeddings(Embeddings):
     def _remember(self, found: dict[str, Vector]) -> None:
         """Keep vectors in RAM; where that is full, the oldest go."""
         self._ram.update(found)
-        for text in list(islice(self._ram, max(0, len(self._ram) - _IN_RAM))):
+        most = _IN_RAM if self._disk is None else _BEFORE_DISK
+        for text in list(islice(self._ram, max(0, len(self._ram) - most))):
             del self._ram[text]
 
 

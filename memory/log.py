@@ -7,7 +7,7 @@ import threading
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -23,12 +23,9 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 24  # 19 MB of MiniLM's
-_TEXTS_IN_RAM = 2048
+_BLOCKS_IN_RAM = 2  # 1.5 MB of MiniLM's; what is older counts little (`coopera.memory.scan`)
+_TEXTS_IN_RAM = 2048  # a month of thirteen hours a day, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
-
-
-_Stored: TypeAlias = tuple[str | None, Mapping[str, Any]]
 
 
 class Record(NamedTuple):
@@ -66,7 +63,7 @@ class Log:
         self._tail = _empty(0, 0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
-        self._lately: OrderedDict[int, _Stored] = OrderedDict()
+        self._lately: OrderedDict[int, Record] = OrderedDict()
         self._reload()
 
     def __len__(self) -> int:
@@ -148,35 +145,38 @@ class Log:
         Raises:
             MemoryStoreError: If one is missing or is not what was written.
         """
-        records = []
-        stored = self._stored(positions)
+        found = {position: self._lately[position] for position in positions if position in self._lately}
+        missing = [position for position in positions if position not in found]
+        for start in range(0, len(missing), _PER_CALL):
+            found |= self._read_records(missing[start : start + _PER_CALL])
+        self._keep(found)
+        return [found[position] for position in positions]
+
+    def _read_records(self, positions: Sequence[int]) -> dict[int, Record]:
+        """Return records by position from the store, up to `_PER_CALL` of them."""
+        with translated(self.where):
+            rows = self._collection.get(ids=self._ids(positions), include=["documents", "metadatas"])
+        texts, metadatas = rows["documents"] or [], rows["metadatas"] or []
+        stored = {
+            position_of(key): (text, meta or {}) for key, text, meta in zip(rows["ids"], texts, metadatas, strict=True)
+        }
+        found = {}
         for position in positions:
             if position not in stored:
                 raise DamagedMemoryError(self.where, f"record {position} is missing")
             record, whole = restored(*stored[position])
             if record is None or not whole:
                 raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
-            records.append(record)
-        return records
-
-    def _stored(self, positions: Sequence[int]) -> dict[int, _Stored]:
-        """Return texts with their metadata by position: those asked for lately from RAM, the others from the store."""
-        found = {position: self._lately[position] for position in positions if position in self._lately}
-        missing = [position for position in positions if position not in found]
-        for start in range(0, len(missing), _PER_CALL):
-            with translated(self.where):
-                part = self._ids(missing[start : start + _PER_CALL])
-                rows = self._collection.get(ids=part, include=["documents", "metadatas"])
-            for key, text, meta in zip(rows["ids"], rows["documents"] or [], rows["metadatas"] or [], strict=True):
-                found[position_of(key)] = (text, meta or {})
-        if len(positions) <= _TEXTS_IN_RAM // 8:
-            for position in positions:
-                if position in found:
-                    self._lately.pop(position, None)
-                    self._lately[position] = found[position]
-            while len(self._lately) > _TEXTS_IN_RAM:
-                self._lately.popitem(last=False)
+            found[position] = record
         return found
+
+    def _keep(self, records: Mapping[int, Record]) -> None:
+        """Keep records in RAM; where that is full, those go that nobody asked for the longest."""
+        for position, record in records.items():
+            self._lately[position] = record
+            self._lately.move_to_end(position)
+        while len(self._lately) > _TEXTS_IN_RAM:
+            self._lately.popitem(last=False)
 
     def _append(
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
@@ -206,6 +206,8 @@ class Log:
         except MemoryStoreError:
             self._reload()
             raise
+        added = enumerate(zip(texts, entries, strict=True), self._length)
+        self._keep({position: record for position, (text, entry) in added if (record := restored(text, entry)[0])})
         self._extend(vectors, np.asarray(hours, np.int64))
 
     def _check_written(self, ids: list[str], entries: list[dict[str, str | int]]) -> None:

@@ -21,8 +21,8 @@ from coopera.core.hour import Evening, HourRecord, RobotHour
 from coopera.core.household import Outcome
 
 Record = TypeVar("Record", HourRecord, Evening)
-_REMEMBERED = 160
-"""Records kept in memory: those of twelve days, some tens of megabytes."""
+_REMEMBERED = 70
+"""Records kept in memory: those of a run of five days of thirteen hours, some ten megabytes."""
 
 
 def write_record(path: Path, record: HourRecord | Evening) -> None:

@@ -40,7 +40,8 @@ _DECIMALS = 6  # arithmetic on another machine, or of another batch, may differ 
 class _Fitted:
     """What was learned: score(x) = similarity(x, landmarks) @ weights."""
 
-    landmarks: Batch
+    landmarks: dict[str, npt.NDArray[Any]]
+    """As saved: a `Batch` whose vectors are float32, which is exact, since they came so."""
     similarity: Similarity
     points: Points
     weights: Floats
@@ -132,7 +133,8 @@ class KernelClassifier:
         }
         solution = solve_triangular(lower, weights, lower=True, trans="T")
         chosen = chosen.within((features @ weights)[asked])
-        return _Fitted(landmarks, similarity, standing, solution, chosen, mixed), measured
+        kept = {**landmarks.arrays(), "vectors": landmarks.vectors.astype(np.float32)}
+        return _Fitted(kept, similarity, standing, solution, chosen, mixed), measured
 
     def _similarity(self, centre: Floats) -> Similarity:
         return Similarity(task=self._kind == "task", centre=centre)
@@ -146,10 +148,8 @@ class KernelClassifier:
         manifest: dict[str, Any] = dict(self._identity())
         if (fitted := self._fitted) is not None:
             buffer = io.BytesIO()
-            arrays = fitted.landmarks.arrays()
-            arrays["vectors"] = fitted.landmarks.vectors.astype(np.float32)  # exact: they came as float32
             np.savez_compressed(
-                buffer, allow_pickle=False, centre=fitted.similarity.centre, weights=fitted.weights, **arrays
+                buffer, allow_pickle=False, centre=fitted.similarity.centre, weights=fitted.weights, **fitted.landmarks
             )
             replace_bytes(folder / ARRAYS, buffer.getvalue())
             manifest["scale"] = list(fitted.scale)
@@ -182,15 +182,16 @@ class KernelClassifier:
         try:
             with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
                 columns = {field.name: arrays[field.name] for field in fields(Batch)}
-                columns["vectors"] = columns["vectors"].astype(np.float64)
+                columns["vectors"] = columns["vectors"].astype(np.float32)
                 centre, weights = arrays["centre"], arrays["weights"]
         except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
             raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
         rows = {len(column) for name, column in columns.items() if name != "vectors"}
         if rows != {len(weights)} or centre.shape != (2, columns["vectors"].shape[1]):
             raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
-        landmarks, similarity = Batch(**columns), self._similarity(centre)
-        return _Fitted(landmarks, similarity, similarity.points(landmarks), weights, chosen, mixed)
+        similarity = self._similarity(centre)
+        points = similarity.points(Batch(**{**columns, "vectors": columns["vectors"].astype(np.float64)}))
+        return _Fitted(columns, similarity, points, weights, chosen, mixed)
 
     def _identity(self) -> dict[str, Any]:
         return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": self._inputs.names}

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.fuzz import outcome
-from benchmarks.fuzz_readers import READERS
+from benchmarks.fuzzing import READERS
 
 CORPUS = Path(__file__).parents[1] / "corpus"
 FOLDERS = sorted(path.name for path in CORPUS.iterdir())

@@ -21,7 +21,7 @@ _WHEN = re.compile(
     r"(?<=\w) (?:after|before) (?:breakfast|lunch|dinner|supper|a meal|meals|eating|food|work|school|bed|bedtime)\b",
     re.IGNORECASE,
 )
-REMEMBERED = 20_000  # vectors kept; 30 MB of MiniLM's
+REMEMBERED = 4096  # texts, pairs of texts and vectors kept; 6 MB of MiniLM's
 
 
 class Embed(Protocol):

@@ -1,0 +1,14 @@
+"""What `benchmarks.fuzz` tries: readers of files from elsewhere, some good files for each, and how to change them."""
+
+from benchmarks.fuzzing import bodies, homes, models, people, runs, studies
+from benchmarks.fuzzing.kit import Reader
+
+READERS: dict[str, Reader] = {
+    **people.READERS,
+    **studies.READERS,
+    **homes.READERS,
+    **bodies.READERS,
+    **models.READERS,
+    **runs.READERS,
+}
+"""All of them by name."""
