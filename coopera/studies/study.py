@@ -130,21 +130,8 @@ def resume_study(
     if (found := RunDir.open(path)).state == "finished":
         with refusals_told(), only_mine(found.config.private):
             return _completed(found)
-    one_arena()
-    check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
-    with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
-        run.config = _with_models(run.config, models)
-        prompts = PromptLibrary(run.config.prompts)
-        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
-        if changed:
-            raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
-        config, before = run.config, run.info.get("knowledge", {})
-        if other := knowledge_of(run.info["models"], config.household, config.changes).items() ^ before.items():
-            what = "file of changes" if any(by.startswith(_CHANGES) for by, _ in other) else "household file"
-            raise RunError(f"{path}: the {what} has changed since this run began; restore it to go on.")
-        logs = open_logs(run.config, plan_days(run.config))
-        with open_services(run.config, run, run.people(), prompts, logs) as services:
-            return _carry_on(run, services, on_event, ask_person)
+    with old_run(path, budget, models) as (run, services):
+        return _carry_on(run, services, on_event, ask_person)
 
 
 def _with_models(config: Config, models: Chosen | Mapping[Role, Chosen] | None) -> Config:
@@ -201,6 +188,39 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
             if not run.hours_done():
                 run.discard()
             raise
+
+
+@contextmanager
+def old_run(
+    path: Path, budget: Budget | None = None, models: Chosen | Mapping[Role, Chosen] | None = None
+) -> Iterator[tuple[RunDir, Services]]:
+    """Take up a run that has not finished and open its services, for scripts that drive a graph themselves.
+
+    Args:
+        path: The run directory.
+        budget: What the run may spend in all, if not what it was begun with.
+        models: The chat models that the run was begun with, where these were objects.
+
+    Raises:
+        ConfigError: If such an object is missing, or another one than the run was begun with.
+        RunError: As with `resume_study`.
+    """
+    found = RunDir.open(path)
+    one_arena()
+    check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
+    with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
+        run.config = _with_models(run.config, models)
+        prompts = PromptLibrary(run.config.prompts)
+        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
+        if changed:
+            raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
+        config, before = run.config, run.info.get("knowledge", {})
+        if other := knowledge_of(run.info["models"], config.household, config.changes).items() ^ before.items():
+            what = "file of changes" if any(by.startswith(_CHANGES) for by, _ in other) else "household file"
+            raise RunError(f"{path}: the {what} has changed since this run began; restore it to go on.")
+        logs = open_logs(run.config, plan_days(run.config))
+        with open_services(run.config, run, run.people(), prompts, logs) as services:
+            yield run, services
 
 
 def knowledge_of(specs: Mapping[Role, str], household: str, changes: str = NONE) -> dict[str, str]:
