@@ -20,15 +20,18 @@ if TYPE_CHECKING:
     from coopera.checks.method import check_method
     from coopera.config.schema import Config
     from coopera.rundir.directory import RunDir
+    from coopera.rundir.run import Run, open_run
     from coopera.studies.several import run_studies
     from coopera.studies.study import resume_study, run_study
 
-__all__ = ["Config", "RunDir", "check_method", "resume_study", "run_studies", "run_study"]
+__all__ = ["Config", "Run", "RunDir", "check_method", "open_run", "resume_study", "run_studies", "run_study"]
 
 _HOME = {
     "Config": "coopera.config.schema",
     "check_method": "coopera.checks.method",
+    "Run": "coopera.rundir.run",
     "RunDir": "coopera.rundir.directory",
+    "open_run": "coopera.rundir.run",
     "run_studies": "coopera.studies.several",
     "resume_study": "coopera.studies.study",
     "run_study": "coopera.studies.study",
