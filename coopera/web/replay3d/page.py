@@ -1,11 +1,9 @@
-"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`): nothing is loaded from anywhere.
-
-DEVIATES from the films in one thing: nobody walks through the home at length, as a recording shows the end of a walk.
-"""
+"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`): nothing is loaded from anywhere."""
 
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -21,12 +19,17 @@ from coopera.rundir.directory import RunDir
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.bodies.shaping.weights import PARTS
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.sight.cameras import ROBOT_FOV
 from coopera.simulation.sight.stage import Stage
-from coopera.simulation.sight.video import FPS, write_video
+from coopera.simulation.sight.video import FPS as FILM_FPS
+from coopera.simulation.sight.video import write_video
 from coopera.simulation.world import World
+from coopera.simulation.ways.navigation import Navigator
 from coopera.web.replay3d import solids
-from coopera.web.replay3d.poses import Frame, Pose, Scenery, acts_of, frames_of
+from coopera.web.replay3d.poses import CAMERA, FPS, GONE, Frame, Pose, Scenery, acts_of, frames_of
+from coopera.web.replay3d.ways import Ways
 
+_VIEW = (13, 133, 119)  # the colour of a robot's view
 _SIGN = 2.05  # height in metres at which it is written what somebody does
 _STILL = 0.6  # seconds between two acts
 
@@ -95,7 +98,7 @@ def write_film(run: RunDir, day: int, file: Path) -> Made:
                     yield picture
 
     write_video(file, pictures())
-    return Made(file, file.stat().st_size, count, count / FPS)
+    return Made(file, file.stat().st_size, count, count / FILM_FPS)
 
 
 def _frames(run: RunDir, day: int) -> Iterator[tuple[Scenery, Frame]]:
@@ -117,7 +120,7 @@ def _scenery(run: RunDir, home: World, person: str) -> Scenery:
     robots = {agent: load_robot(run.config.robot) for agent in home.robots}
     skin = solids.person_skin(persona.profile if persona else "", person)
     stage = Stage(home.layout, home.people, robots, None)
-    return Scenery(home.layout, stage, robots, dict.fromkeys(home.people, skin))
+    return Scenery(home.layout, stage, robots, dict.fromkeys(home.people, skin), Ways(Navigator(home.layout), robots, FPS))
 
 
 @contextmanager
@@ -148,6 +151,9 @@ class _Page:
         for agent, body in scenery.robots.items():
             for link, mesh in solids.robot_links(body).items():
                 self._nodes[f"{agent}/{link}"] = scene.add_mesh_trimesh(f"/{agent}/link{link}", mesh)
+            fov = math.radians(ROBOT_FOV)
+            eye = scene.add_camera_frustum(f"/{agent}/view", fov, 4 / 3, scale=0.45, color=_VIEW, cast_shadow=False)
+            self._nodes[f"{agent}/{CAMERA}"] = eye
         for thing in scenery.scene.movable:
             self._add_thing(thing)
         self._title = scene.add_label("/hour", "", position=self._corner())
@@ -157,9 +163,12 @@ class _Page:
         """Light from above, and a first view of the whole home from the south, as on its plan."""
         b = self._scenery.scene.bounds
         middle, reach = ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2), max(b.x1 - b.x0, b.y1 - b.y0)
-        server.initial_camera.position = (middle[0], middle[1] - 0.72 * reach, 0.95 * reach)
-        server.initial_camera.look_at = (*middle, 0.2)
+        server.initial_camera.position = (middle[0], middle[1] - 0.9 * reach, 1.15 * reach)
+        server.initial_camera.look_at = (middle[0], middle[1] - 0.02 * reach, 0.0)
         server.initial_camera.up = (0.0, 0.0, 1.0)
+        server.initial_camera.fov = math.radians(38)
+        server.scene.configure_environment_map("studio", environment_intensity=0.15)
+        server.scene.configure_default_lights(cast_shadow=True)
 
     def _corner(self) -> tuple[float, float, float]:
         b = self._scenery.scene.bounds
@@ -174,11 +183,15 @@ class _Page:
             if node is None or self._shown.get(name) == pose:
                 continue
             before = self._shown.get(name)
+            self._shown[name] = pose
+            if (pose == GONE) != (before == GONE):
+                node.visible = pose != GONE
+            if pose == GONE:
+                continue
             if before is None or before.place != pose.place:
                 node.position = pose.place
             if before is None or before.turn != pose.turn:
                 node.wxyz = pose.turn
-            self._shown[name] = pose
         self._say(frame)
         if self._recorder is None:
             self._recorder = self._server.get_scene_serializer()
@@ -196,7 +209,7 @@ class _Page:
             text = printable(frame.doing.get(agent, ""))
             sign, said = self._signs.get(agent, (None, ""))
             if sign is None:
-                sign = self._server.scene.add_label(f"/signs/{agent}", text)
+                sign = self._server.scene.add_label(f"/signs/{agent}", text, anchor="bottom-center")
             elif text != said:
                 sign.text = text
             self._signs[agent] = (sign, text)

@@ -20,17 +20,21 @@ from coopera.simulation.bodies.shaping.weights import PARTS
 from coopera.simulation.bodies.skin import Skin, carriers
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.rotations import about_z, quaternion
+from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.engine import pybullet
 from coopera.simulation.sight.recording import TICKS, Moment, Recording
 from coopera.simulation.sight.stage import Stage
 from coopera.simulation.world import World
 from coopera.studies.assemble import open_embeddings, open_home
 from coopera.studies.replay import in_order
+from coopera.web.replay3d.ways import Ways
 
 FPS = 7.5
 """Moments shown a second."""
 _LONGEST = 3.0  # seconds of one shot: a motion that goes on for eight looks the same all the time
-_GONE = -10.0  # what is nowhere lies so deep
+_DEEPEST = -10.0  # metres; what is nowhere lies deeper
+CAMERA = "camera"
+"""The part of a robot that is its view: z ahead, x to the right."""
 
 
 class Pose(NamedTuple):
@@ -38,6 +42,10 @@ class Pose(NamedTuple):
 
     place: tuple[float, float, float]
     turn: tuple[float, float, float, float]
+
+
+GONE = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
+"""The pose of what is nowhere to be seen."""
 
 
 class Frame(NamedTuple):
@@ -54,12 +62,13 @@ class Frame(NamedTuple):
 
 
 class Scenery(NamedTuple):
-    """What moves, and how its places are found: the home's stage, its robots, and the skins of its people."""
+    """What moves, and how its places are found: the home's stage, its robots, its people's skins, and their walks."""
 
     scene: Scene
     stage: Stage
     robots: Mapping[AgentId, RobotBody]
     skins: Mapping[AgentId, Skin]
+    ways: Ways
 
 
 class Shown(NamedTuple):
@@ -117,7 +126,8 @@ def frames_of(scenery: Scenery, shown: Shown) -> Iterator[Frame]:
     if record.human is not None:
         hour += f": {record.human.intention.text}"
     made = {thing.name: thing for thing in recording.state.objects(scenery.scene) if thing.name in recording.state.box}
-    for moment in _moments(recording):
+    moments = (between for moment in _moments(recording) for between in scenery.ways.to(moment))
+    for moment in moments:
         yield Frame(1 / FPS, hour, doing, poses_at(scenery, recording, moment), made)
 
 
@@ -140,6 +150,7 @@ def poses_at(scenery: Scenery, recording: Recording, moment: Moment) -> dict[str
     for agent, placed in moment.bodies.items():
         if agent in scenery.robots:
             found |= _links(stage, agent)
+            found[f"{agent}/{CAMERA}"] = _view(scenery.robots[agent], placed)
         else:
             found |= _parts(agent, placed, scenery.skins[agent])
     return found
@@ -152,7 +163,7 @@ def _things(scenery: Scenery, recording: Recording) -> list[str]:
 
 def _pose_of(stage: Stage, body: int) -> Pose:
     place, (x, y, z, w) = pybullet.getBasePositionAndOrientation(body, physicsClientId=stage.client)
-    return _rounded(place if place[2] > _GONE else (0.0, 0.0, _GONE), (w, x, y, z))
+    return _rounded(place, (w, x, y, z)) if place[2] > _DEEPEST else GONE
 
 
 def _links(stage: Stage, agent: AgentId) -> dict[str, Pose]:
@@ -166,6 +177,15 @@ def _links(stage: Stage, agent: AgentId) -> dict[str, Pose]:
         x, y, z, w = state[5]
         found[f"{agent}/{link}"] = _rounded(state[4], (w, x, y, z))
     return found
+
+
+def _view(body: RobotBody, placed: Placed) -> Pose:
+    eye, target = (np.array(one) for one in robot_camera(body, placed)[:2])
+    ahead = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(ahead, (0.0, 0.0, 1.0))
+    right /= max(float(np.linalg.norm(right)), 1e-6)
+    x, y, z, w = quaternion(np.column_stack([right, np.cross(ahead, right), ahead]))
+    return _rounded(tuple(eye), (w, x, y, z))
 
 
 def _parts(agent: AgentId, placed: Placed, skin: Skin) -> dict[str, Pose]:
