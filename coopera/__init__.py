@@ -20,17 +20,31 @@ if TYPE_CHECKING:
     from coopera.checks.method import check_method
     from coopera.config.schema import Config
     from coopera.rundir.directory import RunDir
+    from coopera.rundir.run import Run, open_run
     from coopera.studies.environment import make_env, recorded_life
     from coopera.studies.several import run_studies
     from coopera.studies.study import resume_study, run_study
 
-__all__ = ["Config", "RunDir", "check_method", "make_env", "recorded_life", "resume_study", "run_studies", "run_study"]
+__all__ = [
+    "Config",
+    "Run",
+    "RunDir",
+    "check_method",
+    "make_env",
+    "open_run",
+    "recorded_life",
+    "resume_study",
+    "run_studies",
+    "run_study",
+]
 
 _HOME = {
     "Config": "coopera.config.schema",
     "check_method": "coopera.checks.method",
+    "Run": "coopera.rundir.run",
     "RunDir": "coopera.rundir.directory",
     "make_env": "coopera.studies.environment",
+    "open_run": "coopera.rundir.run",
     "recorded_life": "coopera.studies.environment",
     "run_studies": "coopera.studies.several",
     "resume_study": "coopera.studies.study",

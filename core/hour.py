@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, TypeAlias
 
+from markupsafe import Markup
 from pydantic import Field
 
 from coopera.core.clock import Clock
 from coopera.core.household import Act, Collab, ObjectMap, Outcome, Percept, SceneId
+from coopera.core.notebook.cards import bar, card, note, table
 from coopera.core.people import Belief, BigFive, Circumstance, Frozen, PersonId, is_empty, is_none
 from coopera.core.setting import Setting
 from coopera.core.success import Success
@@ -243,6 +245,31 @@ class HourRecord(Frozen):
     status: Literal["ok", "failed"]
     reason: str = ""
     calls: list[ModelCall] = []
+
+    def _repr_html_(self) -> str:
+        """The hour on a card in a notebook."""
+        human, robot = self.human, self.robot
+        clock = Clock(day=self.episode_day, hour=self.hour)
+        where = f"{clock.weekday}, {clock.label}: {self.person} in {self.scene} (day {self.day}, {self.status})"
+        body = [note(self.reason)] if self.reason else []
+        if human:
+            body.append(table(["the person did"], [[task.act.describe()] for task in human.tasks]))
+        if robot:
+            said = [[one.text, bar(one.probability), _yes(one.accepted)] for one in robot.intentions]
+            body.append(table(["the robot thought", "chance", "accepted"], said))
+            marks = [
+                [one.act.describe(), bar(one.probability), _yes(one.accepted), _yes(one.correct)] for one in robot.tasks
+            ]
+            body.append(table(["and offered", "chance", "accepted", "right"], marks))
+        return card(human.intention.text if human else "No intention", where, *body)
+
+
+def _yes(answer: bool | None) -> Markup:
+    """A tick or a cross, which those who do not see them are told in words."""
+    if answer is None:
+        return Markup("–")
+    mark = '<span style="color:{}" role="img" aria-label="{}">{}</span>'
+    return Markup(mark).format(*(("#2b8a4d", "yes", "✓") if answer else ("#c0483a", "no", "✗")))
 
 
 class FeedbackItem(Frozen):

@@ -34,6 +34,7 @@ from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
 from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
+from coopera.graphs.inside import with_inside
 from coopera.graphs.players.player import HumanContext
 from coopera.graphs.players.real_person import Verdict
 from coopera.graphs.players.together import together
@@ -75,7 +76,10 @@ def first_day(plan: DayPlan) -> DayInput:
 def build_day_graph(
     checkpointer: BaseCheckpointSaver[Any] | None = None,
 ) -> CompiledStateGraph[DayState, Services, DayInput, DayState]:
-    """Compile the day; invoke it with a `DayInput` and `Services`, or use it as a node of the study."""
+    """Compile the day; invoke it with a `DayInput` and `Services`, or use it as a node of the study.
+
+    Its drawing with `get_graph(xray=True)` shows the hour inside, and in the hour the person and the robot.
+    """
     graph = StateGraph(DayState, context_schema=Services, input_schema=DayInput)
     for node in (start_day, hour, feedback, infer_traits, learn, end_day):
         graph.add_node(node)
@@ -86,7 +90,7 @@ def build_day_graph(
     graph.add_edge("infer_traits", "learn")
     graph.add_edge("learn", "end_day")
     graph.add_edge("end_day", END)
-    return graph.compile(checkpointer=checkpointer, name="day")
+    return with_inside(graph.compile(checkpointer=checkpointer, name="day"), {"hour": _hour_graph()})
 
 
 def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:

@@ -25,6 +25,8 @@ from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.success import Success
+from coopera.graphs.human import build_human_graph
+from coopera.graphs.inside import with_inside
 from coopera.graphs.recorded import remember_guess
 from coopera.graphs.robot import (
     OracleInput,
@@ -98,7 +100,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
         graph.add_conditional_edges(name, _goes_on_to(after, alone), sorted({after, alone, "record"}))
     graph.add_node("record", record)
     graph.add_edge("record", END)
-    return graph.compile(checkpointer=False, name="hour")
+    hours = graph.compile(checkpointer=False, name="hour")
+    return with_inside(hours, {"human": build_human_graph(), "robot": _robot()})
 
 
 def live(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:

@@ -30,6 +30,7 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
+from coopera.graphs.contexts import GivenByCode
 from coopera.graphs.players.variables import when
 from coopera.graphs.robots.evidence import weights_for
 from coopera.graphs.robots.learning import Known, Learner, example
@@ -54,7 +55,7 @@ TASKS_REPLY: dict[int, type[PickPlaceReply | HandOverReply]] = {1: PickPlaceRepl
 
 
 @dataclass(frozen=True, slots=True)
-class Helping:
+class Helping(GivenByCode):
     """What any robot works with in an hour: what it knows, and the home that it acts in once it has decided."""
 
     view: RobotView

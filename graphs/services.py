@@ -30,6 +30,7 @@ from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
 from coopera.core.success import Success
+from coopera.graphs.contexts import GivenByCode
 from coopera.graphs.players.answering import Answering
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
@@ -93,7 +94,7 @@ class Life(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Services:
+class Services(GivenByCode):
     """Everything a run works with; the day and study graphs derive each agent's context from it.
 
     `home` opens a scene once and keeps it. `stream` opens a memory stream by name. `images` is the root

@@ -77,8 +77,8 @@ def waiting(
     for the answer to the next question when the study goes on in another process.
     """
     state = graph.get_state(thread, subgraphs=True)
-    while state.tasks and isinstance(state.tasks[0].state, StateSnapshot):
-        state = state.tasks[0].state
+    while state.tasks and isinstance(inner := state.tasks[0].state, StateSnapshot) and inner.tasks:
+        state = inner
     found = [one for task in state.tasks for one in task.interrupts]
     return Waiting(found[0].id, Question.model_validate(found[0].value)) if found else None
 

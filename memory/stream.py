@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.core.notebook.cards import card, table
 from coopera.memory.embeddings import as_array, identity, unit
 from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.log import Log, Record
@@ -35,6 +36,7 @@ MAX_TEXT = 100_000
 """Characters per record or query."""
 
 _PAGE = 1000
+_SHOWN = 10  # records on a card
 _FAR = 10**9  # hours; a hundred thousand years
 
 
@@ -240,6 +242,13 @@ class MemoryStream:
             if keep < before:
                 log.cut(keep)
             return before - keep
+
+    def _repr_html_(self) -> str:
+        """The stream on a card in a notebook: how much it holds, and the newest of it."""
+        if self._log is None:
+            return card(self.name, "This memory stream is closed.")
+        newest = [[f"day {record.hour // 24}, {record.hour % 24}:00", record.text] for record in self.latest(_SHOWN)]
+        return card(self.name, f"A memory stream of {len(self)} records; the newest:", table(["when", "what"], newest))
 
     def close(self) -> None:
         """Let go of the store; closing twice does no harm."""

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from langchain_core.language_models import BaseChatModel
 from langchain_core.messages import AIMessage, BaseMessage
+from langchain_core.runnables import RunnableConfig
 
 from coopera.core.errors import ModelCallError
 from coopera.models.cache import CachedReply
@@ -23,7 +24,8 @@ from coopera.models.transport import Line, RefusedError
 class Request:
     """What the door asks of a model: messages, how to draw the reply, and the schema it should be held to.
 
-    The messages depend on the structure: where nothing else holds the reply to its schema they show it.
+    The messages depend on the structure: where nothing else holds the reply to its schema they show it. What `traced`
+    says goes to whoever listens to the call (callbacks, tracers), not to the model.
     """
 
     messages: Callable[[Structure], Sequence[BaseMessage]]
@@ -32,6 +34,7 @@ class Request:
     max_tokens: int
     schema: Mapping[str, Any] | None = None
     name: str = "reply"
+    traced: RunnableConfig | None = None
 
 
 ENFORCED = frozenset[Structure](("json_schema", "tools"))
@@ -150,11 +153,11 @@ class Backend:
         model, line = self.model, self.line
         assert model is not None  # a past is never asked
         if line is None:
-            return _read(model.invoke(messages, **given))
+            return _read(model.invoke(messages, request.traced, **given))
         told = sum(len(message.text) for message in messages)
 
         def once() -> tuple[CachedReply, int]:
-            reply, estimated = _read(model.invoke(messages, **given), told)
+            reply, estimated = _read(model.invoke(messages, request.traced, **given), told)
             if len(reply.text) > line.settings.max_bytes:
                 raise ValueError(f"it has more than {line.settings.max_bytes} characters (calls.max_bytes)")
             return reply, estimated

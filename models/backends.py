@@ -17,7 +17,6 @@ Add `+images` to a spec if the model looks at pictures and does not say so itsel
 
 from __future__ import annotations
 
-import hashlib
 import importlib
 import os
 import re
@@ -186,10 +185,7 @@ def _given(spec: GivenModel, settings: CallSettings, check: Check) -> Backend:
         return Backend(str(spec), model, reads_variables=True)
     if model._llm_type == "coopera-huggingface":
         return _of_this_process(str(spec), model, settings)
-    fields = {name: getattr(model, name, None) for name in sorted(type(model).model_fields)}
-    plain = {name: value for name, value in fields.items() if isinstance(value, str | int | float)}
-    mark = hashlib.sha256(f"{model._get_llm_string()} {plain}".encode()).hexdigest()
-    return _by_tools(spec, model, settings, _line(spec, settings, check, (Exception,)), weights=mark)
+    return _by_tools(spec, model, settings, _line(spec, settings, check, (Exception,)), weights=spec.mark)
 
 
 def _openai(spec: str, name: str, base_url: str | None, settings: CallSettings, check: Check) -> Backend:

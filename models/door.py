@@ -128,7 +128,7 @@ class Door:
             raise ModelCallError(f"{prompt}: the model {backend.name} cannot look at pictures")
         pictures = [self._picture(path) for path in images]
         wanted = Wanted(reply, variables, held=not backend.reads_variables, brief=backend.brief)
-        talk = Talk(rendered, backend, wanted, self.settings, way=backend.structure)
+        talk = Talk(rendered, backend, wanted, self.settings, at, way=backend.structure)
         started = time.perf_counter()
         try:
             return self._converse(talk, pictures, wanted, at)
@@ -251,6 +251,7 @@ class Door:
             max_tokens=self.settings.max_tokens,
             schema=talk.wanted.enforced,
             name=talk.rendered.reply,
+            traced=talk.traced(),
         )
         if self.meter is not None:
             self.meter.begin()

@@ -6,6 +6,7 @@ on with a run gives it again.
 
 from __future__ import annotations
 
+import hashlib
 import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias, Union
@@ -46,6 +47,13 @@ class GivenModel(str):
         made = super().__new__(cls, f"{spec}{IMAGES}" if images else spec)
         made.model = model
         return made
+
+    @property
+    def mark(self) -> str:
+        """A fingerprint of the object, by its settings in plain text and numbers: 64 hex digits. No key is in it."""
+        fields = {name: getattr(self.model, name, None) for name in sorted(type(self.model).model_fields)}
+        plain = {name: value for name, value in fields.items() if isinstance(value, str | int | float)}
+        return hashlib.sha256(f"{self.model._get_llm_string()} {plain}".encode()).hexdigest()
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Let a copy have the same object."""

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from langchain_core.messages import AIMessage, BaseMessage, HumanMessage
+from langchain_core.runnables import RunnableConfig
 
 from coopera.core.protocols import Rendered
+from coopera.core.randomness import Address
 from coopera.models.asking import ENFORCED, Backend
 from coopera.models.cache import CachedReply
 from coopera.models.parsing import Wanted
@@ -50,6 +52,7 @@ class Talk:
     backend: Backend
     wanted: Wanted[Any]
     settings: CallSettings
+    at: Address
     turns: list[Turn] = field(default_factory=list)
     way: Structure = "text"
     shown: bool = field(init=False)
@@ -94,6 +97,18 @@ class Talk:
             content: Any = [*shown, {"type": "text", "text": text}] if shown else text
             made.append(HumanMessage(content=content, **self._told(turn.seed)))
         return made
+
+    def traced(self) -> RunnableConfig:
+        """What tells this call from all others in a tracer: whose hour it is in, for which node, by which prompt.
+
+        The day is that of the person's life with this robot (`episode_day`), as in the prompts.
+        """
+        at = {"person": self.at.person, "day": self.at.day, "hour": self.at.hour, "node": self.at.node}
+        return {
+            "run_name": self.rendered.name,
+            "tags": ["coopera", self.rendered.role, *(f"{name}:{value}" for name, value in at.items())],
+            "metadata": {**at, "draw": self.at.draw, "role": self.rendered.role, "prompt_sha": self.rendered.sha},
+        }
 
     def written(self, structure: Structure) -> list[dict[str, Any]]:
         """What was said, as it stands in the trace: pictures by name."""

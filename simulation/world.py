@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from coopera.core.affordances import Relation
@@ -165,14 +166,17 @@ class World:
         """Ids of the robots that live here."""
         return self.state.ids("robot")
 
-    def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
+    def perform(
+        self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None, keep: bool = False
+    ) -> Outcome:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
         With `record`, a robot first drives to where it sees the person, and the act is kept for `percept` and
         `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
         the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
         outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded, and for who
-        had to let it pass: then the recording shows the person as they are).
+        had to let it pass: then the recording shows the person as they are). With `keep` the act is kept in the same way
+        while nobody drives anywhere to see it.
 
         Raises:
             SimulationError: If there is no such agent or watcher.
@@ -188,6 +192,8 @@ class World:
             return Outcome(agent=agent, act=act, ok=False, reason=unable.sentence)
         if watch is not None:
             self._record(plan, agent, watch)
+        elif keep:
+            self._record(plan, agent, self._onlooker(agent, act, watcher))
         self.state = plan.state
         fetched, opened = tuple(plan.fetched), tuple(dict.fromkeys(plan.opened))
         done = Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3), fetched=fetched, opened=opened)
@@ -307,7 +313,7 @@ class World:
         Raises:
             SimulationError: If nothing has been recorded since the start or the last `restore`.
         """
-        recording = self._recorded()
+        recording = self.recording
         return perceive(
             self._watching().stage,
             self.layout,
@@ -326,7 +332,7 @@ class World:
         Raises:
             SimulationError: If nothing has been recorded, or the folder cannot be written.
         """
-        recording = self._recorded()
+        recording = self.recording
         folder = Path(folder)
         pictures = self._watching().film(recording, count, self.frame_size)
         paths = []
@@ -348,10 +354,19 @@ class World:
             SimulationError: If nothing has been recorded, or the file cannot be written.
             ConfigError: If the extra `video` is not installed.
         """
-        recording, every = self._recorded(), TICKS // FPS
-        return write_video(Path(path), self._watching().video(recording, self.frame_size, every))
+        return write_video(Path(path), self.filmed())
 
-    def _recorded(self) -> Recording:
+    def filmed(self) -> Iterator[NDArray[np.uint8]]:
+        """The pictures of such a video, `FPS` of them a second."""
+        return self._watching().video(self.recording, self.frame_size, TICKS // FPS)
+
+    @property
+    def recording(self) -> Recording:
+        """The newest recording.
+
+        Raises:
+            SimulationError: If nothing has been recorded since the start or the last `restore`.
+        """
         if self._recording is None or not self._recording.shots:
             raise SimulationError("Nothing has been recorded: call perform with record=True first, and see it succeed.")
         return self._recording

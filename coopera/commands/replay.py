@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -17,10 +17,21 @@ def replay(
     frames: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Render the first act of each hour into this folder.")
     ] = None,
+    day: Annotated[int, typer.Option(min=0, help="The day that --html and --mp4 show.")] = 0,
+    html: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Show the day in 3D: one page with a time bar, to send.")
+    ] = None,
+    mp4: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Film the day: what the robot sees, and what a third person.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Do all acts of a run again from its trace, and compare the home after each hour by its hash."""
+    """Do all acts of a run again from its trace, and compare the home after each hour by its hash; or show a day."""
     from coopera.rundir.directory import RunDir
+
+    if html is not None or mp4 is not None:
+        _show(RunDir.open(run), day, html, mp4, as_json)
+        return
     from coopera.studies.replay import film_into
     from coopera.studies.replay import replay as replay_run
 
@@ -38,3 +49,15 @@ def replay(
         typer.echo(json.dumps({"hours": len(hours), "same": len(hours) - len(different), "differences": differences}))
     if different:
         raise typer.Exit(1)
+
+
+def _show(run: Any, day: int, html: Path | None, mp4: Path | None, as_json: bool) -> None:
+    from coopera.web.replay3d.page import write_film, write_page
+
+    made = [write(run, day, file) for write, file in ((write_page, html), (write_film, mp4)) if file is not None]
+    for one in made:
+        if not as_json:
+            minutes, seconds = divmod(round(one.seconds), 60)
+            typer.echo(printable(f"{one.file}: {one.bytes / 1e6:.1f} MB, {minutes}:{seconds:02d} minutes."))
+    if as_json:
+        typer.echo(json.dumps([{**one._asdict(), "file": str(one.file)} for one in made]))

@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from coopera.config.prices import Prices
 from coopera.core.errors import RunError
 from coopera.core.version import __version__
+from coopera.models.given import GivenModel
 from coopera.models.settings import Spent
 from coopera.rundir import claim
 from coopera.rundir.trace_files import damaged, read_json
@@ -68,7 +69,8 @@ def read_about(path: Path) -> dict[str, Any]:
 
 
 def about(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, Any]:
-    """What is known of a run when it begins."""
+    """What is known of a run when it begins; of models that are objects of a script, a fingerprint."""
+    objects = {role: spec.mark for role, spec in models.items() if isinstance(spec, GivenModel)}
     return {
         "schema": SCHEMA,
         "state": "running",
@@ -83,6 +85,7 @@ def about(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, An
         },
         "prompts": dict(prompts),
         "models": dict(models),
+        **({"model_objects": objects} if objects else {}),
     }
 
 

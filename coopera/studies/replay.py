@@ -75,7 +75,7 @@ def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> I
 
 
 def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None) -> Replayed:
-    expected = _in_order(record)
+    expected = in_order(record)
     watched = record.world.get("watched", record.robot is not None)
     difference = ""
     for number, then in enumerate(expected):
@@ -96,7 +96,7 @@ def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None)
     return Replayed(record.day, record.hour, len(expected), difference, home.state)
 
 
-def _in_order(record: HourRecord) -> list[Outcome]:
+def in_order(record: HourRecord) -> list[Outcome]:
     """The hour's acts in the order in which they were done: the person's first, the robot's, the person's others."""
     own, helped = human_outcomes(record), record.robot.outcomes if record.robot else []
     shown = 1 if record.world.get("watched", record.robot is not None) else 0

@@ -8,7 +8,9 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
+from langchain_core.callbacks import BaseCallbackHandler
 from langchain_core.embeddings import Embeddings
+from langchain_core.runnables import RunnableConfig
 from langgraph.checkpoint.base import BaseCheckpointSaver
 from langgraph.checkpoint.memory import InMemorySaver
 from langgraph.graph.state import CompiledStateGraph
@@ -80,6 +82,7 @@ def run_study(
     ask_person: Interview = nobody,
     stop: Stop | None = None,
     resumable: bool = True,
+    callbacks: Sequence[BaseCallbackHandler] = (),
 ) -> dict[str, Any]:
     """Run a study from its first hour to its report.
 
@@ -91,6 +94,8 @@ def run_study(
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
         resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it
             takes half the time, and is done anew where it does not reach its end.
+        callbacks: LangChain's handlers, such as a tracer: told of each graph, node and call of a model; a call has tags
+            and metadata with its person, day, hour and node.
 
     Returns:
         The content of summary.json.
@@ -100,7 +105,7 @@ def run_study(
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
     with new_run(config, stop, resumable) as (run, services):
-        return _carry_on(run, services, on_event, ask_person)
+        return _carry_on(run, services, on_event, ask_person, callbacks)
 
 
 def resume_study(
@@ -110,6 +115,7 @@ def resume_study(
     ask_person: Interview = nobody,
     budget: Budget | None = None,
     models: Chosen | Mapping[Role, Chosen] | None = None,
+    callbacks: Sequence[BaseCallbackHandler] = (),
 ) -> dict[str, Any]:
     """Go on with a run that was stopped, failed or killed; the result is that of an uninterrupted one.
 
@@ -121,6 +127,7 @@ def resume_study(
         ask_person: As for `run_study`.
         budget: What the run may spend in all, if not what it was begun with.
         models: The chat models that the run was begun with, where these were objects: no file can hold them.
+        callbacks: As for `run_study`.
 
     Raises:
         ConfigError: If such an object is missing, or another one than the run was begun with.
@@ -130,21 +137,8 @@ def resume_study(
     if (found := RunDir.open(path)).state == "finished":
         with refusals_told(), only_mine(found.config.private):
             return _completed(found)
-    one_arena()
-    check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
-    with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
-        run.config = _with_models(run.config, models)
-        prompts = PromptLibrary(run.config.prompts)
-        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
-        if changed:
-            raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
-        config, before = run.config, run.info.get("knowledge", {})
-        if other := knowledge_of(run.info["models"], config.household, config.changes).items() ^ before.items():
-            what = "file of changes" if any(by.startswith(_CHANGES) for by, _ in other) else "household file"
-            raise RunError(f"{path}: the {what} has changed since this run began; restore it to go on.")
-        logs = open_logs(run.config, plan_days(run.config))
-        with open_services(run.config, run, run.people(), prompts, logs) as services:
-            return _carry_on(run, services, on_event, ask_person)
+    with old_run(path, budget, models) as (run, services):
+        return _carry_on(run, services, on_event, ask_person, callbacks)
 
 
 def _with_models(config: Config, models: Chosen | Mapping[Role, Chosen] | None) -> Config:
@@ -203,6 +197,39 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
             raise
 
 
+@contextmanager
+def old_run(
+    path: Path, budget: Budget | None = None, models: Chosen | Mapping[Role, Chosen] | None = None
+) -> Iterator[tuple[RunDir, Services]]:
+    """Take up a run that has not finished and open its services, for scripts that drive a graph themselves.
+
+    Args:
+        path: The run directory.
+        budget: What the run may spend in all, if not what it was begun with.
+        models: The chat models that the run was begun with, where these were objects.
+
+    Raises:
+        ConfigError: If such an object is missing, or another one than the run was begun with.
+        RunError: As with `resume_study`.
+    """
+    found = RunDir.open(path)
+    one_arena()
+    check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
+    with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
+        run.config = _with_models(run.config, models)
+        prompts = PromptLibrary(run.config.prompts)
+        changed = sorted(name for name, sha in prompts.hashes().items() if run.info["prompts"].get(name, sha) != sha)
+        if changed:
+            raise RunError(f"{path}: the prompt {changed[0]} has changed since this run began; restore it to go on.")
+        config, before = run.config, run.info.get("knowledge", {})
+        if other := knowledge_of(run.info["models"], config.household, config.changes).items() ^ before.items():
+            what = "file of changes" if any(by.startswith(_CHANGES) for by, _ in other) else "household file"
+            raise RunError(f"{path}: the {what} has changed since this run began; restore it to go on.")
+        logs = open_logs(run.config, plan_days(run.config))
+        with open_services(run.config, run, run.people(), prompts, logs) as services:
+            yield run, services
+
+
 def knowledge_of(specs: Mapping[Role, str], household: str, changes: str = NONE) -> dict[str, str]:
     """SHA-256 of each household file that is read besides the person's shipped one, and of a file of changes.
 
@@ -254,17 +281,19 @@ def _carry_on(
     services: Services,
     on_event: Callable[[Event], None] | None,
     ask_person: Interview,
+    callbacks: Sequence[BaseCallbackHandler],
 ) -> dict[str, Any]:
     plans = plan_days(run.config)
+    thread: RunnableConfig = {**THREAD, "callbacks": list(callbacks)}
     with _checkpoints(run, plans, services.embeddings) as saver:
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(THREAD).values else {"schedule": plans}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
         if (question := waiting(graph, THREAD)) is None:
-            question = _stream(run, graph, services, given, scored, on_event)
+            question = _stream(run, graph, services, given, scored, on_event, thread)
         while question is not None:
             given = question.answered(_ask(run, question.question, ask_person))
-            question = _stream(run, graph, services, given, scored, on_event)
+            question = _stream(run, graph, services, given, scored, on_event, thread)
     summary = run.finish()
     if run.resumable:
         write_report(run)
@@ -316,13 +345,14 @@ def _stream(
     given: Any,
     scored: list[Counts],
     on_event: Callable[[Event], None] | None,
+    thread: RunnableConfig,
 ) -> Waiting | None:
     """Let the study go on until its end, or until a question to a real person, which is then returned.
 
     Where the one who is told of events fails, the work is stopped before its services are closed.
     """
     stream = graph.stream(
-        given, THREAD, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
+        given, thread, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
     )
     now: dict[str, Any] = {"day": 0, "hour": None}
     with closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events, run.stopped_by_failure():

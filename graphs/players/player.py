@@ -25,6 +25,7 @@ from coopera.core.hour import (
 from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Circumstance, Persona
 from coopera.core.protocols import Ask, Home
+from coopera.graphs.contexts import GivenByCode
 from coopera.graphs.players.changes import Change
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
@@ -60,7 +61,7 @@ class HumanState(HumanInput, total=False):
 
 
 @dataclass(frozen=True, slots=True)
-class HumanContext:
+class HumanContext(GivenByCode):
     """The person's services for a day in a home."""
 
     ask: Ask

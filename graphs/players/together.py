@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from typing import Any
 
 _MOST = 32  # threads; how many requests a server gets at once is its gate's to say (`calls.at_once`)
 
 
 def together(jobs: Sequence[Callable[[], Any]], *, waits: bool = True) -> list[Any]:
-    """Do some jobs at once and return what came of them, in the order of the jobs.
+    """Do some jobs at once and return what came of them, in the order of the jobs; each knows who listens to it.
 
     Args:
         jobs: What to do; none may depend on another, nor on when it is done.
@@ -22,7 +23,7 @@ def together(jobs: Sequence[Callable[[], Any]], *, waits: bool = True) -> list[A
     if not waits or len(jobs) < 2:
         return [job() for job in jobs]
     with ThreadPoolExecutor(min(len(jobs), _MOST)) as pool:
-        begun = [pool.submit(job) for job in jobs]
+        begun = [pool.submit(copy_context().run, job) for job in jobs]
         try:
             return [one.result() for one in begun]
         except BaseException:

@@ -20,8 +20,10 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import load_json, read_text
 from coopera.core.household import ObjectMap, SceneId
+from coopera.core.notebook.cards import card
 from coopera.core.people import Frozen
 from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, merge
+from coopera.simulation.homes.plan_card import Footprint, floor_plan
 
 SHIPPED = Path(__file__).parents[1] / "scenes"
 SCHEMA_VERSION = 1
@@ -260,6 +262,15 @@ class Scene(Frozen):
             gaps = [_gap(door, axis) for door in self.doors if self._stands_on(door, axis, at)]
             walls += [Wall(axis, at, start, end) for start, end in cut(merge(spans), gaps)]
         return walls
+
+    def _repr_html_(self) -> str:
+        """The home as a floor plan in a notebook."""
+        about = f"{len(self.rooms)} rooms, {len(self.fixed)} pieces of furniture, {len(self.movable)} movable things"
+        drawn = [
+            Footprint(f"{one.name}, {one.room}", *one.xy, *one.size[:2], one.yaw, one.colour)
+            for one in sorted(self.objects, key=lambda one: one.top)
+        ]
+        return card(self.id, about, floor_plan([(one.name, one.bounds) for one in self.rooms], self.walls(), drawn))
 
     def _stands_on(self, door: Doorway, axis: str, at: float) -> bool:
         across, along = (door.y, door.x) if axis == "x" else (door.x, door.y)

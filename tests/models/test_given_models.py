@@ -203,6 +203,8 @@ def begun(tmp_path: Path, letters: Path) -> Path:
 def test_a_run_with_an_object_records_what_it_was_and_goes_on_only_with_it(begun: Path) -> None:
     spec = "object:WithTools:with_tools"
     assert RunDir.open(begun).config.models.judge == spec
+    assert RunDir.open(begun).info["model_objects"] == {"judge": GivenModel(WithTools()).mark}
+    assert GivenModel(WithTools(temperature=0.5)).mark != GivenModel(WithTools()).mark
     with pytest.raises(ConfigError, match=f"{spec} is an object of a Python script.* give it again.*resume_study"):
         resume_study(begun)
     with pytest.raises(ConfigError, match=f"played by {spec}, and can only go on with it, not with object:Plain"):
