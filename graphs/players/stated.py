@@ -9,8 +9,11 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
-from coopera.core.household import Collab
+from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.interview import Question
+from coopera.core.protocols import Home
+from coopera.graphs.players.checks import obstacle
+from coopera.graphs.players.evening import MOST, Lived, evening_of
 from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import (
     Interview,
@@ -20,6 +23,7 @@ from coopera.graphs.players.real_person import (
     interviewer,
     read_choice,
     read_intention,
+    read_step,
     read_steps,
     read_verdicts,
 )
@@ -71,10 +75,12 @@ class Interviewed:
 
     Attributes:
         graded: Whether they answer with grades from 1 to 5 instead of yes or no.
+        most: Questions of an evening at most.
         interview: How they are asked.
     """
 
     graded: bool = False
+    most: int = MOST
     interview: Interview = ask_here
     one_by_one: ClassVar[bool] = True
 
@@ -96,6 +102,7 @@ class Interviewed:
             places={name: room for name, (_, room) in found.fixed.items()},
             things={name: room for name, (_, room) in found.movable.items()},
             motions=found.motions,
+            can=state.get("can", {}),
             n_tasks=Numbers.HUMAN_TASKS[ctx.collab],
         )
         return _taken_over(
@@ -103,21 +110,40 @@ class Interviewed:
         )
 
     def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
-        """Ask about everything that the robot imagined, at once."""
-        question = _question(
-            "feedback",
-            clock,
-            ctx,
-            intention=human.intention.text,
-            tasks=[task.act.describe() for task in human.tasks],
-            items=[*(c.text for c in robot.intentions), *(t.act.describe() for t in robot.tasks)],
-            graded=self.graded,
-        )
-        return ask_until_read(self.interview, question, lambda said: read_verdicts(said, question))
+        """Ask about one hour alone."""
+        return self.evening(ctx, [Lived(clock, human, robot)])[0]
+
+    def evening(self, ctx: HumanContext, hours: Sequence[Lived]) -> list[list[Verdict]]:
+        """Ask about the whole day, at once; what says nearly the same is asked once, and at most so much in all."""
+        if not hours:
+            return []
+        clock = hours[-1].clock
+        asked = evening_of(hours, ctx.embeddings, most=self.most, address=(ctx.seed, ctx.persona.id, clock.day))
+        about = {"items": asked.items, "cards": asked.cards, "of": asked.of, "graded": self.graded}
+        question = _question("feedback", clock, ctx, **about)
+        if not asked.items:
+            return asked.handed_out([])
+        return asked.handed_out(ask_until_read(self.interview, question, lambda said: read_verdicts(said, question)))
 
     def present(self) -> Player:
         """The person as the node that runs now reaches them."""
         return replace(self, interview=interviewer())
+
+
+def checked_step(step: str, question: Question, home: Home, agent: AgentId = HUMAN) -> str:
+    """Read one step of a person's, as `read_step` does; a choice must also be one that can be tried in the home.
+
+    Raises:
+        ValueError: Saying what is wrong, and what would do.
+    """
+    clean = read_step(step, question)
+    if "|" in clean:
+        fixed, movable = home.objects("fixed"), home.objects("movable")
+        places = {name: fixed[name] for name in question.places if name in fixed}
+        things = {name: movable[name] for name in question.things if name in movable}
+        if wrong := obstacle(read_choice(clean, question.collab, places, things, question.motions).act, home, agent):
+            raise ValueError(wrong[:1].upper() + wrong[1:])
+    return clean
 
 
 def _taken_over(steps: Sequence[str], state: HumanState, ctx: HumanContext) -> Decomposed:
@@ -161,5 +187,6 @@ def _question(
         time=clock.label,
         weekday=clock.weekday,
         collab=ctx.collab,
+        scene=ctx.plan.scene,
         **about,
     )

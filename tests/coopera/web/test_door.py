@@ -3,7 +3,6 @@ from __future__ import annotations
 import socket
 import urllib.request
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -174,9 +173,10 @@ def test_a_server_beside_other_work_answers_and_ends() -> None:
 
 
 def test_a_port_in_use_is_told_in_one_sentence() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(ConfigError, match="in use; name another"):
-        port = taken.getsockname()[1]
-        _serve_shortly(replace(Door(), port=port))
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        door = Door(port=taken.getsockname()[1])
+        with pytest.raises(ConfigError, match="in use; name another"):
+            _serve_shortly(door)
 
 
 @pytest.mark.parametrize(
