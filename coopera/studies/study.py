@@ -29,6 +29,7 @@ from coopera.graphs import Services, build_study_graph
 from coopera.graphs.players.real_person import Interview
 from coopera.graphs.players.stated import checked_step
 from coopera.graphs.study import Waiting, waiting
+from coopera.memory import Search
 from coopera.models.given import Chosen, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.settings import Budget
@@ -308,7 +309,8 @@ def _checkpoints(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) 
 
 def _checked(services: Services, question: Question, step: str) -> str:
     """Check one step of a real person's in the home that they live in."""
-    return checked_step(step, question, services.home(SceneId(question.scene)), services.human_agent)
+    home, search = services.home(SceneId(question.scene)), partial(Search, services.embeddings)
+    return checked_step(step, question, home, search, services.human_agent)
 
 
 def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:

@@ -9,10 +9,10 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
-from coopera.core.household import HUMAN, AgentId, Collab
+from coopera.core.household import HUMAN, AgentId, Collab, FreeMotion
 from coopera.core.interview import Question
 from coopera.core.protocols import Home
-from coopera.graphs.players.checks import obstacle
+from coopera.graphs.players.checks import SearchIn, obstacle
 from coopera.graphs.players.evening import MOST, Lived, evening_of
 from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import (
@@ -30,6 +30,7 @@ from coopera.graphs.players.real_person import (
 from coopera.graphs.players.reflecting import Draft
 from coopera.graphs.players.simulated import Simulated, ask_for_tasks
 from coopera.graphs.robots.method import Numbers
+from coopera.simulation.acts.meaning import LEAST
 
 Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
 """What a real person wrote down of an hour; None for an hour that they left open."""
@@ -130,7 +131,7 @@ class Interviewed:
         return replace(self, interview=interviewer())
 
 
-def checked_step(step: str, question: Question, home: Home, agent: AgentId = HUMAN) -> str:
+def checked_step(step: str, question: Question, home: Home, search: SearchIn, agent: AgentId = HUMAN) -> str:
     """Read one step of a person's, as `read_step` does; a choice must also be one that can be tried in the home.
 
     Raises:
@@ -141,9 +142,19 @@ def checked_step(step: str, question: Question, home: Home, agent: AgentId = HUM
         fixed, movable = home.objects("fixed"), home.objects("movable")
         places = {name: fixed[name] for name in question.places if name in fixed}
         things = {name: movable[name] for name in question.things if name in movable}
-        if wrong := obstacle(read_choice(clean, question.collab, places, things, question.motions).act, home, agent):
+        act = read_choice(clean, question.collab, places, things, question.motions).act
+        if isinstance(act, FreeMotion):
+            _must_mean_a_motion(act.motion, search(home.motions).top(act.motion, 3))
+        if wrong := obstacle(act, home, agent):
             raise ValueError(wrong[:1].upper() + wrong[1:])
     return clean
+
+
+def _must_mean_a_motion(said: str, near: Sequence[tuple[str, float]]) -> None:
+    """Refuse words that no motion comes near to; the home would have the person stand there and do nothing."""
+    if near and near[0][1] < LEAST:
+        named = ", ".join(caption for caption, _ in near)
+        raise ValueError(f'Nothing that you can do here comes near to "{said}"; the nearest are: {named}.')
 
 
 def _taken_over(steps: Sequence[str], state: HumanState, ctx: HumanContext) -> Decomposed:
