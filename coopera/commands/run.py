@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from coopera.commands.asking import HOST, PORT, PageHost, PagePort, asked
 from coopera.commands.options import (
     AsJson,
     CallBudget,
@@ -35,6 +36,8 @@ def run(
     estimate: Annotated[
         bool, typer.Option("--estimate", help="Only say how many calls and tokens the run would take.")
     ] = False,
+    host: PageHost = HOST,
+    port: PagePort = PORT,
     as_json: AsJson = False,
 ) -> None:
     """Let people live their days while a robot learns to help them."""
@@ -48,10 +51,10 @@ def run(
         return
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.people.terminal import Terminal
         from coopera.studies.study import run_study
 
-        return run_study(config, on_event=on_event, ask_person=Terminal())
+        with asked(config, host, port) as ask_person:
+            return run_study(config, on_event=on_event, ask_person=ask_person)
 
     _carry_out(work, config.out, config, as_json=as_json)
 
@@ -61,6 +64,8 @@ def resume(
     budget_calls: CallBudget = None,
     budget_tokens: TokenBudget = None,
     budget_money: MoneyBudget = None,
+    host: PageHost = HOST,
+    port: PagePort = PORT,
     as_json: AsJson = False,
 ) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
@@ -72,10 +77,10 @@ def resume(
     raised = load_config(run / "config.yaml", given).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.people.terminal import Terminal
         from coopera.studies.study import resume_study
 
-        return resume_study(run, on_event=on_event, budget=raised, ask_person=Terminal())
+        with asked(found.config, host, port) as ask_person:
+            return resume_study(run, on_event=on_event, budget=raised, ask_person=ask_person)
 
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
@@ -128,7 +133,7 @@ def _carry_out(
 
     try:
         # a live line and a person's typing would get in each other's way
-        console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
+        console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.attended else None
         with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
     except WaitingError as err:

@@ -23,8 +23,8 @@ from coopera.simulation.sight.cameras import ROBOT_FOV
 from coopera.simulation.sight.stage import Stage
 from coopera.simulation.sight.video import FPS as FILM_FPS
 from coopera.simulation.sight.video import write_video
-from coopera.simulation.world import World
 from coopera.simulation.ways.navigation import Navigator
+from coopera.simulation.world import World
 from coopera.web.replay3d import solids
 from coopera.web.replay3d.poses import CAMERA, FPS, GONE, Frame, Pose, Scenery, acts_of, frames_of
 from coopera.web.replay3d.ways import Ways

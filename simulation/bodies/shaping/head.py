@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, carve, cone, join, join_all, loft
+from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, carve, cone, join, loft
 
 HairStyle = Literal["bald", "ring", "cropped", "short", "parted", "bob", "long", "bun", "ponytail", "curly"]
 Beard = Literal["none", "stubble", "moustache", "goatee", "full"]
