@@ -21,6 +21,7 @@ from coopera.evaluation.measuring import all_measures, told_in_the_evening
 from coopera.report import charts, learned
 from coopera.report.budget import budget_of, day_rows, in_words
 from coopera.report.differing import as_page, offers_of
+from coopera.report.look import TEMPLATES, style_with
 from coopera.report.pictures import Album, embed
 from coopera.report.policy import content_policy
 from coopera.report.progress import figure
@@ -31,7 +32,6 @@ from coopera.rundir.summary import day_entry, headline, needed, pooled
 from coopera.rundir.trace_files import intention_verdicts
 
 MAX_BYTES = 24_000_000
-TEMPLATES = Path(__file__).parents[1] / "templates"
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ def render(run: RunDir, album: Album) -> str:
     records = told_in_the_evening(run.hours(), evenings.values())
     people = run.people()
     days = _days(run, records, album, people)
-    style, script = ((TEMPLATES / name).read_text(encoding="utf-8") for name in ("style.css", "script.js"))
+    style, script = style_with("style.css"), (TEMPLATES / "script.js").read_text(encoding="utf-8")
     return (
         _environment()
         .get_template("report.html.j2")

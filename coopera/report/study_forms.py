@@ -14,9 +14,9 @@ from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_json, read_text
 from coopera.core.foreign.tables import read_table
 from coopera.evaluation.people.studies import Answers, Key, Made, Study
+from coopera.report.look import TEMPLATES, style_with
 from coopera.report.policy import content_policy
 
-TEMPLATES = Path(__file__).parents[1] / "templates"
 _COLUMNS = ("participant", "question", "answer")
 
 
@@ -39,7 +39,7 @@ def render(study: Study) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    style, script = ((TEMPLATES / name).read_text(encoding="utf-8") for name in ("study.css", "study.js"))
+    style, script = style_with("study.css"), (TEMPLATES / "study.js").read_text(encoding="utf-8")
     return environment.get_template("study.html.j2").render(
         study=study,
         style=Markup(style),
