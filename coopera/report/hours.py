@@ -107,6 +107,7 @@ class HourView:
     changes: list[Change] = field(default_factory=list)
     answers: list[FeedbackItem] = field(default_factory=list)
     plan: Plan | None = None
+    missing: list[str] = field(default_factory=list)
 
     @property
     def away(self) -> bool:

@@ -111,8 +111,8 @@ def _drawn(
         marks += [_path("robot", way), *_numbers("robot", stops), _square(last)]
     return Markup(
         '<svg class="plan" viewBox="{}" role="img" aria-label="Where it happened, on the plan of the home">'
-        '<use href="#{}"/>{}</svg>'
-    ).format(_box(scene), _id(scene), Markup("").join(marks))
+        '<use href="#{}" x="{}" y="{}" width="{}" height="{}"/>{}</svg>'
+    ).format(_box(scene), _id(scene), *_box(scene).split(), Markup("").join(marks))
 
 
 def _walked(
