@@ -98,13 +98,13 @@ def _spots(poses: Any) -> dict[str, Point]:
 def _drawn(
     scene: Scene, floor: Navigator, record: HourRecord, before: Mapping[str, Point], now: Mapping[str, Point]
 ) -> Markup:
-    marks: list[Markup] = []
     acts = human_outcomes(record)
+    outcomes = record.robot.outcomes if record.robot else []
+    marks = [_label(thing) for thing in _used(scene, [*acts, *outcomes])]
     start, end = before.get("human", now.get("human")), now.get("human")
     if start and end:
         way, stops = _walked(scene, floor, acts, start, end, person=None)
         marks += [_path("human", way), *_numbers("human", stops)]
-    outcomes = record.robot.outcomes if record.robot else []
     start, last = before.get("robot", now.get("robot")), now.get("robot")
     if start and last:
         way, stops = _walked(scene, floor, outcomes, start, last, person=end)
@@ -141,6 +141,17 @@ def _place(scene: Scene, floor: Navigator, outcome: Outcome, here: Point, person
         return None
     stand = next(iter(floor.approach(target, here, most=1)), None)
     return (stand.x, stand.y) if stand else target.xy
+
+
+def _used(scene: Scene, acts: Sequence[Outcome]) -> list[SceneObject]:
+    """The furniture that some acts were done at."""
+    names = (getattr(one.act, "receptacle", None) or getattr(one.act, "target", None) for one in acts)
+    return [thing for name in dict.fromkeys(names) if name and (thing := scene.object(name)) is not None]
+
+
+def _label(thing: SceneObject) -> Markup:
+    x, y = _xy(thing.xy)
+    return Markup('<text class="used" x="{:.0f}" y="{:.0f}">{}</text>').format(x, y + 7, plain(thing.name))
 
 
 def _path(who: str, way: Sequence[Point]) -> Markup:

@@ -99,7 +99,7 @@ def over_all(desk: Desk, entry: Shelved) -> dict[str, Any]:
     read = read_all(run)
     try:
         book = gather(run, read.hours, read.evenings, Album({}, 0, 0, False))
-        return {**analysis(run, book), "problems": read.problems}
+        return {**analysis(run, book), "curve": None, "problems": read.problems}  # which stands above them already
     except CooperaError as err:
         return {"days": [], "problems": [*read.problems, plainly(err, entry.root)]}
 

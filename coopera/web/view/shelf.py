@@ -88,8 +88,8 @@ class Shelf:
 
     def __init__(self, root: Path) -> None:
         if not root.is_dir():
-            what = "is no folder" if root.exists() else "does not exist"
-            raise ConfigError(f"{root}: this {what}; give a folder of runs, such as runs.")
+            what = "this is no folder" if root.exists() else "there is no such folder"
+            raise ConfigError(f"{root}: {what}; give the folder in which runs lie, or a run.")
         try:
             next(root.iterdir(), None)
         except OSError as err:
