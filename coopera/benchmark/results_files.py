@@ -90,7 +90,7 @@ def _page(card: Card, coverage: str, rows: list[Row], tables: list[Table], figur
         drawn=figures,
         style=Markup(style),
         script=Markup(script),
-        policy=content_policy(styles=[style], scripts=[script], coloured=True),
+        policy=content_policy(styles=[style], scripts=[script]),
     )
 
 

@@ -77,9 +77,10 @@ def fitted(run: RunDir) -> str:
     if sum(map(len, packs.values())) > most // 3:
         packs = {}
     text = len(render(run, gather_pictures(run, 0), packs).encode())
-    html = render(run, gather_pictures(run, max(most - text, 0)), packs)
+    album = gather_pictures(run, max(most - text, 0))
+    html = render(run, album, packs)
     if (over := len(html.encode()) - most) > 0:
-        html = render(run, gather_pictures(run, max(most - text - over, 0)), packs)
+        html = render(run, gather_pictures(run, max(album.size - over, 0)), packs)
     return html
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -97,9 +98,14 @@ class Shelf:
         self.root = root.resolve()
         self._known: dict[Path, tuple[tuple[int, ...], Shelved]] = {}
         self._keys: dict[Path, str] = {}
+        self._lock = threading.RLock()  # each page is made in a thread of its own
 
     def entries(self) -> list[Shelved]:
         """All runs and benchmarks, by name; what is new or was changed since is read again."""
+        with self._lock:
+            return self._entries()
+
+    def _entries(self) -> list[Shelved]:
         places = list(self._places())
         self._name(path for path, _ in places)
         benchmarks = {path: self._keys[path] for path, kind in places if kind == "benchmark"}
