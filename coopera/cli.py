@@ -31,6 +31,7 @@ from coopera.commands import (
     run,
     scenes,
     sharing,
+    view,
 )
 from coopera.core.errors import OldWordWarning
 from coopera.core.naming import printable
@@ -71,6 +72,7 @@ app.command()(reports.report)
 app.command()(doctor.doctor)
 app.command()(benchmark.benchmark)
 app.command()(replay.replay)
+app.command()(view.view)
 app.command()(sharing.leaderboard)
 app.command()(sharing.export)
 app.add_typer(humans.app, name="humans")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from coopera.benchmark.results_files import CARD, read_results
+from coopera.benchmark.results_page import CARD, read_results
 from coopera.core.errors import ConfigError
 from coopera.evaluation.analysis import Endpoint, last_day, late_days
 

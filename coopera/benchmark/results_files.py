@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from coopera.benchmark.grid_runs import Benchmark, gather
+from coopera.benchmark.results_page import CARD, TABLE, shown
 from coopera.config.files import canonical_json, reason, write_atomic
-from coopera.core.errors import ConfigError, RunError
-from coopera.core.foreign.files import read_text
+from coopera.core.errors import RunError
 from coopera.evaluation.analysis import Endpoint
 from coopera.evaluation.figures import all_figures
-from coopera.evaluation.results import Card, Row, check_card, from_csv, to_csv, unpaired
+from coopera.evaluation.results import Card, Row, to_csv, unpaired
 from coopera.evaluation.tables import Table, all_tables
+from coopera.report.environment import environment
+from coopera.report.look import TEMPLATES, style_with
 from coopera.report.policy import content_policy
-from coopera.rundir.trace_files import read_json
 
-TEMPLATES = Path(__file__).parents[1] / "templates"
-_STYLE = re.compile("<style[^>]*>(.*?)</style>", re.DOTALL)
-CARD, TABLE, PARQUET = "results.json", "hours.csv", "hours.parquet"
+PARQUET = "hours.parquet"
 
 
 def write_results(bench: Benchmark) -> dict[str, Any]:
@@ -60,7 +57,7 @@ def write_views(folder: Path, card: Card, rows: list[Row], *, left: int = 0, tot
     for name, svg in figures.items():
         write_atomic(folder / "figures" / f"{name}.svg", svg)
     page = folder / "index.html"
-    write_atomic(page, _page(card, _coverage(card, rows, left, total), tables, figures))
+    write_atomic(page, _page(card, _coverage(card, rows, left, total), rows, tables, list(figures)))
     return page
 
 
@@ -83,42 +80,18 @@ def _coverage(card: Card, rows: list[Row], left: int, total: int) -> str:
     return " ".join(parts)
 
 
-def _page(card: Card, coverage: str, tables: list[Table], figures: dict[str, str]) -> str:
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    # our own SVG, in which matplotlib has escaped every text; the XML prologue has no place within a page
-    drawn = {name: svg[svg.index("<svg") :] for name, svg in figures.items()}
-    style = (TEMPLATES / "benchmark.css").read_text(encoding="utf-8")
-    styles = [style, *(found for svg in drawn.values() for found in _STYLE.findall(svg))]
-    return environment.get_template("benchmark.html.j2").render(
-        card=card,
+def _page(card: Card, coverage: str, rows: list[Row], tables: list[Table], figures: list[str]) -> str:
+    """The page as text; `figures` are the names of the drawings for a paper that lie beside it."""
+    style = style_with("benchmark.css")
+    script = "".join((TEMPLATES / name).read_text(encoding="utf-8") for name in ("theme.js", "tables.js"))
+    return environment().get_template("benchmark.html.j2").render(
+        **shown(card, rows, tables),
         coverage=coverage,
-        tables=tables,
-        figures={name: Markup(svg) for name, svg in drawn.items()},
+        drawn=figures,
         style=Markup(style),
-        policy=content_policy(styles=styles, coloured=True),
+        script=Markup(script),
+        policy=content_policy(styles=[style], scripts=[script]),
     )
-
-
-def read_results(folder: Path) -> tuple[Card, list[Row]]:
-    """Read and check a results folder.
-
-    Raises:
-        ConfigError: If a file is missing, of another format, or not what its card describes.
-    """
-    if not (folder / CARD).is_file():
-        raise ConfigError(f"{folder}: this folder holds no results (there is no {CARD} in it).")
-    table = read_text(folder / TABLE, "table of results")
-    try:
-        data = read_json(folder / CARD)
-    except RunError as err:
-        raise ConfigError(str(err)) from None
-    return check_card(data, table, str(folder / CARD)), from_csv(table, str(folder / TABLE))
 
 
 def _timings(seconds: dict[str, list[float]]) -> str:

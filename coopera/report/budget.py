@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import functools
 import io
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -76,17 +77,34 @@ def budget_of(run: RunDir, hours: Sequence[HourRecord], evenings: Iterable[Eveni
     Raises:
         ConfigError: If one of its homes cannot be found any more.
     """
-    folders = [run.config.data_dir / "scenes", run.root / "scenes"]
+    with predicate_of(run) as helps:
+        found = budgets(hours, evenings, helps, imagines=imagines(run.config.method))
+    return RunBudget(str(run.root), run.config.method, found)
+
+
+@contextmanager
+def predicate_of(run: RunDir) -> Iterator[Callable[[HourRecord], Helps]]:
+    """The predicate as the run was measured by it, in the home of each of its hours.
+
+    Raises:
+        ConfigError: When it is asked, if one of its homes cannot be found any more.
+    """
+    folders = home_folders(run)
     layout = functools.cache(lambda scene: load_scene(SceneId(scene), folders))
-    with bundled(run.config.data_dir.resolve() / "embeddings.sqlite") as embeddings:
+    data = run.config.data_dir.resolve()
+    with bundled(data / "embeddings.sqlite" if data.is_dir() else None) as embeddings:  # it may be of another machine
         predicate = Predicate(embeddings)
 
         def helps(hour: HourRecord) -> Helps:
             box = hour.world.get("poses", {}).get("box", {})
             return functools.partial(predicate.helps, _Home(functools.partial(layout, hour.scene), box))
 
-        found = budgets(hours, evenings, helps, imagines=_imagines(run.config.method))
-    return RunBudget(str(run.root), run.config.method, found)
+        yield helps
+
+
+def home_folders(run: RunDir) -> list[Path]:
+    """Where homes of a run lie besides the shipped ones."""
+    return [run.config.data_dir / "scenes", run.root / "scenes"]
 
 
 def shares(budget: Budget) -> dict[str, float | None]:
@@ -176,7 +194,7 @@ def _percent(part: int, whole: int) -> str:
     return f"{100 * part / whole:.1f} %" if whole else ""
 
 
-def _imagines(name: str) -> bool:
+def imagines(name: str) -> bool:
     """Whether a method imagines intentions; one that is not known here is taken to."""
     try:
         return find_method(name).intentions != "skipped"

@@ -21,7 +21,14 @@ class Series(NamedTuple):
     labelled: bool = False
 
 
-def lines(series: Sequence[Series], ticks: Sequence[str], *, width: int = 520, height: int = 250) -> Markup:
+def lines(
+    series: Sequence[Series],
+    ticks: Sequence[str],
+    *,
+    width: int = 520,
+    height: int = 250,
+    label: str = "Success by day",
+) -> Markup:
     """Lines over evenly spaced ticks, with figures at the points of labelled series."""
     frame = _Frame(width, height, len(ticks))
     marks = [_axes(frame, ticks)]
@@ -37,7 +44,7 @@ def lines(series: Sequence[Series], ticks: Sequence[str], *, width: int = 520, h
                 text = '<text class="value {}" x="{:.1f}" y="{:.1f}" text-anchor="middle">{:.2f}</text>'
                 below = any(value < (other.values[n] or 0) for other in series)  # keep clear of a line above
                 marks.append(Markup(text).format(one.kind, x, y + 17 if below and y < frame.y(0.08) else y - 9, value))
-    return _svg(frame, marks, "Success by day")
+    return _svg(frame, marks, label)
 
 
 def bars(values: Sequence[float | None], ticks: Sequence[str], *, width: int = 520, height: int = 250) -> Markup:

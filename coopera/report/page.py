@@ -2,76 +2,36 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from coopera.config.files import write_atomic
 from coopera.core.clock import hour_label
 from coopera.core.errors import CooperaError, RunError
-from coopera.core.hour import Evening, FeedbackItem, HourRecord, IntentionCandidate, RobotHour, TaskCandidate
-from coopera.core.household import Outcome
+from coopera.core.hour import Evening, HourRecord
 from coopera.core.people import BigFive, Persona
 from coopera.evaluation.measuring import all_measures, told_in_the_evening
+from coopera.evaluation.robot.error_budget import Helps
 from coopera.report import charts, learned
-from coopera.report.budget import budget_of, day_rows, in_words
+from coopera.report.budget import budget_of, day_rows, home_folders, imagines, in_words, predicate_of
 from coopera.report.differing import as_page, offers_of
+from coopera.report.environment import environment
+from coopera.report.hours import HourView, hour_view, mark_slow, poses_before
 from coopera.report.look import TEMPLATES, style_with
-from coopera.report.pictures import Album, embed
+from coopera.report.packs import pack_days
+from coopera.report.pictures import Album, embed, pictures_of
+from coopera.report.plan import Homes
 from coopera.report.policy import content_policy
-from coopera.report.progress import figure
-from coopera.report.tree import reasons
 from coopera.rundir import seals
 from coopera.rundir.directory import RunDir
-from coopera.rundir.summary import day_entry, headline, needed, pooled
-from coopera.rundir.trace_files import intention_verdicts
+from coopera.rundir.summary import day_entry, headline, needed, pooled, summarise
 
-MAX_BYTES = 24_000_000
-
-
-@dataclass(frozen=True, slots=True)
-class TaskView:
-    """One imagined task with all that is known of it.
-
-    `kind` is hit, wrong (accepted, but of no use), miss (declined, but right), declined or unscored.
-    """
-
-    task: TaskCandidate
-    kind: str
-    answer: FeedbackItem | None
-    outcome: Outcome | None
-
-
-@dataclass(frozen=True, slots=True)
-class CandidateView:
-    """One imagined intention, whether it was right (None: unknown), and its tasks."""
-
-    candidate: IntentionCandidate
-    right: bool | None
-    tasks: list[TaskView]
-
-
-@dataclass(frozen=True, slots=True)
-class HourView:
-    """One hour as the page shows it; `flags` are what the filters ask for."""
-
-    record: HourRecord
-    anchor: str
-    label: str
-    candidates: list[CandidateView]
-    flags: list[str]
-    views: dict[str, list[str]]
-    f1: float | None
-
-    @property
-    def away(self) -> bool:
-        """Whether the person was away from home, so that there was nothing to help with."""
-        return self.record.human is not None and self.record.human.intention.away
+MAX_BYTES, SMALL_BYTES, HOUR_BYTES = 24_000_000, 4_900_000, 75_000
+"""The largest page; that of few hours; and what each hour adds where there are many."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +45,16 @@ class DayView:
     name: str
 
 
+@dataclass(frozen=True, slots=True)
+class Book:
+    """A run as it is shown: its records with what the evening told, its evenings by day, its people, and its days."""
+
+    records: list[HourRecord]
+    evenings: dict[int, Evening]
+    people: dict[str, Persona]
+    days: list[DayView]
+
+
 def write_report(run: RunDir) -> Path:
     """Write report.html into the run's folder and return its path.
 
@@ -92,71 +62,64 @@ def write_report(run: RunDir) -> Path:
         RunError: If the trace is damaged or the file cannot be written.
     """
     path = run.root / "report.html"
-    album = gather_pictures(run, MAX_BYTES)
-    html = render(run, album)
-    if (over := len(html.encode()) - MAX_BYTES) > 0:
-        html = render(run, gather_pictures(run, max(album.size - over, 0)))
     try:
-        write_atomic(path, html)
+        write_atomic(path, fitted(run))
         seals.seal_report(run.root)
     except OSError as err:
         raise RunError(f"{path}: the report cannot be written ({err.strerror or err}).") from err
     return path
 
 
+def fitted(run: RunDir) -> str:
+    """The page with as many pictures as fit beside its text, and with prompts and replies where these fit, too."""
+    most = _most_bytes(len(run.hours_done()))
+    packs = pack_days(run.hours(), run.evenings())
+    if sum(map(len, packs.values())) > most // 3:
+        packs = {}
+    text = len(render(run, gather_pictures(run, 0), packs).encode())
+    album = gather_pictures(run, max(most - text, 0))
+    html = render(run, album, packs)
+    if (over := len(html.encode()) - most) > 0:
+        html = render(run, gather_pictures(run, max(album.size - over, 0)), packs)
+    return html
+
+
+def _most_bytes(hours: int) -> int:
+    """How large a page may be: that of five days below 5 MB, so that it opens at once; that of many days in proportion."""
+    return min(max(SMALL_BYTES, hours * HOUR_BYTES), MAX_BYTES)
+
+
 def gather_pictures(run: RunDir, budget: int) -> Album:
     """The run's sampled frames, in at most `budget` characters."""
-    frames = {(one.day, one.hour): one.robot.observation.frames for one in run.hours() if one.robot}
+    frames = {(one.day, one.hour): pictures_of(run.root, one) for one in run.hours() if one.robot}
     return embed(run.root, frames, budget)
 
 
-@functools.cache
-def _environment() -> Environment:
-    """The templates, compiled once: it takes longer than filling them."""
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {"figure": figure, "hour": hour_label, "reasons": reasons, "flat": _flat, "words": _words}
-    return environment
+def render(run: RunDir, album: Album, packs: Mapping[str, str] | None = None) -> str:
+    """The page as text; a run that is not finished is shown as far as it got.
 
-
-def render(run: RunDir, album: Album) -> str:
-    """The page as text; a run that is not finished is shown as far as it got."""
-    evenings = {evening.day: evening for evening in run.evenings()}
-    records = told_in_the_evening(run.hours(), evenings.values())
-    people = run.people()
-    days = _days(run, records, album, people)
-    style, script = style_with("style.css"), (TEMPLATES / "script.js").read_text(encoding="utf-8")
+    Args:
+        run: The run.
+        album: Its pictures.
+        packs: Its prompts and replies, as of `pack_days`; without them the page says where to see them.
+    """
+    evenings = run.evenings()
+    homes = Homes(home_folders(run))
+    with predicate_of(run) as helps:
+        book = gather(run, run.hours(), evenings, album, helps=helps, homes=homes)
+    style = style_with("style.css")
+    script = "".join((TEMPLATES / name).read_text(encoding="utf-8") for name in ("theme.js", "hours.js"))
+    scenes = dict.fromkeys(hour.record.scene for day in book.days for hour in day.hours if hour.plan)
     return (
-        _environment()
+        environment()
         .get_template("report.html.j2")
         .render(
-            run=run,
-            config=run.config,
-            info=run.info,
-            people=people,
-            days=days,
-            hours=run.config.day_hours,
-            summary=run.summary(),
-            overall={spec.name: pooled(records, spec.name) for spec in all_measures()},
-            measures=all_measures(),
-            curve=_curve(days),
-            ends=_ends(records),
-            need=needed(records),
-            budget=_budget(run, records, list(evenings.values())),
-            differing=as_page(offers_of(records)),
-            by_hour=_by_hour(records, run.config.day_hours),
-            calibration=_calibration(records, evenings),
-            mixed_up={
-                "activity": learned.by_activity(records, evenings),
-                "hour": learned.by_hour(records, evenings),
-            },
+            **analysis(run, book),
+            packed=packs is not None and bool(packs),
+            packs=packs or {},
+            homes=[homes.drawing(scene) for scene in scenes],
+            hour_at=lambda day, hour: f"#d{day}h{hour}",
             album=album,
-            offline=_offline_roles(run.info.get("models", {})),
             style=Markup(style),
             script=Markup(script),
             policy=content_policy(styles=[style], scripts=[script], coloured=True),
@@ -164,79 +127,74 @@ def render(run: RunDir, album: Album) -> str:
     )
 
 
-def _days(run: RunDir, records: Sequence[HourRecord], album: Album, people: Mapping[str, Persona]) -> list[DayView]:
+def gather(
+    run: RunDir,
+    hours: Sequence[HourRecord],
+    evenings: Sequence[Evening],
+    album: Album,
+    *,
+    helps: Callable[[HourRecord], Helps] | None = None,
+    homes: Homes | None = None,
+) -> Book:
+    """What is known of a run, hour by hour, from those of its records that can be read."""
+    told = {evening.day: evening for evening in evenings}
+    records = told_in_the_evening(hours, told.values())
+    people = run.people()
+    before = poses_before(records)
+    asks = imagines(run.config.method)
+    found: dict[int, list[HourView]] = {}
+    for record in records:
+        plan = homes.plan(record, before.get((record.day, record.hour))) if homes else None
+        view = hour_view(record, told.get(record.day), album, helps=helps, imagines=asks, plan=plan)
+        found.setdefault(record.day, []).append(view)
+    mark_slow([view for views in found.values() for view in views])
+    return Book(records, told, people, _days(found, told, people))
+
+
+def analysis(run: RunDir, book: Book) -> dict[str, Any]:
+    """What the charts and tables over all hours of a run show."""
+    records, evenings = book.records, book.evenings
+    return {
+        "run": run,
+        "config": run.config,
+        "info": run.info,
+        "people": book.people,
+        "days": book.days,
+        "hours": run.config.day_hours,
+        "summary": summarise(run.config, records, list(evenings.values()), run.prices),
+        "overall": {spec.name: pooled(records, spec.name) for spec in all_measures()},
+        "measures": all_measures(),
+        "curve": _curve(book.days),
+        "ends": _ends(records),
+        "need": needed(records),
+        "budget": _budget(run, records, list(evenings.values())),
+        "differing": as_page(offers_of(records)),
+        "by_hour": _by_hour(records, run.config.day_hours),
+        "calibration": _calibration(records, evenings),
+        "mixed_up": {
+            "activity": learned.by_activity(records, evenings),
+            "hour": learned.by_hour(records, evenings),
+        },
+        "offline": offline_roles(run.info.get("models", {})),
+    }
+
+
+def _days(
+    found: Mapping[int, list[HourView]], evenings: Mapping[int, Evening], people: Mapping[str, Persona]
+) -> list[DayView]:
     views: list[DayView] = []
     before: dict[tuple[int, str], BigFive | None] = {}
-    for day in run.days():
-        of_day = [record for record in records if record.day == day]
-        if not of_day:
-            continue
-        evening = run.read_evening(day)
+    for day, hours in sorted(found.items()):
+        of_day = [hour.record for hour in hours]
+        evening = evenings.get(day)
         person = people.get(of_day[0].person)
         key = (of_day[0].episode, of_day[0].person)
         seen = evening.belief.big_five if evening else None
         traits = charts.traits(person.big_five if person else None, seen, before.get(key)) if seen else None
         before[key] = seen
-        hours = [hour_view(record, evening, album) for record in of_day]
         name = person.name if person else of_day[0].person
         views.append(DayView(day_entry(of_day), hours, evening, traits, name))
     return views
-
-
-def hour_view(record: HourRecord, evening: Evening | None, album: Album) -> HourView:
-    """Gather what is known of an hour: its candidates joined with the evening's answers and with what was done."""
-    candidates = _candidates(record.robot, evening, record.hour) if record.robot else []
-    kinds = {task.kind for guess in candidates for task in guess.tasks}
-    flags: list[str] = [kind for kind in ("wrong", "miss") if kind in kinds]
-    flags += ["failed"] if record.status == "failed" else []
-    judged = [guess.right for guess in candidates if guess.right is not None]
-    flags += ["unimagined"] if judged and not any(judged) else []
-    return HourView(
-        record=record,
-        anchor=f"d{record.day}h{record.hour}",
-        label=hour_label(record.hour),
-        candidates=candidates,
-        flags=flags,
-        views=album.views.get((record.day, record.hour), {}),
-        f1=record.success.predicate.f1 if record.success else None,
-    )
-
-
-def _candidates(robot: RobotHour, evening: Evening | None, hour: int) -> list[CandidateView]:
-    right = intention_verdicts(evening, hour)
-    tasks = _tasks(robot, evening, hour)
-    candidates = [
-        CandidateView(
-            candidate, right.get(candidate.text), [one for one in tasks if one.task.intention == candidate.text]
-        )
-        for candidate in robot.intentions
-    ]
-    known = {candidate.text for candidate in robot.intentions}
-    loose = [one for one in tasks if one.task.intention not in known]
-    if loose:  # a method that skips intentions
-        candidates.append(CandidateView(IntentionCandidate(text="no intention"), None, loose))
-    return candidates
-
-
-def _tasks(robot: RobotHour, evening: Evening | None, hour: int) -> list[TaskView]:
-    items = [one for one in evening.feedback if one.hour == hour and one.kind == "task"] if evening else []
-    in_order = len(items) == len(robot.tasks)  # the evening asks for every task of the hour, in order
-    left = list(robot.outcomes)
-    views = []
-    for number, task in enumerate(robot.tasks):
-        outcome = next((one for one in left if one.act == task.act), None) if task.accepted else None
-        if outcome is not None:
-            left.remove(outcome)
-        views.append(TaskView(task, _kind(task), items[number] if in_order else None, outcome))
-    return views
-
-
-def _kind(task: TaskCandidate) -> str:
-    if task.correct is None:
-        return "unscored"
-    if task.accepted:
-        return "hit" if task.correct else "wrong"
-    return "miss" if task.correct else "declined"
 
 
 def _ends(records: Sequence[HourRecord]) -> tuple[float | None, float | None]:
@@ -303,21 +261,7 @@ def _calibration(records: Sequence[HourRecord], evenings: Mapping[int, Evening])
     return charts.calibration(bins) if any(bins.values()) else None
 
 
-def _offline_roles(models: Mapping[str, str]) -> list[str]:
+def offline_roles(models: Mapping[str, str]) -> list[str]:
     """Who was played by the offline routine model, as the page calls them."""
     names = {"human": "the person", "robot": "the robot", "judge": "the judge"}
     return [name for role, name in names.items() if models.get(role, "").startswith("offline")]
-
-
-def _flat(value: object) -> str:
-    """A measurement as short words."""
-    if isinstance(value, Mapping):
-        return ", ".join(f"{name} {_flat(one)}" for name, one in value.items())
-    if isinstance(value, list | tuple):
-        return ", ".join(_flat(one) for one in value)
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
-
-
-def _words(items: Sequence[str]) -> str:
-    """Join words as people do: "a, b and c"."""
-    return " and ".join(filter(None, [", ".join(items[:-1]), *items[-1:]]))

@@ -9,8 +9,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
+from coopera.core.hour import HourRecord
+
 SMALL = (160, 120)  # pixels, where even one full frame per view and hour is too much
-_TYPES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
+HELP = "help"
+"""The view of pictures that show the robot at its help."""
+TYPES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 
 
 class Album(NamedTuple):
@@ -50,6 +54,24 @@ def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: i
     return Album({}, 0, taken, small=False)
 
 
+def pictures_of(root: Path, record: HourRecord) -> list[str]:
+    """The pictures of an hour, relative to the run: those that the trace names, and those of the robot's help."""
+    seen = list(record.robot.observation.frames) if record.robot else []
+    folder = root / "frames" / f"day-{record.day:02d}" / f"hour-{record.hour:02d}"
+    try:
+        own = [path for path in folder.glob(f"{HELP}-*") if path.suffix in TYPES]
+    except OSError:
+        own = []
+    more = [path.relative_to(root).as_posix() for path in sorted(own, key=_number)]
+    return [*seen, *(path for path in more if path not in seen)]
+
+
+def _number(path: Path) -> tuple[int, str]:
+    """Where a picture stands among those of its view: "help-10" comes after "help-9"."""
+    number = path.stem.rpartition("-")[2]
+    return (int(number) if number.isdecimal() and len(number) < 9 else 0), path.name
+
+
 def thin(files: Sequence[Path], count: int) -> list[Path]:
     """Keep `count` files, evenly spread, the first and the last among them where there are two or more."""
     if count >= len(files):
@@ -63,12 +85,12 @@ def _by_view(root: Path, paths: Sequence[str]) -> dict[str, list[Path]]:
     views: dict[str, list[Path]] = defaultdict(list)
     for path in paths:
         pure = PurePosixPath(path)
-        if pure.suffix in _TYPES and _is_of_the_run(root / pure, root):
+        if pure.suffix in TYPES and is_of_the_run(root / pure, root):
             views[pure.stem.partition("-")[0]].append(root / pure)
     return dict(views)
 
 
-def _is_of_the_run(path: Path, root: Path) -> bool:
+def is_of_the_run(path: Path, root: Path) -> bool:
     """Whether a path names a picture of the run: one from elsewhere, or a link, must not put other files on a page."""
     try:
         return path.resolve().is_relative_to(root.resolve()) and path.is_file()
@@ -91,7 +113,7 @@ def _encoded(
 
 def _data_uri(path: Path, *, small: bool) -> str:
     """A frame as text; empty where it should be made smaller and is no picture."""
-    data, kind = path.read_bytes(), _TYPES[path.suffix]
+    data, kind = path.read_bytes(), TYPES[path.suffix]
     if small:
         from coopera.core.foreign.pictures import open_picture  # noqa: PLC0415  (most reports never need it)
 

@@ -33,6 +33,9 @@ FALSE = {
 }
 """Why a successful act was of no use, by name. Every useless act is in exactly one of them."""
 
+FAILED = "failed"
+"""What became of an accepted act that was not done, or came too late."""
+
 Helps = Callable[[Act, Act], bool]
 """The predicate: whether an act of the robot helps with an act of the person."""
 
@@ -71,6 +74,18 @@ class Budget(NamedTuple):
     def figures(self) -> dict[str, Any]:
         """As plain data."""
         return {**self._asdict(), "missed": self.missed, "useless": self.useless}
+
+
+class Fates(NamedTuple):
+    """What became of each task and each act of an hour.
+
+    Attributes:
+        tasks: Of each of the person's tasks after the first, where it was lost (a name of `LOST`); None if it was helped.
+        acts: Each of the robot's accepted acts and why it was of no use: a name of `FALSE`, `FAILED`, or None if it helped.
+    """
+
+    tasks: list[str | None]
+    acts: list[tuple[TaskCandidate, str | None]]
 
 
 class DayBudget(NamedTuple):
@@ -131,7 +146,7 @@ def budgets(
             person=of_day[0].person,
             scene=of_day[0].scene,
             budget=pool(
-                hour_budget(hour.human, hour.robot, _right(hour, told.get(day)), helps(hour), imagines=imagines)
+                hour_budget(hour.human, hour.robot, meant(hour, told.get(day)), helps(hour), imagines=imagines)
                 for hour in of_day
                 if hour.human and hour.robot and hour.status == "ok" and not hour.human.intention.away
             ),
@@ -152,24 +167,36 @@ def hour_budget(
         helps: The predicate.
         imagines: Whether the robot imagines intentions.
     """
+    found = hour_fates(human, robot, right, helps, imagines=imagines)
+    lost, false = Counter(found.tasks), Counter(why for _, why in found.acts)
+    return Budget(
+        hours=1,
+        remaining=len(found.tasks),
+        helped=lost[None],
+        lost={name: lost[name] for name in LOST},
+        accepted=len(found.acts),
+        failed=false[FAILED],
+        false={name: false[name] for name in FALSE},
+    )
+
+
+def hour_fates(
+    human: HumanHour, robot: RobotHour, right: Mapping[str, bool | None], helps: Helps, *, imagines: bool = True
+) -> Fates:
+    """What became of each task and each act of an hour; arguments as of `hour_budget`."""
     done = _outcomes(robot)
     remaining = [task.act for task in human.tasks[1:]]
     helped = [any(ok and helps(task.act, wanted) for task, ok in done) for wanted in remaining]
     stage = _reached(robot, right, imagines=imagines)
-    lost = Counter(
-        _lost(robot.tasks, wanted, helps) or stage for wanted, yes in zip(remaining, helped, strict=True) if not yes
-    )
-    useless = [task for task, ok in done if ok and not any(helps(task.act, wanted) for wanted in remaining)]
-    false = Counter(_why_false(task, human, right, helps, imagines=imagines) for task in useless)
-    return Budget(
-        hours=1,
-        remaining=len(remaining),
-        helped=sum(helped),
-        lost={name: lost[name] for name in LOST},
-        accepted=len(done),
-        failed=sum(not ok for _, ok in done),
-        false={name: false[name] for name in FALSE},
-    )
+    tasks = [
+        None if yes else _lost(robot.tasks, wanted, helps) or stage for wanted, yes in zip(remaining, helped, strict=True)
+    ]
+    acts: list[tuple[TaskCandidate, str | None]] = []
+    for task, ok in done:
+        useful = any(helps(task.act, wanted) for wanted in remaining)
+        why = None if useful else _why_false(task, human, right, helps, imagines=imagines)
+        acts.append((task, why if ok else FAILED))
+    return Fates(tasks, acts)
 
 
 def _outcomes(robot: RobotHour) -> list[tuple[TaskCandidate, bool]]:
@@ -214,7 +241,7 @@ def _why_false(
     return {True: "wrong_thing", False: "wrong_intention", None: "unsaid"}[right.get(task.intention)]
 
 
-def _right(hour: HourRecord, evening: Evening | None) -> dict[str, bool | None]:
+def meant(hour: HourRecord, evening: Evening | None) -> dict[str, bool | None]:
     """What the person meant in the evening of each intention that was imagined; the true one's own words are right."""
     items = evening.feedback if evening else []
     said = {

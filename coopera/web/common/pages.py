@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import mimetypes
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +47,10 @@ class Pages:
             KeyError: If there is no such file.
         """
         return STATIC + self._hashed(name)
+
+    def contents(self) -> Iterator[tuple[str, bytes]]:
+        """All files, each with its address, for pages that are written as files themselves."""
+        yield from ((self.static(name), path.read_bytes()) for name, path in self._files.items())
 
     def render(self, request: Request, template: str, /, *, status: int = 200, **given: Any) -> HTMLResponse:
         """A page as it is answered; templates also have `form_token` and `path`."""

@@ -12,6 +12,7 @@ import pytest
 from coopera.benchmark.results_files import _page
 from coopera.evaluation.people.studies import Choice, DayShown, HourShown, Study, Trait
 from coopera.evaluation.results import Card
+from coopera.evaluation.tables import Table
 from coopera.report.page import gather_pictures, render
 from coopera.report.pictures import embed
 from coopera.report.policy import content_policy
@@ -56,9 +57,11 @@ def _study() -> Study:
 
 
 def _benchmark() -> str:
-    card = Card.model_construct(name="b<script>", coopera="1", format=1, sha256="0" * 64, models={"human": "offline"})
-    drawn = '<?xml?>\n<svg><style type="text/css">*{stroke-linejoin: round}</style><g style="fill: red"/></svg>'
-    return _page(card, "all", [], {"one": drawn, "two": drawn})
+    card = Card.model_construct(
+        name="b<script>", coopera="1", format=1, sha256="0" * 64, models={"human": "offline"}, methods=["ours"]
+    )
+    table = Table("late", "Late <days>", ["method", "need"], [["ours", "<b>0.5"]])
+    return _page(card, "all", [], [table], ["need"])
 
 
 @pytest.fixture(scope="module")

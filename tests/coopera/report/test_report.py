@@ -11,7 +11,8 @@ from coopera.evaluation.robot.differences import offers_of
 from coopera.evaluation.robot.error_budget import LOST, by_day
 from coopera.report import charts
 from coopera.report.budget import read_budget
-from coopera.report.page import gather_pictures, hour_view, render, write_report
+from coopera.report.hours import hour_view
+from coopera.report.page import gather_pictures, render, write_report
 from coopera.report.pictures import embed, thin
 from coopera.rundir.directory import RunDir
 from tests.coopera.fake_run import fake_run
@@ -158,7 +159,8 @@ def test_a_page_with_more_text_than_expected_carries_fewer_pictures(
 ) -> None:
     run = fake_run(tmp_path / "run", days=1, hours=3, frames=4)
     whole = write_report(run).stat().st_size
-    monkeypatch.setattr("coopera.report.page.MAX_BYTES", whole - 1000)
+    monkeypatch.setattr("coopera.report.page.HOUR_BYTES", 0)
+    monkeypatch.setattr("coopera.report.page.SMALL_BYTES", whole - 1000)
     assert write_report(run).stat().st_size <= whole - 1000
     assert "pictures per view 3 are shown here" in (run.root / "report.html").read_text()
 
