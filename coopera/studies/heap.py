@@ -18,4 +18,4 @@ def steady_heap() -> bool:
     """
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     settings = ((_ARENA_MAX, 1), (_MMAP_THRESHOLD, _LARGE), (_TRIM_THRESHOLD, 8 * _LARGE))
-    return mallopt is not None and all([mallopt(name, value) for name, value in settings])
+    return mallopt is not None and all(mallopt(name, value) for name, value in settings)
