@@ -50,7 +50,7 @@ def main() -> None:
     grows = {name: round(slope(rows, name), 4) for name in names[1:]}
     print(f"growth a day after day {SETTLED}: {grows}")
     print(json.dumps({"days": chosen.days, "hours": chosen.hours, "growth": grows}))
-    sys.exit(grows["memory MB"] > chosen.most)
+    sys.exit(grows["RSS MB"] > chosen.most)
 
 
 def lived(days: int, hours: int, person: str, out: Path) -> list[Row]:
@@ -84,10 +84,10 @@ def _held(out: Path) -> Row:
     kilobytes = next(int(line.split()[1]) for line in status.splitlines() if line.startswith("RssAnon"))
     sizes = {part: _megabytes(out / part) for part in PARTS}
     return {
-        "memory MB": round(kilobytes / 1024, 1),
+        "RSS MB": round(kilobytes / 1024, 1),
         "handles": len(os.listdir("/proc/self/fd")),
         "disk MB": _megabytes(out),
-        **{f"{part} MB": size for part, size in sizes.items()},
+        **{f"{part}, MB": size for part, size in sizes.items()},
     }
 
 

@@ -60,6 +60,8 @@ def work_on_ray(
             job = running.pop(ended)
             try:
                 error = ray.get(ended)
+            except ray.exceptions.LocalRayletDiedError as err:
+                raise _gone(address, err) from err
             except ray.exceptions.RayError as err:
                 error = f"its process died {TRIES} times ({type(err).__name__})"
             yield from queue.close(job, error)
@@ -72,10 +74,12 @@ def _heard(ray: Any, running: list[Any], address: str) -> tuple[list[Any], list[
     try:
         ended: tuple[list[Any], list[Any]] = ray.wait(running)
     except (ray.exceptions.RayError, ConnectionError) as err:
-        raise RunError(
-            f"--ray {address}: the cluster is gone ({type(err).__name__}); run the same command again."
-        ) from err
+        raise _gone(address, err) from err
     return ended
+
+
+def _gone(address: str, err: Exception) -> RunError:
+    return RunError(f"--ray {address}: the cluster is gone ({type(err).__name__}); run the same command again.")
 
 
 def _refuse_silent(address: str) -> None:

@@ -1,16 +1,21 @@
-"""The process's heap: a run lives in many short threads, each of which would leave holes in a heap of its own."""
+"""The process's heap: a run lives for weeks, in short threads and with large arrays that come and go each evening."""
 
 from __future__ import annotations
 
 import ctypes
 
-_ARENA_MAX = -8  # M_ARENA_MAX of glibc's malloc.h
+_TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8  # of glibc's malloc.h
+_LARGE = 2**20
+"""Bytes from which on memory is the system's again once it is free."""
 
 
-def one_arena() -> bool:
-    """Have all threads that begin from now on share one heap; return whether this system's C library can.
+def steady_heap() -> bool:
+    """Keep the memory of a long run from growing by holes; return whether this system's C library can.
 
-    With glibc's default of eight heaps a core, the memory of a long run grows by holes: it was half of all growth.
+    All threads that begin from now on share one heap: with glibc's default of eight heaps a core, holes were half of
+    all growth. Large arrays lie outside the heap: by default glibc takes them into it, up to 32 MB each, after the
+    first of such a size was freed.
     """
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
-    return mallopt is not None and bool(mallopt(_ARENA_MAX, 1))
+    settings = ((_ARENA_MAX, 1), (_MMAP_THRESHOLD, _LARGE), (_TRIM_THRESHOLD, 8 * _LARGE))
+    return mallopt is not None and all(mallopt(name, value) for name, value in settings)

@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.heap import one_arena
+from coopera.studies.heap import steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
 from coopera.studies.standing import (
@@ -167,7 +167,7 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
         ConfigError: If the configuration is wrong; nothing is then written.
         ModelCallError: If no server listens where a model should be; a run that has no hour yet is taken back.
     """
-    one_arena()
+    steady_heap()
     config = resolve(config)
     prompts = PromptLibrary(config.prompts)
     people = [find_person(config, person) for person in config.humans or []]
@@ -217,7 +217,7 @@ def old_run(
         RunError: As with `resume_study`.
     """
     found = RunDir.open(path)
-    one_arena()
+    steady_heap()
     check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
     with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)

@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-from coopera.studies.heap import one_arena
+from coopera.studies.heap import steady_heap
 
 HEAPS = """
 import ctypes, re, tempfile, threading
-from coopera.studies.heap import one_arena
-assert one_arena()
+from coopera.studies.heap import steady_heap
+assert steady_heap()
 libc = ctypes.CDLL(None)
 libc.malloc.restype = libc.fopen.restype = ctypes.c_void_p
 libc.malloc_info.argtypes = (ctypes.c_int, ctypes.c_void_p)
@@ -34,8 +34,30 @@ ready.wait()
 """
 
 
+LARGE = """
+import ctypes
+from coopera.studies.heap import steady_heap
+assert steady_heap()
+libc = ctypes.CDLL(None)
+libc.malloc.restype = ctypes.c_void_p
+libc.free.argtypes = (ctypes.c_void_p,)
+libc.sbrk.restype = ctypes.c_void_p
+libc.free(libc.malloc(ctypes.c_size_t(24 << 20)))
+before = libc.sbrk(0)
+libc.malloc(ctypes.c_size_t(16 << 20))
+print(libc.sbrk(0) - before < 1 << 20)
+"""
+
+
+def test_large_arrays_lie_outside_the_heap_even_after_others_were_freed() -> None:
+    if not steady_heap():
+        pytest.skip("this C library has no such setting")
+    told = subprocess.run([sys.executable, "-c", LARGE], check=True, capture_output=True, text=True)
+    assert told.stdout == "True\n"
+
+
 def test_the_threads_of_a_run_share_one_heap() -> None:
-    if not one_arena():
+    if not steady_heap():
         pytest.skip("this C library has no such setting")
     told = subprocess.run([sys.executable, "-c", HEAPS], check=True, capture_output=True, text=True)
     assert told.stdout == "1\n"

@@ -127,8 +127,10 @@ class FakeRay:
 
         class WorkerCrashedError(RayError): ...
 
-    def __init__(self, dying: str = "", gone: bool = False) -> None:
-        self.dying, self.gone = dying, gone
+        class LocalRayletDiedError(RayError): ...
+
+    def __init__(self, dying: str = "", gone: bool = False, raylet_dies: bool = False) -> None:
+        self.dying, self.gone, self.raylet_dies = dying, gone, raylet_dies
         self.open = False
 
     def init(self, **given: object) -> None:
@@ -155,6 +157,8 @@ class FakeRay:
         return tasks[:1], tasks[1:]
 
     def get(self, task: tuple[Any, str]) -> Any:
+        if self.raylet_dies:
+            raise self.exceptions.LocalRayletDiedError("SIGKILL")
         if task[1] == self.dying:
             raise self.exceptions.WorkerCrashedError("SIGKILL")
         return task[0]
@@ -173,8 +177,8 @@ def test_a_killed_worker_of_a_cluster_costs_its_job_and_no_other(
     assert not ray.open
 
 
-def test_a_cluster_that_goes_away_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
-    ray = FakeRay(gone=True)
+@pytest.mark.parametrize("ray", [FakeRay(gone=True), FakeRay(raylet_dies=True)], ids=["head", "raylet"])
+def test_a_cluster_that_goes_away_is_one_sentence(ray: FakeRay, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ray", ray)
     with pytest.raises(RunError, match="--ray local: the cluster is gone"):
         list(work_on_ray([Errand("a")], stumble, address="local"))
