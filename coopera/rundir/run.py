@@ -109,14 +109,18 @@ class Run:
         `correct` is the predicate's and stands at tasks alone; `helpful`, `grade` and `said` are the evening's.
         """
         told = {
-            (evening.day, item.hour, item.kind, item.text): item for evening in self.evenings for item in evening.feedback
+            (evening.day, item.hour, item.kind, item.text): item
+            for evening in self.evenings
+            for item in evening.feedback
         }
         return _frame([row for record in self.records for row in _candidate_rows(record, told)])
 
     @cached_property
     def calls(self) -> DataFrame:
         """A row for each call of a language model: of hours, then of the evening (`hour` is then missing)."""
-        rows = [_call_row(call, record.day, record.hour, record.person) for record in self.records for call in record.calls]
+        rows = [
+            _call_row(call, record.day, record.hour, record.person) for record in self.records for call in record.calls
+        ]
         rows += [_call_row(call, one.day, None, one.person) for one in self.evenings for call in one.calls]
         return _frame(sorted(rows, key=lambda row: row["day"])).astype({"hour": "Int64"}) if rows else _frame(rows)
 
@@ -133,7 +137,11 @@ class Run:
             for day in said["days"]
         ]
         hours = [
-            [f"day {one.day}, {hour_label(one.hour)}", one.human.intention.text if one.human else one.reason, *_score(one)]
+            [
+                f"day {one.day}, {hour_label(one.hour)}",
+                one.human.intention.text if one.human else one.reason,
+                *_score(one),
+            ]
             for one in self.records[:_SHOWN]
         ]
         left = len(self.records) - len(hours)
@@ -202,7 +210,9 @@ def _candidate_rows(
 
 
 def _call_row(call: ModelCall, day: int, hour: int | None, person: str) -> dict[str, Any]:
-    plain = call.model_dump(include={"node", "prompt", "model", "seconds", "tokens_in", "tokens_out", "attempts", "cached"})
+    plain = call.model_dump(
+        include={"node", "prompt", "model", "seconds", "tokens_in", "tokens_out", "attempts", "cached"}
+    )
     return {
         "day": day,
         "hour": hour,

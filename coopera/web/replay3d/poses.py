@@ -97,9 +97,10 @@ def acts_of(run: RunDir, day: int) -> Iterator[Shown]:
         raise RunError(f"{run.root}: there is no day {day}; there are {days or 'none yet'}.")
     before = [one for one in run.hours() if one.day < day and one.episode == records[0].episode]
     before = [one for one in before if one.scene == records[0].scene]
-    with open_embeddings(run.config) as embeddings, open_home(
-        run.config, records[0].scene, embeddings, run.root
-    ) as home:
+    with (
+        open_embeddings(run.config) as embeddings,
+        open_home(run.config, records[0].scene, embeddings, run.root) as home,
+    ):
         home.restore(before[-1].world.get("poses", {}) if before else {})
         for record in records:
             watched = record.world.get("watched", record.robot is not None)
