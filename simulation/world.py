@@ -54,7 +54,7 @@ class World:
         agents: Sequence[Agent] | None = None,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
-        renderer: Renderer = "tiny",
+        renderer: Renderer = "auto",
         motions: Library | None = None,
         match: Rank | None = None,
         errors: PerceptErrors | None = None,
@@ -67,7 +67,8 @@ class World:
                 "robot".
             robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
-            renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
+            renderer: What draws the pictures: "auto" is "gl" where that is to be had, else "tiny". The first world of a process
+                that draws with "egl" decides for all that draw with "tiny".
             motions: What the person's body can do; the shipped library without it.
             match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
                 words are compared.

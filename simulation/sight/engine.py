@@ -17,10 +17,14 @@ from typing import Any, Literal
 
 from coopera.core.errors import ConfigError
 from coopera.simulation.bodies.body_file import OF_PYBULLET
+from coopera.simulation.drawing.context import problem
 
 _QUIET = threading.RLock()
-Renderer = Literal["tiny", "egl"]
-"""Tiny needs nothing; EGL is faster with large pictures and needs the system's libEGL. Their pixels differ."""
+Renderer = Literal["auto", "gl", "tiny", "egl"]
+"""What draws pictures: our own with OpenGL, pybullet's own with OpenGL ("egl"), or pybullet's that needs nothing.
+
+Their pixels differ. "auto" is "gl" where OpenGL is to be had, else "tiny"; gl and egl need the system's libEGL.
+"""
 
 
 @contextmanager
@@ -80,6 +84,20 @@ def _loaded(path: Path, whole: Path, given: Mapping[str, Any]) -> int:
         raise ConfigError(f"{path}: pybullet cannot load this URDF; what it prints says why.") from err
 
 
+def chosen(name: Renderer) -> Renderer:
+    """The renderer that a name stands for on this machine.
+
+    Raises:
+        ConfigError: If ours is asked for and is not to be had here; says which package would help.
+    """
+    why = problem() if name in ("auto", "gl") else ""
+    if name == "gl" and why:
+        raise ConfigError(f"renderer: gl is not to be had on this machine: {why}; or choose tiny.")
+    if name == "auto":
+        return "tiny" if why else "gl"
+    return name
+
+
 def start_renderer(name: Renderer, client: int) -> int:
     """Make a client draw with a renderer, and return its number for pictures.
 
@@ -88,7 +106,7 @@ def start_renderer(name: Renderer, client: int) -> int:
     Raises:
         ConfigError: If EGL is asked for and is not to be had here.
     """
-    if name == "tiny":
+    if name in ("tiny", "gl"):
         return int(pybullet.ER_TINY_RENDERER)
     found = find_spec("eglRenderer")
     plugin = -1

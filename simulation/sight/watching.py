@@ -21,7 +21,7 @@ from coopera.simulation.sight.stage import Camera, Image, Stage
 class Watcher:
     """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
 
-    def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
+    def __init__(self, ground: Ground, renderer: Renderer = "auto") -> None:
         """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
         self.ground = ground
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
