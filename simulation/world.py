@@ -23,10 +23,10 @@ from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
-from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video

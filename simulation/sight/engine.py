@@ -13,18 +13,14 @@ from ctypes.util import find_library
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from coopera.core.errors import ConfigError
 from coopera.simulation.bodies.body_file import OF_PYBULLET
-from coopera.simulation.drawing.context import problem
+from coopera.simulation.drawing.context import Renderer
 
 _QUIET = threading.RLock()
-Renderer = Literal["auto", "gl", "tiny", "egl"]
-"""What draws pictures: our own with OpenGL, pybullet's own with OpenGL ("egl"), or pybullet's that needs nothing.
 
-Their pixels differ. "auto" is "gl" where OpenGL is to be had, else "tiny"; gl and egl need the system's libEGL.
-"""
 
 
 @contextmanager
@@ -82,20 +78,6 @@ def _loaded(path: Path, whole: Path, given: Mapping[str, Any]) -> int:
         return int(pybullet.loadURDF(str(whole), **given))
     except pybullet.error as err:
         raise ConfigError(f"{path}: pybullet cannot load this URDF; what it prints says why.") from err
-
-
-def chosen(name: Renderer) -> Renderer:
-    """The renderer that a name stands for on this machine.
-
-    Raises:
-        ConfigError: If ours is asked for and is not to be had here; says which package would help.
-    """
-    why = problem() if name in ("auto", "gl") else ""
-    if name == "gl" and why:
-        raise ConfigError(f"renderer: gl is not to be had on this machine: {why}; or choose tiny.")
-    if name == "auto":
-        return "tiny" if why else "gl"
-    return name
 
 
 def start_renderer(name: Renderer, client: int) -> int:

@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.core.household import AgentId, plain
-from coopera.simulation.sight.engine import Renderer, chosen, load_urdf, pybullet, quiet, start_renderer  # isort: split
+from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.bodies.appearance import Appearance, appearance_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.renderer import Renderer as Drawer
 from coopera.simulation.drawing.renderer import bodies_of
@@ -39,6 +40,7 @@ _AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
 _NEAR, _FAR = 0.05, 30.0
 Image = NDArray[np.uint8]
+__all__ = ["Camera", "Image", "Stage"]
 
 
 class Stage:
