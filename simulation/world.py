@@ -37,7 +37,8 @@ from coopera.simulation.state.looks import place_in_words, states_in_sight, thin
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
 
-_WEBP_QUALITY = 82
+WEBP = {"quality": 82, "method": 2}
+"""How pictures are encoded: method 4 takes twice the time for the same size."""
 
 
 class World:
@@ -327,7 +328,7 @@ class World:
             for name in ("robot", "human"):
                 for i, image in enumerate(pictures[name]):
                     path = folder / f"{name}-{i}.webp"
-                    Image.fromarray(image).save(path, "WEBP", quality=_WEBP_QUALITY, method=4)
+                    Image.fromarray(image).save(path, "WEBP", **WEBP)
                     paths.append(path)
         except OSError as err:
             raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -50,6 +51,9 @@ class _Target(NamedTuple):
     """What is drawn into, of one size."""
 
     frame: Any
+    """With tags."""
+    plain: Any
+    """Colours alone."""
     depth: Any
     tags: Any
     held: tuple[Any, ...]
@@ -121,7 +125,8 @@ class _Kit:
             tags = self.context.texture(size, 1, dtype="i4")
             depth = self.context.depth_texture(size)
             frame = self.context.framebuffer([colour, tags], depth)
-            self.targets[size] = _Target(frame, depth, tags, (frame, colour, tags, depth))
+            plain = self.context.framebuffer([colour], depth)
+            self.targets[size] = _Target(frame, plain, depth, tags, (frame, plain, colour, tags, depth))
         return self.targets[size]
 
 
@@ -160,16 +165,15 @@ class Renderer:
         self._still = context.framebuffer(depth_attachment=_shadow_texture(context, size))
         self._all = context.framebuffer(depth_attachment=_shadow_texture(context, size))
         if self.shadow:
-            self._cast(context, self._still, self._fixed, clear=True)
+            self._cast_fixed(context)
 
-    def _cast(self, context: Any, frame: Any, store: _Store, *, clear: bool) -> None:
-        """Draw what casts a shadow into a shadow map."""
-        frame.use()
+    def _cast_fixed(self, context: Any) -> None:
+        """Cast the shadows of all that stands fast."""
+        self._still.use()
         context.enable_only(context.DEPTH_TEST)
-        if clear:
-            frame.clear(depth=1.0)
+        self._still.clear(depth=1.0)
         self._kit.shadow["lens"].write(_columns(self._sunlens))
-        store.draw(context, store.cast, np.flatnonzero(store.casts))
+        self._fixed.draw(context, self._fixed.cast, np.flatnonzero(self._fixed.casts))
 
     def close(self) -> None:
         """Give the graphics card's memory back; a second time does nothing."""
@@ -207,7 +211,8 @@ class Renderer:
 
     def _update(self, context: Any) -> None:
         """Bring what has moved to the graphics card, and cast its shadow."""
-        if not self.scenery.changed and self._moving is not None:
+        stirred = self.scenery.stirred
+        if stirred == []:
             return
         batch = self.scenery.moving()
         if self._moving is not None and self._moving.vertices.size == batch.vertices.nbytes:
@@ -219,14 +224,38 @@ class Renderer:
                 self._moving.release()
             self._moving = _Store(self._kit, batch) if len(batch.vertices) else None
         if self.shadow:
-            self._all.use()
-            context.enable_only(context.DEPTH_TEST)
-            context.depth_func = "1"
-            self._still.depth_attachment.use(0)
-            self._kit.copying.render(vertices=3)
-            context.depth_func = "<"
-            if self._moving is not None:
-                self._cast(context, self._all, self._moving, clear=False)
+            self._cast_moving(context, stirred)
+
+    def _cast_moving(self, context: Any, stirred: list[tuple[Any, Any]] | None) -> None:
+        """Cast the shadows of what moves anew, where something has."""
+        low, high = np.zeros(2, dtype=int), np.array(self._all.size)
+        if stirred is not None:
+            boxes = self._on_map(np.array([box[0] for box in stirred]), np.array([box[1] for box in stirred]))
+            low, high = np.maximum(boxes[0].min(axis=0), 0), np.minimum(boxes[1].max(axis=0), high)
+        if (low >= high).any():
+            return
+        self._all.use()
+        self._all.scissor = (*low.tolist(), *(high - low).tolist())
+        context.enable_only(context.DEPTH_TEST)
+        context.depth_func = "1"
+        self._still.depth_attachment.use(0)
+        self._kit.copying.render(vertices=3)
+        context.depth_func = "<"
+        self._kit.shadow["lens"].write(_columns(self._sunlens))
+        if self._moving is not None and self._moving.pieces:
+            begin, end = self._on_map(self._moving.low, self._moving.high)
+            near = (begin < high).all(axis=1) & (end > low).all(axis=1)
+            self._moving.draw(context, self._moving.cast, np.flatnonzero(near & self._moving.casts))
+        self._all.scissor = None
+
+    def _on_map(self, low: Array, high: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The texels of the shadow map, from and to, that boxes cover."""
+        sides = np.stack((low, high), axis=1)
+        corners = np.stack([sides[:, pick, (0, 1, 2)] for pick in product((0, 1), repeat=3)], axis=1)
+        flat = corners @ self._sunlens[:2, :3].T + self._sunlens[:2, 3]
+        texels = (flat * 0.5 + 0.5) * np.array(self._all.size)
+        begin, end = np.floor(texels.min(axis=1)) - 1, np.ceil(texels.max(axis=1)) + 1
+        return begin.astype(np.int64), end.astype(np.int64)
 
     def _draw_tile(
         self, context: Any, camera: Camera, size: tuple[int, int], tile: tuple[int, int, int, int], found: Drawn
@@ -234,9 +263,11 @@ class Renderer:
         reach = reach_of(camera)
         lens = projection(camera, size, tile, reach) @ view_matrix(camera)
         target = self._kit.target(tile[2:])
-        target.frame.use()
-        target.frame.clear(*_SKY, 1.0, depth=1.0)
-        target.tags.write(bytes(4 * tile[2] * tile[3]))
+        frame = target.frame if found.tags.size else target.plain
+        frame.use()
+        frame.clear(*_SKY, 1.0, depth=1.0)
+        if found.tags.size:
+            target.tags.write(bytes(4 * tile[2] * tile[3]))
         context.enable_only(context.DEPTH_TEST)
         program = self._kit.scene
         program["lens"].write(_columns(lens))
@@ -255,7 +286,7 @@ class Renderer:
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
         if found.colour.size:
-            raw = np.frombuffer(target.frame.read(components=3, alignment=1), dtype=np.uint8)
+            raw = np.frombuffer(frame.read(components=3, alignment=1), dtype=np.uint8)
             found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:
             tags = np.frombuffer(target.tags.read(alignment=1), dtype=np.int32).reshape(height, width)

@@ -28,7 +28,7 @@ VERTEX = np.dtype([("at", "<f4", 3), ("normal", "i1", 4), ("paint", "u1", 4), ("
 BODY_BITS = 20
 """A tag's low bits are the body's number plus 1, its high bits that of the class."""
 OUTSIDE = -1
-_BELOW = 50.0
+_BELOW, _SEEN = 50.0, -1.0
 _METRES = np.array(METRES, dtype=np.float32)
 
 
@@ -77,8 +77,8 @@ class Scenery:
         """Make the triangles of a home; `bodies` has the number of each room and of each piece of furniture."""
         self.scene = scene
         self.classes: list[str] = ["nothing"]
-        self.changed = True
-        """Whether something has moved since `moving` was last asked for."""
+        self.stirred: list[tuple[Floats, Floats]] | None = None
+        """Boxes in which something has come, gone or moved since `moving` was last asked for; None for everywhere."""
         self._slots: dict[str, _Slot] = {}
         self._whole: Batch | None = None
         self.windows = house.windows(scene)
@@ -130,12 +130,14 @@ class Scenery:
         self._slots[name] = slot = _Slot(mesh, packed(mesh, self._tag(body, cls), OUTSIDE))
         slot.vertices["at"][:, 2] -= _BELOW
         slot.low = slot.high = np.full(3, -_BELOW, dtype=np.float32)
-        self._whole, self.changed = None, True
+        self._whole = None
 
     def remove(self, name: str) -> None:
         """Have a thing that moves no longer."""
-        if self._slots.pop(name, None) is not None:
-            self._whole, self.changed = None, True
+        slot = self._slots.pop(name, None)
+        if slot is not None:
+            self._stir(slot)
+            self._whole = None
 
     def __contains__(self, name: object) -> bool:
         return name in self._slots
@@ -152,13 +154,18 @@ class Scenery:
         """Set the places of all corners of a moving thing, and their normals, in the world."""
         slot = self._slots[name]
         slot.placed, here = (), slot.vertices
+        self._stir(slot)
         here["at"], here["normal"][:, :3] = at, np.round(normal * 127)
         if len(at):
             slot.low, slot.high = at.min(axis=0), at.max(axis=0)
         middle = (slot.low + slot.high) / 2
         slot.room = self.room_at(float(middle[0]), float(middle[1]))
         here["tag"][:, 1] = slot.room
-        self.changed = True
+        self._stir(slot)
+
+    def _stir(self, slot: _Slot) -> None:
+        if self.stirred is not None and slot.high[2] > _SEEN:
+            self.stirred.append((slot.low, slot.high))
 
     def moving(self) -> Batch:
         """All that moves, as it now is; what is deep below the floor is left out."""
@@ -166,9 +173,9 @@ class Scenery:
         batch.pieces = [
             Piece(slot.first, slot.mesh.faces.size, tuple(slot.low), tuple(slot.high), slot.room, False, True)
             for slot in self._slots.values()
-            if slot.mesh.faces.size and slot.high[2] > -1.0
+            if slot.mesh.faces.size and slot.high[2] > _SEEN
         ]
-        self.changed = False
+        self.stirred = []
         return batch
 
     def _moving(self) -> Batch:

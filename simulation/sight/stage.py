@@ -269,6 +269,10 @@ class Stage:
             hits += [hit[0] for hit in found]
         return np.array(hits, dtype=np.int64)
 
+    def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
+        """The colours of a picture alone, (height, width, 3)."""
+        return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
+
     def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
         """Render; Tiny and EGL draw no shadows.
 
