@@ -86,6 +86,32 @@ def box(half: Sequence[float]) -> Solid:
     return Solid(at, normal, flat_uv(at, normal, int(np.argmax(size))), faces)
 
 
+def fine_box(half: Sequence[float], step: float) -> Solid:
+    """A box around the origin, its sides divided into rectangles of at most `step` a side."""
+    size = np.asarray(half, dtype=np.float32)
+    places, normals, faces, start = [], [], [], 0
+    for axis in range(3):
+        across = [other for other in range(3) if other != axis]
+        counts = [max(math.ceil(float(2 * size[other]) / step), 1) for other in across]
+        u, v = (np.linspace(-1.0, 1.0, count + 1, dtype=np.float32) for count in counts)
+        grid = np.zeros((counts[0] + 1, counts[1] + 1, 3), dtype=np.float32)
+        grid[:, :, across[0]], grid[:, :, across[1]] = u[:, None], v[None, :]
+        i, j = np.meshgrid(np.arange(counts[0]), np.arange(counts[1]), indexing="ij")
+        a = (i * (counts[1] + 1) + j).ravel()
+        b, c, d = a + counts[1] + 1, a + counts[1] + 2, a + 1
+        quads = np.concatenate((np.stack((a, b, c), axis=1), np.stack((a, c, d), axis=1)))
+        for sign in (-1.0, 1.0):
+            outwards = sign if axis != 1 else -sign  # x and z in this order turn about -y
+            at, normal = grid.reshape(-1, 3).copy(), np.zeros((grid.size // 3, 3), dtype=np.float32)
+            at[:, axis] = normal[:, axis] = sign
+            places.append(at * size)
+            normals.append(normal)
+            faces.append((quads if outwards > 0 else quads[:, ::-1]) + start)
+            start += len(at)
+    at, normal = np.concatenate(places), np.concatenate(normals)
+    return Solid(at, normal, flat_uv(at, normal, int(np.argmax(size))), np.concatenate(faces).astype(np.uint32))
+
+
 def flat_uv(at: Floats, normal: Floats, grain: int) -> Floats:
     """Places on flat surfaces: projected along the nearest axis, first along the axis `grain` where it lies in them."""
     across = np.abs(normal).argmax(axis=1)

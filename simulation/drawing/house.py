@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.simulation.drawing.geometry import Mesh, box, flat_uv, merged, painted
+from coopera.simulation.drawing.geometry import Mesh, fine_box, flat_uv, merged, painted
 from coopera.simulation.drawing.materials import PANE, Material, wooden
 from coopera.simulation.homes.catalogue import catalogue, parts_of
 from coopera.simulation.homes.floorplan import WALL_THICKNESS, Wall
@@ -18,8 +18,10 @@ from coopera.simulation.shapes.kit import WHITE, Colour, shade
 WALL_HEIGHT = 2.4
 LINTEL = 2.06
 """Height of a doorway."""
-_CEILING: Colour = (0.93, 0.925, 0.91)
+_CEILING: Colour = (0.96, 0.955, 0.945)
 _SKIRTING = 0.07
+_STEP = 0.8
+"""Floors and walls are divided into pieces no larger, since daylight is reckoned at their corners."""
 _TILED = ("kitchen", "bathroom", "laundry room", "garage")
 
 
@@ -163,6 +165,6 @@ def _slab(
     grain: int,
 ) -> Mesh:
     """A box in the world, its picture lying in the world's own measures so that neighbours fit together."""
-    solid = box(half)
+    solid = fine_box(half, _STEP)
     at = solid.at + np.asarray(middle, dtype=np.float32)
     return painted(solid._replace(at=at, uv=flat_uv(at, solid.normal, grain)), colour, material)

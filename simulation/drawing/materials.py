@@ -95,13 +95,13 @@ def pictures() -> NDArray[np.uint8]:
     found = np.full((len(Material), SIDE, SIDE, 3), 0.5, dtype=np.float32)
     y, x = np.mgrid[0:SIDE, 0:SIDE] / SIDE
     soft = _noise(rng, (8, 8), 4)
-    found[Material.PAINT] += 0.016 * soft[..., None]
+    found[Material.PAINT] += 0.006 * soft[..., None]
     found[Material.SKIN] += 0.01 * soft[..., None]
     found[Material.STONE] += (0.14 * _noise(rng, (40, 40), 3) + 0.04 * soft)[..., None]
     found[Material.WOOD] = _grain(rng, x, y, 3.0)
     found[Material.PLANKS] = _planks(rng)
     found[Material.TILES] = _tiles(rng, 4, 0.014)
-    found[Material.WALL_TILES] = _tiles(rng, 4, 0.012)
+    found[Material.WALL_TILES] = _tiles(rng, 4, 0.010)
     weave = np.sin(2 * np.pi * 32 * x) * np.sin(2 * np.pi * 32 * y)
     found[Material.CLOTH] += (0.05 * weave + 0.045 * _noise(rng, (24, 24), 3))[..., None]
     found[Material.CARPET] += (0.13 * _noise(rng, (64, 64), 2))[..., None]
@@ -159,7 +159,7 @@ def _planks(rng: np.random.Generator) -> Floats:
 def _tiles(rng: np.random.Generator, count: int, joint: float) -> Floats:
     """Square tiles, so many a side, with grout between them."""
     at = np.arange(SIDE) / SIDE * count
-    shade = rng.uniform(0.485, 0.52, (count, count))[np.ix_(at.astype(int), at.astype(int))]
+    shade = rng.uniform(0.493, 0.512, (count, count))[np.ix_(at.astype(int), at.astype(int))]
     near = np.minimum(at % 1.0, 1 - at % 1.0) / count
     grout = np.minimum(near[:, None], near[None, :]) < joint / 2
     value = shade + 0.012 * _noise(rng, (16, 16), 2)

@@ -54,6 +54,9 @@ class _Target(NamedTuple):
     """With tags."""
     plain: Any
     """Colours alone."""
+    smooth: Any
+    """What `plain` is smoothed into."""
+    colour: Any
     depth: Any
     tags: Any
     held: tuple[Any, ...]
@@ -107,9 +110,11 @@ class _Kit:
         self.shadow = context.program(vertex_shader=text["shadow.vert"], fragment_shader=text["shadow.frag"])
         self.copy = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["copy.frag"])
         self.copying = context.vertex_array(self.copy, [])
+        smooth = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["smooth.frag"])
+        self.smoothing = context.vertex_array(smooth, [])
         self.looks = context.texture_array((SIDE, SIDE, len(Material)), 3, pictures().tobytes())
         self.looks.build_mipmaps()
-        self.looks.filter = (context.LINEAR_MIPMAP_LINEAR, context.LINEAR)
+        self.looks.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
         for number, name in enumerate(("rooms", "shadows", "floors", "looks")):
             if name in self.scene:
                 self.scene[name] = number
@@ -121,12 +126,16 @@ class _Kit:
             if len(self.targets) >= 6:
                 for one in self.targets.pop(next(iter(self.targets))).held:
                     one.release()
-            colour = self.context.renderbuffer(size, 4)
+            colour = self.context.texture(size, 4)
+            colour.repeat_x = colour.repeat_y = False
+            smooth = self.context.framebuffer([self.context.renderbuffer(size, 4)])
             tags = self.context.texture(size, 1, dtype="i4")
             depth = self.context.depth_texture(size)
             frame = self.context.framebuffer([colour, tags], depth)
             plain = self.context.framebuffer([colour], depth)
-            self.targets[size] = _Target(frame, plain, depth, tags, (frame, plain, colour, tags, depth))
+            self.targets[size] = _Target(
+                frame, plain, smooth, colour, depth, tags, (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth)
+            )
         return self.targets[size]
 
 
@@ -286,7 +295,11 @@ class Renderer:
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
         if found.colour.size:
-            raw = np.frombuffer(frame.read(components=3, alignment=1), dtype=np.uint8)
+            target.smooth.use()
+            context.enable_only(context.NOTHING)
+            target.colour.use(0)
+            self._kit.smoothing.render(vertices=3)
+            raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
             found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:
             tags = np.frombuffer(target.tags.read(alignment=1), dtype=np.int32).reshape(height, width)

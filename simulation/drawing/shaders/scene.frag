@@ -1,6 +1,6 @@
 #version 400
 // Colours are linear while light is reckoned; the last line makes them what a screen expects (gamma 2).
-uniform sampler2D rooms;       // a row for each room: its rectangle, then two texels for each window
+uniform sampler2D rooms;       // see scene.vert
 uniform sampler2D shadows;     // depth towards the sun
 uniform sampler2D floors;      // how much furniture keeps light from the floor
 uniform sampler2DArray looks;  // the pictures of the materials
@@ -13,6 +13,7 @@ uniform bool shadowed;
 in vec3 place;
 in vec3 facing;
 in vec2 spot;
+in vec3 daylight;
 flat in vec4 colour;
 flat in int what;
 flat in int room;
@@ -49,6 +50,22 @@ float lit(vec3 normal, float leaves) {
     return total / 9.0;
 }
 
+// How far inside a window's opening a point on a wall is: 0 outside, 1 well inside.
+float through(vec3 gate) {
+    float inside = 0.0;
+    if (gate.z > CEILING - 0.01) return inside;
+    for (int i = 0; i < WINDOWS; i++) {
+        vec4 upright = texelFetch(rooms, ivec2(2 + 2 * i, room), 0);
+        if (upright.w <= 0.0) break;
+        vec4 opening = texelFetch(rooms, ivec2(1 + 2 * i, room), 0);
+        vec2 where = opening.x < 0.5 ? gate.xy : gate.yx;
+        vec4 edges = vec4(where.x - opening.z, opening.w - where.x, gate.z - upright.x, upright.y - gate.z);
+        vec4 within = clamp(edges / 0.05, 0.0, 1.0);
+        inside = max(inside, abs(where.y - opening.y) < 0.25 ? within.x * within.y * within.z * within.w : 0.0);
+    }
+    return inside;
+}
+
 void main() {
     tagged = what;
     vec3 normal = normalize(facing);
@@ -62,8 +79,8 @@ void main() {
     }
     vec3 own = colour.rgb * look * look * 4.0;
 
-    float shade = 1.0, leaves = 50.0, inside = 0.0;
-    vec3 light = vec3(0.0);
+    float shade = 1.0, leaves = 50.0;
+    float falls = max(dot(normal, sun.xyz), 0.0);
     if (room >= 0) {
         vec4 walls = texelFetch(rooms, ivec2(0, room), 0);
         // Corners are darker: each wall, the floor and the ceiling take light from what is near and faces them.
@@ -80,35 +97,14 @@ void main() {
         vec2 far = vec2(sun.x > 0.0 ? walls.z : walls.x, sun.y > 0.0 ? walls.w : walls.y);
         vec2 reach = (far - place.xy) / sun.xy;
         leaves = max(min(min(reach.x, reach.y), (CEILING - place.z) / sun.z), 0.0);
-        vec3 gate = place + sun.xyz * leaves;
-        for (int i = 0; i < WINDOWS; i++) {
-            vec4 opening = texelFetch(rooms, ivec2(1 + 2 * i, room), 0);  // axis, at, start, end
-            vec4 upright = texelFetch(rooms, ivec2(2 + 2 * i, room), 0);  // low, high, inward, area
-            if (upright.w <= 0.0) break;
-            bool along = opening.x < 0.5;
-            float middle = 0.5 * (opening.z + opening.w), height = 0.5 * (upright.x + upright.y);
-            vec3 pane = along ? vec3(middle, opening.y, height) : vec3(opening.y, middle, height);
-            vec3 inward = along ? vec3(0.0, upright.z, 0.0) : vec3(upright.z, 0.0, 0.0);
-            vec3 way = pane - place;
-            float closer = inversesqrt(dot(way, way) + 0.35);
-            float falls = max(dot(normal, way) * closer * 0.75 + 0.25, 0.0) * max(-dot(inward, way) * closer, 0.0);
-            light += vec3(0.86, 0.93, 1.0) * falls * upright.w * min(closer * closer, 1.2) * 0.85;
-            float across = along ? gate.x : gate.y, off = abs((along ? gate.y : gate.x) - opening.y);
-            if (off < 0.25) {
-                vec4 edges = vec4(across - opening.z, opening.w - across, gate.z - upright.x, upright.y - gate.z);
-                vec4 within = clamp(edges / 0.05, 0.0, 1.0);
-                inside = max(inside, within.x * within.y * within.z * within.w);
-            }
-        }
     }
-    float ahead = dot(normal, sun.xyz);
-    float falls = max(ahead, 0.0);
     if (shadowed && falls > 0.0) falls *= lit(normal, leaves);
+    float inside = falls > 0.0 && room >= 0 ? through(place + sun.xyz * leaves) : 0.0;
     float up = 0.5 + 0.5 * normal.z;
-    vec3 sky = mix(vec3(0.37, 0.345, 0.325), vec3(0.54, 0.55, 0.565), up);
+    vec3 sky = mix(vec3(0.50, 0.475, 0.45), vec3(0.56, 0.57, 0.585), up);
     // A little difference between walls that meet, where no light falls on either.
     sky *= 1.0 + 0.05 * normal.x - 0.03 * normal.y;
-    light = (light + sky) * shade + vec3(0.46, 0.44, 0.40) * falls + vec3(1.0, 0.90, 0.72) * (1.1 * falls * inside);
+    vec3 light = (daylight + sky) * shade + vec3(0.46, 0.44, 0.40) * falls + vec3(1.0, 0.90, 0.72) * (1.1 * falls * inside);
     if (material == METAL || material == GLASS || material == TILES || material == WALL_TILES) {
         vec3 back = reflect(-towards, normal);
         float edge = 1.0 - max(dot(normal, towards), 0.0);
@@ -119,6 +115,7 @@ void main() {
     vec3 sent = own * light;
     if (material == LAMP) sent = own * (0.75 + 0.4 * light);
     // Bright light is bent towards white, never beyond it.
-    sent = sent * (1.0 + sent * 0.30) / (1.0 + sent * 0.42);
+    vec3 over = max(sent - 0.55, 0.0) / 0.45;
+    sent = min(sent, 0.55) + 0.45 * over / (1.0 + over);
     seen = vec4(sqrt(sent), 1.0);
 }
