@@ -11,9 +11,9 @@ import numpy as np
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
+from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
-from coopera.simulation.sight.engine import Renderer
 from coopera.simulation.sight.recording import Moment, Recording, still
 from coopera.simulation.sight.stage import Camera, Image, Stage
 
@@ -21,7 +21,7 @@ from coopera.simulation.sight.stage import Camera, Image, Stage
 class Watcher:
     """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
 
-    def __init__(self, ground: Ground, renderer: Renderer = "tiny") -> None:
+    def __init__(self, ground: Ground, renderer: Renderer = "auto") -> None:
         """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
         self.ground = ground
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
