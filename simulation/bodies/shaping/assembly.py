@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.simulation.bodies.appearance import Appearance
-from coopera.simulation.bodies.humanoid import ANKLE, SIDES, Side
+from coopera.simulation.bodies.humanoid import ANKLE, SIDES, Frames, Side
 from coopera.simulation.bodies.shaping import face as faces_
 from coopera.simulation.bodies.shaping.clothes import Clothes, Layer, layers
 from coopera.simulation.bodies.shaping.ends import Footwear, fingers, foot, palm, toes
@@ -24,9 +24,9 @@ from coopera.simulation.bodies.shaping.weights import PARTS, shares, strongest
 Colour = tuple[float, float, float]
 
 _BODY = Box((-0.34, -0.72, -0.95), (0.46, 0.72, 0.70), 0.026)
-_HEAD = Box((-0.20, -0.16, -0.31), (0.14, 0.16, 0.17), 0.0108)
-_HAND = Box((-0.06, -0.045, -0.045), (0.06, 0.045, 0.10), 0.011)
-_FOOT = Box((-0.10, -0.07, -0.06), (0.20, 0.07, 0.07), 0.013)
+_HEAD = Box((-0.20, -0.16, -0.31), (0.14, 0.16, 0.17), 0.0115)
+_HAND = Box((-0.06, -0.045, -0.045), (0.06, 0.045, 0.10), 0.0125)
+_FOOT = Box((-0.10, -0.07, -0.06), (0.20, 0.07, 0.07), 0.017)
 _SOLE = 0.016
 _PALE_SOLE = (0.88, 0.87, 0.85)
 
@@ -42,6 +42,7 @@ class Parts(NamedTuple):
     parts: NDArray[np.uint8]
     weights: NDArray[np.float32]
     faces: Index
+    rest: Frames
 
 
 class _Carried(NamedTuple):
@@ -75,6 +76,7 @@ def _together(found: Sequence[_Carried]) -> Parts:
         parts,
         weights,
         np.concatenate([one.piece.faces + start for one, start in zip(found, starts, strict=True)]),
+        rest_frames(),
     )
 
 
@@ -96,7 +98,8 @@ def _split(mesh: Mesh, fields: Callable[[Array], list[Array]]) -> list[Mesh]:
 
 def _normals(field: Field, mesh: Mesh) -> Array:
     found = slopes(field, mesh.vertices)
-    return found / np.maximum(np.linalg.norm(found, axis=1), 1e-9)[:, None]
+    found /= np.maximum(np.linalg.norm(found, axis=1), 1e-9)[:, None]
+    return found
 
 
 def _piece(mesh: Mesh, field: Field, colour: Colour, material: str) -> Piece:
@@ -212,8 +215,8 @@ def _foot(figure: Figure, skin: Colour, clothes: Clothes, side: Side) -> Iterato
         Piece(mesh.vertices, normals, mesh.faces, sole if is_sole else colour, material)
         for mesh, normals, is_sole in _shoe(wear)
     ]
-    if wear in ("bare", "slippers"):
-        made += [Piece(*one, skin, "skin") for one in toes()] if wear == "bare" else []
+    if wear == "bare":
+        made += [Piece(*one, skin, "skin") for one in toes()]
     if wear == "slippers":
         made += [Piece(mesh.vertices, normals, mesh.faces, skin, "skin") for mesh, normals, _ in _shoe("bare")]
     for piece in made:

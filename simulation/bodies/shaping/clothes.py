@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -14,11 +14,22 @@ from coopera.simulation.bodies.shaping.fields import Array, ball, carve, cone, j
 from coopera.simulation.bodies.shaping.figure import Figure, Near
 
 Colour = tuple[float, float, float]
-Top = Literal[
-    *("none", "tee", "polo", "jumper", "shirt", "blouse", "cardigan", "hoodie", "tank", "dress"),
-    *("pyjamas", "swimsuit", "towel"),
+Top: TypeAlias = Literal[
+    "none",
+    "tee",
+    "polo",
+    "jumper",
+    "shirt",
+    "blouse",
+    "cardigan",
+    "hoodie",
+    "tank",
+    "dress",
+    "pyjamas",
+    "swimsuit",
+    "towel",
 ]
-Bottom = Literal["none", "trousers", "slim", "shorts", "skirt", "trunks"]
+Bottom: TypeAlias = Literal["none", "trousers", "slim", "shorts", "skirt", "trunks"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +90,8 @@ def layers(clothes: Clothes, figure: Figure) -> list[Layer]:
         found.append(Layer(clothes.bottom_colour, _bottom(clothes.bottom)))
     if clothes.top == "none":
         return found
-    cut, body = _CUTS[clothes.top], Torso(figure, _CUTS[clothes.top])
+    cut = _CUTS[clothes.top]
+    body = Torso(figure, cut, _skirt(0.34, 0.010) if clothes.bottom == "skirt" else None)
     shade = (0.86 * clothes.top_colour[0], 0.86 * clothes.top_colour[1], 0.86 * clothes.top_colour[2])
     if clothes.top == "cardigan":
         under = Torso(figure, _Cut(0.007, "none", -0.02))
@@ -103,9 +115,9 @@ def layers(clothes: Clothes, figure: Figure) -> list[Layer]:
 class Torso:
     """A top over a figure's trunk and arms."""
 
-    def __init__(self, figure: Figure, cut: _Cut) -> None:
-        """Widen the figure's cross-sections, and let the cloth hang over waist and belly."""
-        self.figure, self.cut = figure, cut
+    def __init__(self, figure: Figure, cut: _Cut, over: Callable[[Near], Array] | None = None) -> None:
+        """Widen the figure's cross-sections, and let the cloth hang over waist and belly, and `over` a skirt."""
+        self.figure, self.cut, self._over = figure, cut, over
         rows = np.array(figure.trunk_rows)
         z = rows[:, 0]
         for column in (2, 3, 4):
@@ -128,20 +140,22 @@ class Torso:
             found = near.cut(found, self._armholes(near))
         else:
             found = join(found, self._sleeves(near), 0.05)
-        if cut.hem > -0.15:
-            found = near.cut(join(found, near.legs - ease - 0.003, 0.04), cut.hem - z)
-        else:
-            found = near.cut(join(found, near.legs - ease, 0.04), _legholes(near))
-        return near.cut(found, -_neckline(cut.neck, near))
+        below = near.legs - ease - 0.003 if self._over is None else self._over(near) - 0.006
+        found = join(found, below, 0.04)
+        found = near.cut(found, cut.hem - z if cut.hem > -0.15 else _legholes(near))
+        open_ = _neckline(cut.neck, near)
+        close = np.clip(1.0 - open_ / 0.05, 0.0, 1.0)  # cloth lies close to the skin where it ends at the neck
+        found = found + close * close * (near.body - 0.004 - found)
+        return near.cut(found, -open_)
 
     def _sleeves(self, near: Near) -> Array:
-        ends = []
+        ends: list[Array] = []
         for side in SIDES:
             down = np.clip(-near.local(f"{side}_shoulder")[:, 2] / 0.12, 0.0, 1.0)
             arm = near.arm(side) - self.cut.ease * (0.35 + 0.65 * down)
             if self.cut.sleeves == "long":
-                wide = self.cut.ease * 0.5 + 0.032
-                cuff = cone(near.local(f"{side}_elbow"), ((0, 0, -0.02), (0, 0, -0.25)), (wide + 0.010, wide))
+                thick = self.cut.ease * 0.5 + 0.032
+                cuff = cone(near.local(f"{side}_elbow"), ((0, 0, -0.02), (0, 0, -0.25)), (thick + 0.010, thick))
                 end = -0.236 - near.local(f"{side}_elbow")[:, 2]
                 ends.append(near.cut(join(arm, cuff, 0.02), end))
             else:
@@ -164,7 +178,7 @@ def _neckline(kind: str, near: Near) -> Array:
     points = near.points
     if kind == "strapless":
         return 0.335 - points[:, 2]
-    around = cone(points, ((0.004, 0, 0.462), (-0.012, 0, 0.60)), (0.060, 0.085))
+    around = ball(points, (0.010, 0.0, 0.514), (0.078, 0.078, 0.070))
     if kind == "vee":
         slot = np.maximum(np.abs(points[:, 1]) * 0.9 - (points[:, 2] - 0.375) * 0.42, -points[:, 0])
         return join(around, slot, 0.01)
@@ -183,9 +197,10 @@ def _legholes(near: Near) -> Array:
 def _collar(near: Near) -> Array:
     """A folded collar, open ahead."""
     local = near.local("neck")
-    band = near.neck - 0.013 - 0.10 * np.maximum(0.045 - local[:, 2], 0.0)
-    ends = np.maximum(0.000 - local[:, 2] - 0.25 * np.maximum(local[:, 0], 0), local[:, 2] - 0.042 + 0.30 * local[:, 0])
-    open_ = np.maximum(0.020 - local[:, 0], np.abs(local[:, 1]) - 0.010 - 0.35 * np.maximum(local[:, 2] + 0.03, 0.0))
+    x, y, z = local.T
+    band = near.neck - 0.010 - 0.22 * np.maximum(0.062 - z, 0.0)
+    ends = np.maximum(0.012 - z - 0.45 * np.maximum(x, 0.0), z - 0.064 + 0.40 * x)
+    open_ = np.maximum(0.010 - x, np.abs(y) - 0.006 - 0.35 * np.maximum(z + 0.04, 0.0))
     return near.cut(near.cut(band, ends), -open_)
 
 

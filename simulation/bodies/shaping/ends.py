@@ -45,10 +45,9 @@ def fingers(size: float) -> Iterator[tuple[Array, Array, Index]]:
         path.append(point)
         for bend, share in zip(_CURL, _BONES, strict=True):
             along = np.array((-0.10 * x / 0.03 * 0.5, -math.sin(math.radians(bend)), -math.cos(math.radians(bend))))
-            for _ in range(2):
-                point = point + along * length * share / 2
-                path.append(point)
-        radii = thick * np.array((1.05, 1.0, 0.98, 0.94, 0.90, 0.86, 0.80))
+            point = point + along * length * share
+            path.append(point)
+        radii = thick * np.array((1.05, 0.98, 0.90, 0.80))
         yield ordered(finger(np.array(path) * size, radii * size))
     thumb = np.array(
         (
