@@ -245,6 +245,7 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path)
         motions=motions,
         match=match,
         errors=config.perception,
+        bodies=config.bodies,
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal, TypeVar
 
@@ -119,22 +120,24 @@ def stated_looks(profile: str) -> Looks:
     )
 
 
-def appearance_of(
-    profile: str, person: str, stated: Looks | None = None, bodies: Mapping[str, Path] | None = None
-) -> Appearance:
+@lru_cache(maxsize=64)
+def appearance_of(profile: str, person: str, stated: Looks | None = None, bodies: Path | None = None) -> Appearance:
     """How a person looks: the same for the same profile, id and stated looks, in every process.
 
     Args:
         profile: What the person says of themselves; may be empty.
         person: Their id.
         stated: What their file states of their looks.
-        bodies: Files of body models by figure, `woman`, `man` and `any`, as `body_models` finds them.
+        bodies: A folder of body models, whose bodies take the place of ours.
+
+    Raises:
+        ConfigError: If there is no body model in that folder.
     """
     said = stated_looks(profile).model_dump(exclude_none=True)
     said |= stated.model_dump(exclude_none=True) if stated is not None else {}
     draw = _Draw(person, Looks.model_validate(said))
-    figure, bodies = "woman" if draw.woman else "man", bodies or {}
-    return replace(draw.appearance(), model=bodies.get(figure, bodies.get("any")))
+    models = {} if bodies is None else body_models(bodies)
+    return replace(draw.appearance(), model=models.get("woman" if draw.woman else "man", models.get("any")))
 
 
 def body_models(folder: Path) -> dict[str, Path]:
@@ -181,7 +184,7 @@ class _Draw:
         """All of it."""
         said = self._stated
         tones: Sequence[SkinTone] = tuple(palettes.SKINS)
-        skin = said.skin or self._one("skin", tones)
+        skin = self._one("skin", tones) if said.skin is None else said.skin
         style, beard = said.hair or self._style(), said.beard or self._beard()
         glasses = self._chance("glasses", 0.22 + 0.38 * self.old) if said.glasses is None else said.glasses
         receding = not self.woman and style not in ("bald", "ring", "curly")
@@ -204,7 +207,7 @@ class _Draw:
 
     def _measures(self) -> Measures:
         builds: dict[Build, float] = {"slim": 1.0, "medium": 1.4, "broad": 0.8}
-        build = self._stated.build or self._likely("build", builds)
+        build = self._likely("build", builds) if self._stated.build is None else self._stated.build
         low, high = {"slim": (0.88, 0.95), "medium": (0.95, 1.05), "broad": (1.08, 1.20)}[build]
         girth = self._between("girth", low, high) + 0.03 * self.old
         round_ = 0.45 * (girth - 0.95) / 0.25 + 0.35 * self.old + self._between("belly", -0.25, 0.25)

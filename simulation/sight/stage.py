@@ -18,7 +18,7 @@ from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_re
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.bodies.appearance import Appearance, appearance_of
+from coopera.simulation.bodies.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import Renderer, chosen
@@ -30,8 +30,11 @@ from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
-from coopera.simulation.sight.build import build, staged  # after the engine: whoever imports pybullet first makes it print
-from coopera.simulation.sight.figures import Person, Robot
+from coopera.simulation.sight.build import (
+    build,
+    staged,
+)  # after the engine: whoever imports pybullet first makes it print
+from coopera.simulation.sight.figures import Balls, Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
 
@@ -56,7 +59,7 @@ class Stage:
     ) -> None:
         """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone.
 
-        `looks` says how each of the people looks; who is not in it looks as the id has it.
+        `looks` says how people look, and may change; who is not in it looks as the id has it.
         """
         self.scene, self.robots = scene, robots
         name = None if renderer is None else chosen(renderer)
@@ -72,14 +75,14 @@ class Stage:
         self.drawer: Drawer | None = None
         """Our own renderer, where that is the one."""
         self._people: dict[AgentId, Person] = {}
+        self._balls: dict[AgentId, Balls] = {}
         self._figures: dict[AgentId, Robot] = {}
+        self._looks = {} if looks is None else looks
+        if drawn:
+            self._balls = {agent: Balls(self.bodies[agent], self.client) for agent in people}
         if name == "gl":
             scenery = staged(self.home, scene)
-            looks = looks or {}
-            self._people = {
-                agent: Person(scenery, agent, self.bodies[agent], looks.get(agent) or appearance_of("", agent))
-                for agent in people
-            }
+            self._people = {agent: Person(scenery, agent, self.bodies[agent]) for agent in people}
             self._figures = {
                 agent: Robot(scenery, agent, self.bodies[agent], self.client, body) for agent, body in robots.items()
             }
@@ -115,7 +118,9 @@ class Stage:
             else:
                 self._put_person(agent, placed)
             if agent in self._people:
-                self._people[agent].put(placed)
+                self._people[agent].put(placed, *self._dressed(moment, agent))
+            elif agent in self._balls:
+                self._balls[agent].put(*self._dressed(moment, agent))
             elif agent in self._figures:
                 self._figures[agent].put(placed)
         self._unused, self._carried = self._carried, set()
@@ -129,6 +134,10 @@ class Stage:
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
         self._open(moment.opened)
+
+    def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
+        """How a person looks, and what they wear."""
+        return self._looks.get(agent) or appearance_of("", agent), moment.outfits.get(agent, "day")
 
     def _things(self, state: HomeState, moment: Moment, with_people: set[str]) -> None:
         """Put down all that nobody has: the things of the scene, and those out of the magic box.
