@@ -134,13 +134,7 @@ class _Kit:
             frame = self.context.framebuffer([colour, tags], depth)
             plain = self.context.framebuffer([colour], depth)
             self.targets[size] = _Target(
-                frame,
-                plain,
-                smooth,
-                colour,
-                depth,
-                tags,
-                (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth),
+                frame, plain, smooth, colour, depth, tags, (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth)
             )
         return self.targets[size]
 

@@ -22,6 +22,7 @@ from coopera.simulation.drawing.context import Renderer
 _QUIET = threading.RLock()
 
 
+
 @contextmanager
 def quiet() -> Iterator[None]:
     """Let the process's standard output and error lead nowhere: the engine and its EGL plugin write to both.
