@@ -22,13 +22,13 @@ from coopera.simulation.acts.meaning import misfit
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
-from coopera.simulation.bodies.appearance import appearance_of
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
+from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
@@ -61,7 +61,6 @@ class World:
         motions: Library | None = None,
         match: Rank | None = None,
         errors: PerceptErrors | None = None,
-        bodies: Path | None = None,
     ) -> None:
         """Set up a home in its initial state.
 
@@ -77,7 +76,6 @@ class World:
             match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
                 words are compared.
             errors: How often and how far the percept errs.
-            bodies: A folder with body models of people (SMPLX_*.npz); without it people have the shipped body.
 
         Raises:
             SimulationError: If the home has no room for them to stand in.
@@ -89,7 +87,6 @@ class World:
         self.frame_size = frame_size
         self.renderer = renderer
         self.errors = errors or PerceptErrors()
-        self.bodies = bodies
         self.layout = scene
         self._library: Library = motions or load_library()
         people = tuple(agent.id for agent in agents if isinstance(agent, PersonAgent))
@@ -351,7 +348,7 @@ class World:
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         """Draw a person of the home as somebody from now on; nothing but pictures changes."""
-        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance, self.bodies)
+        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""

@@ -249,16 +249,6 @@ class Config(Frozen):
             unset="the shipped motions alone",
         ),
     ] = None
-    bodies: Annotated[
-        Path | None,
-        Setting(
-            "Body models of people for the pictures (SMPLX_NEUTRAL.npz, SMPLX_FEMALE.npz, SMPLX_MALE.npz).",
-            "the path of a folder of SMPLX_*.npz files",
-            flag="--bodies",
-            metavar="DIR",
-            unset="the shipped body",
-        ),
-    ] = None
     robot: Annotated[
         Text,
         Setting(

@@ -245,7 +245,6 @@ def open_home(config: Config, scene: SceneId, embeddings: Embeddings, run: Path)
         motions=motions,
         match=match,
         errors=config.perception,
-        bodies=config.bodies,
     )
 
 

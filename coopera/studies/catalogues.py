@@ -23,7 +23,6 @@ from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import chosen
-from coopera.simulation.bodies.appearance import body_models
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
 from coopera.studies.own_files import by_id
@@ -82,8 +81,6 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         _groups("humans", people, n_people, config.setting)
         _groups("scenes", scenes, n_scenes, config.setting)
     load_motions(config.motions)
-    if config.bodies is not None:
-        body_models(config.bodies)
     _knowledge(config)
     if config.out is not None:
         refuse_used(config.out)

@@ -9,16 +9,16 @@ import numpy as np
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.bodies.appearance import Appearance, Outfit
 from coopera.simulation.bodies.humanoid import forward
-from coopera.simulation.bodies.paints import PAINTS, painted
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.bodies.shaping.palettes import Colour
-from coopera.simulation.bodies.skin import MATERIALS, Skin, posed, skinned
 from coopera.simulation.drawing.geometry import Mesh
 from coopera.simulation.drawing.materials import Material
 from coopera.simulation.drawing.robots import links_of
 from coopera.simulation.drawing.scenery import Scenery
+from coopera.simulation.people.appearance import Appearance, Outfit
+from coopera.simulation.people.paints import PAINTS, painted
+from coopera.simulation.people.palettes import Colour
+from coopera.simulation.people.skin import MATERIALS, Skin, posed, skinned
 from coopera.simulation.shapes.rotations import about_z, matrix
 from coopera.simulation.sight.engine import pybullet
 

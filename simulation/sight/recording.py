@@ -19,12 +19,12 @@ from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
 from coopera.simulation.acts.workplace import working
-from coopera.simulation.bodies.appearance import Outfit, outfit_for
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
+from coopera.simulation.people.appearance import Outfit, outfit_for
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 from coopera.simulation.sight.walks import Track, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState

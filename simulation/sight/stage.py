@@ -18,7 +18,6 @@ from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_re
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.bodies.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import Renderer, chosen
@@ -29,6 +28,7 @@ from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
+from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import (
     build,

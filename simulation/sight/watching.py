@@ -11,9 +11,9 @@ import numpy as np
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
 from coopera.simulation.sight.recording import Moment, Recording, still
 from coopera.simulation.sight.stage import Camera, Image, Stage

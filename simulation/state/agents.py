@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import HUMAN, ROBOT, AgentId
-from coopera.simulation.bodies.appearance import Appearance
+from coopera.simulation.people.appearance import Appearance
 
 _ID = r"[a-z][a-z0-9_]*"
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from coopera.simulation.bodies.appearance import Appearance, Outfit
-from coopera.simulation.bodies.shaping.clothes import Colour
+from coopera.simulation.people.appearance import Appearance, Outfit
+from coopera.simulation.people.clothes import Colour
 
 PAINTS: dict[str, Colour] = {
     "shirt": (0.80, 0.27, 0.22),
@@ -22,7 +22,7 @@ def painted(looks: Appearance, outfit: Outfit) -> dict[str, Colour]:
     clothes = looks.wears(outfit)
     whole = clothes.top in ("dress", "swimsuit", "towel")
     return {
-        "shirt": looks.skin if clothes.top == "none" else clothes.top_colour,
+        "shirt": looks.skin if clothes.top == "nothing" else clothes.top_colour,
         "trousers": clothes.top_colour if whole else clothes.bottom_colour,
         "skin": looks.skin,
         "hair": looks.skin if looks.hair_style == "bald" else looks.hair,
