@@ -165,8 +165,7 @@ class World:
         `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
         the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
         outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded, and for who
-        had to let it pass: then the recording shows the person as they are). With `keep` the act is kept in the same way
-        while nobody drives anywhere to see it.
+        had to let it pass: then the recording shows the person as they are). `keep` keeps it, and nobody drives for it.
 
         Raises:
             SimulationError: If there is no such agent or watcher.
@@ -352,11 +351,7 @@ class World:
 
     @property
     def recording(self) -> Recording:
-        """The newest recording.
-
-        Raises:
-            SimulationError: If nothing has been recorded since the start or the last `restore`.
-        """
+        """The newest recording; a `SimulationError` where there is none since the start or the last `restore`."""
         if self._recording is None or not self._recording.shots:
             raise SimulationError("Nothing has been recorded: call perform with record=True first, and see it succeed.")
         return self._recording

@@ -1,9 +1,9 @@
-"""A run as a Python script or a notebook looks at it: hours, candidates and calls as tables, each hour by its number."""
+"""A run as a script or a notebook looks at it: hours, candidates and calls as tables, each hour by its number."""
 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -108,7 +108,7 @@ class Run:
 
         `correct` is the predicate's and stands at tasks alone; `helpful`, `grade` and `said` are the evening's.
         """
-        told = {
+        told: dict[tuple[int, int, str, str], FeedbackItem] = {
             (evening.day, item.hour, item.kind, item.text): item
             for evening in self.evenings
             for item in evening.feedback
@@ -187,11 +187,13 @@ def _hour_row(record: HourRecord) -> dict[str, Any]:
 
 
 def _candidate_rows(
-    record: HourRecord, told: dict[tuple[int, int, str, str], FeedbackItem]
+    record: HourRecord, told: Mapping[tuple[int, int, str, str], FeedbackItem]
 ) -> Iterator[dict[str, Any]]:
     if record.robot is None:
         return
-    known = [("intention", one.text, one.text, one, None) for one in record.robot.intentions]
+    known: list[tuple[str, str, str, Any, bool | None]] = [
+        ("intention", one.text, one.text, one, None) for one in record.robot.intentions
+    ]
     offers = [("task", one.act.describe(), one.intention, one, one.correct) for one in record.robot.tasks]
     for kind, text, intention, one, correct in [*known, *offers]:
         item = told.get((record.day, record.hour, kind, text))

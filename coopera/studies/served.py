@@ -18,8 +18,7 @@ from langgraph.runtime import Runtime
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from coopera.config.schema import Config, Models
-from coopera.config.schema import MAX_HOURS
+from coopera.config.schema import MAX_HOURS, Config, Models
 from coopera.core.household import Collab
 from coopera.core.people import Frozen
 from coopera.graphs import build_study_graph

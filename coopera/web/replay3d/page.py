@@ -1,9 +1,9 @@
-"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`): nothing is loaded from anywhere."""
+"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`); it loads nothing."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
@@ -16,12 +16,12 @@ from coopera.core.household import AgentId
 from coopera.core.naming import printable
 from coopera.rundir.directory import RunDir
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.bodies.shaping.weights import PARTS
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.people.weights import PARTS
 from coopera.simulation.sight.cameras import ROBOT_FOV
 from coopera.simulation.sight.stage import Stage
-from coopera.simulation.world import World
 from coopera.simulation.ways.navigation import Navigator
+from coopera.simulation.world import World
 from coopera.web.replay3d import solids
 from coopera.web.replay3d.film import Made
 from coopera.web.replay3d.installed import need_viser
@@ -55,7 +55,7 @@ def write_page(run: RunDir, day: int, file: Path) -> Made:
     return Made(file, file.stat().st_size, moments, seconds)
 
 
-def _frames(run: RunDir, day: int) -> Iterator[tuple[Scenery, Frame]]:
+def _frames(run: RunDir, day: int) -> Generator[tuple[Scenery, Frame]]:
     scenery = None
     with closing(acts_of(run, day)) as acts:
         try:
@@ -70,9 +70,8 @@ def _frames(run: RunDir, day: int) -> Iterator[tuple[Scenery, Frame]]:
 
 
 def _scenery(run: RunDir, home: World, person: str) -> Scenery:
-    persona = run.people().get(person)
     robots = {agent: load_robot(run.config.robot) for agent in home.robots}
-    skin = solids.person_skin(persona.profile if persona else "", person)
+    skin = solids.person_skin(run.people()[person])
     stage = Stage(home.layout, home.people, robots, None)
     return Scenery(
         home.layout, stage, robots, dict.fromkeys(home.people, skin), Ways(Navigator(home.layout), robots, FPS)

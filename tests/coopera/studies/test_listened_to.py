@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from pathlib import Path
 from typing import Any
 from uuid import UUID
 
 import pytest
 from langchain_core.callbacks import BaseCallbackHandler
 from langchain_core.messages import BaseMessage
+from langchain_core.runnables import RunnableLambda
 
 from coopera import Config, RunDir, run_study
 from coopera.graphs.players.together import together
-from langchain_core.runnables import RunnableLambda
 
 
 class Listener(BaseCallbackHandler):

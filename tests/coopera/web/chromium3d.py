@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import importlib
 import io
 import json
 import os
@@ -12,11 +13,13 @@ import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
+Picture: TypeAlias = NDArray[np.uint8]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 _FLAGS = ("--headless=new", "--no-sandbox", "--no-first-run", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
@@ -44,7 +47,7 @@ class Tab:
         self.call("Emulation.setLocaleOverride", locale="en-US")
         self.call("Page.navigate", url=file.resolve().as_uri())
 
-    def picture(self) -> np.ndarray[Any, np.dtype[np.uint8]]:
+    def picture(self) -> Picture:
         data = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
         return np.asarray(Image.open(io.BytesIO(data)).convert("RGB"))
 
@@ -62,8 +65,7 @@ class Tab:
 @contextmanager
 def tab(folder: Path) -> Iterator[Tab]:
     """A tab of a browser that keeps its things in `folder`."""
-    from websockets.sync.client import connect
-
+    connect = importlib.import_module("websockets.sync.client").connect
     command = [str(CHROMIUM), *_FLAGS, f"--user-data-dir={folder}", "--remote-debugging-port=0", "about:blank"]
     spoken = {**os.environ, "LANG": "en_US.UTF-8", "LC_ALL": "en_US.UTF-8"}
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=spoken) as browser:

@@ -6,7 +6,7 @@ import importlib.util
 import math
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +14,12 @@ import pytest
 
 from coopera import Config, RunDir, run_study
 from coopera.core.errors import ConfigError, RunError
+from coopera.people.shipped import find
 from coopera.simulation import load_scene
 from coopera.simulation.bodies.robot import known_robots, load_robot
-from coopera.simulation.bodies.shaping.weights import PARTS
-from tests.coopera.web.chromium3d import CHROMIUM, tab
+from coopera.simulation.people.weights import PARTS
+from tests.coopera.conftest import Said
+from tests.coopera.web.chromium3d import CHROMIUM, Picture, tab
 
 if importlib.util.find_spec("trimesh") is None:
     pytest.skip("trimesh is not installed; it comes with viser", allow_module_level=True)
@@ -98,10 +100,11 @@ def test_a_thing_in_hand_goes_with_the_hand(frames: list[Frame]) -> None:
     assert min(carried) < 1.3
 
 
-def test_a_home_a_person_and_each_robot_are_whole_meshes_in_colour() -> None:
+def test_a_home_a_person_and_each_robot_are_whole_meshes_in_colour(tmp_path: Path) -> None:
     scene = load_scene("maple")
     meshes = {"home": solids.home_mesh(scene)}
-    meshes |= {f"part {number}": mesh for number, mesh in solids.person_parts(solids.person_skin("", "amara"))}
+    skin = solids.person_skin(find("amara", tmp_path))
+    meshes |= {f"part {number}": mesh for number, mesh in solids.person_parts(skin)}
     assert len(meshes) > 12
     for robot in known_robots():
         meshes |= {f"{robot} {link}": mesh for link, mesh in solids.robot_links(load_robot(robot)).items()}
@@ -116,20 +119,21 @@ def test_a_home_a_person_and_each_robot_are_whole_meshes_in_colour() -> None:
 
 
 def test_a_day_that_is_not_there_is_named_and_so_is_what_is_not_installed(
-    run: RunDir, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    run: RunDir, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coopera: Callable[..., Said]
 ) -> None:
     with pytest.raises(RunError, match="there is no day 7; there are 0"):
         next(acts_of(run, 7))
     monkeypatch.setitem(sys.modules, "viser", None)
-    with pytest.raises(ConfigError, match=r"needs viser 1\.0 or newer; install it with: pip install viser"):
-        write_page(run, 0, tmp_path / "day.html")
+    told = coopera("replay", run.root, "--html", tmp_path / "day.html")
+    assert (told.code, "needs viser 1.0 or newer; install it with: pip install viser" in told.err) == (2, True)
+    assert not (tmp_path / "day.html").exists()
 
 
 @pytest.fixture(scope="module")
-def page(run: RunDir, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def page(run: RunDir, tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = tmp_path_factory.mktemp("page") / "day.html"
     write_page(run, 0, file)
-    yield file
+    return file
 
 
 @needs_viser
@@ -155,17 +159,17 @@ def test_a_film_shows_the_same_acts(run: RunDir, tmp_path: Path, monkeypatch: py
 def test_the_page_is_not_blank_moves_and_asks_for_nothing_in_a_browser(page: Path, tmp_path: Path) -> None:
     with tab(tmp_path / "browser") as one:
         one.open(page)
-        first = _until(lambda: one.picture(), lambda seen: np.std(seen[100:500]) > 25)
-        later = _until(lambda: one.picture(), lambda seen: np.mean(seen[100:500] != first[100:500]) > 0.001)
+        first = _until(one.picture, lambda seen: np.std(seen[100:500]) > 25)
+        later = _until(one.picture, lambda seen: np.mean(seen[100:500] != first[100:500]) > 0.001)
         assert later.shape == first.shape
         assert not [url for url in one.requests if not url.startswith(("file:", "data:", "blob:"))]
         assert not one.complaints
 
 
-def _until(look: object, found: object, tries: int = 60) -> np.ndarray:  # type: ignore[type-arg]
+def _until(look: Callable[[], Picture], found: Callable[[Picture], bool], tries: int = 60) -> Picture:
     for _ in range(tries):
-        seen = look()  # type: ignore[operator]
-        if found(seen):  # type: ignore[operator]
+        seen = look()
+        if found(seen):
             return seen
         threading.Event().wait(1.0)
     raise AssertionError("it was never to be seen")
