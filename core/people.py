@@ -61,12 +61,33 @@ class Provenance(Frozen):
     trials: list[Trial]
 
 
+HairStyle: TypeAlias = Literal["bald", "ring", "cropped", "short", "parted", "bob", "long", "bun", "ponytail", "curly"]
+"""How hair is worn; "ring" is hair about a bald crown."""
+HairColour: TypeAlias = Literal["black", "dark brown", "brown", "light brown", "blond", "red", "grey", "white"]
+SkinTone: TypeAlias = Literal["pale", "fair", "light", "tan", "olive", "brown", "dark", "deep"]
+Build: TypeAlias = Literal["slim", "medium", "broad"]
+Beard: TypeAlias = Literal["shaven", "moustache", "goatee", "full"]
+
+
+class Looks(Frozen):
+    """How somebody looks in pictures, as far as it is stated; the rest is drawn. No model is told of it."""
+
+    figure: Literal["woman", "man"] | None = None
+    age: int | None = Field(None, ge=16, le=110)
+    build: Build | None = None
+    skin: SkinTone | None = None
+    hair: HairStyle | None = None
+    hair_colour: HairColour | None = None
+    glasses: bool | None = None
+    beard: Beard | None = None
+
+
 class Persona(Frozen):
     """A person as written in a persona file: the truth that the robot must infer.
 
     `source` says where the text came from ("coopera", or the file and row of an import). `notes` are a short paragraph
     of traits, and the profile extends them; the ablation without profile extension uses the notes alone. Only imported
-    personas have a `provenance`.
+    personas have a `provenance`. `appearance` is for pictures alone.
     """
 
     id: PersonId = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,63}$")
@@ -76,6 +97,7 @@ class Persona(Frozen):
     source: str = "coopera"
     notes: str = Field("", max_length=20_000)
     provenance: Provenance | None = None
+    appearance: Looks | None = Field(None, exclude_if=is_none)
 
 
 class Belief(Frozen):

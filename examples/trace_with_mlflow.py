@@ -12,16 +12,14 @@ import sys
 import tempfile
 from pathlib import Path
 
+import mlflow
+from mlflow.langchain.langchain_tracer import MlflowLangchainTracer
+
 from coopera import Config, run_study
 
 
 def main(folder: Path) -> None:
     """Trace a run into `folder`, and print the calls that took longest."""
-    try:
-        import mlflow
-        from mlflow.langchain.langchain_tracer import MlflowLangchainTracer
-    except ImportError as err:
-        sys.exit(f"This example needs MLflow (pip install mlflow): {err}.")
     mlflow.set_tracking_uri(f"sqlite:///{folder / 'mlflow.db'}")
     mlflow.set_experiment("coopera")
     config = Config(humans=["amara"], days=1, hours=2, pictures="none", out=folder / "run")

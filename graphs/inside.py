@@ -1,4 +1,4 @@
-"""What runs inside a node: told to LangGraph, so that a drawing (`get_graph(xray=True)`) and LangGraph Studio show it."""
+"""What runs inside a node: told to LangGraph, so that a drawing (`get_graph(xray=True)`) and Studio show it."""
 
 from __future__ import annotations
 

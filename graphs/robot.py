@@ -30,7 +30,7 @@ from coopera.core.people import Belief
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.replies import HandOverReply, IntentionsReply, PickPlaceReply
-from coopera.graphs.contexts import GivenByCode
+from coopera.graphs.players.contexts import GivenByCode
 from coopera.graphs.players.variables import when
 from coopera.graphs.robots.evidence import weights_for
 from coopera.graphs.robots.learning import Known, Learner, example

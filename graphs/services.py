@@ -30,8 +30,8 @@ from coopera.core.people import Persona, PersonId
 from coopera.core.protocols import Ask, Home, Recorder
 from coopera.core.randomness import Address, rng_at
 from coopera.core.success import Success
-from coopera.graphs.contexts import GivenByCode
 from coopera.graphs.players.answering import Answering
+from coopera.graphs.players.contexts import GivenByCode
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.player import HumanContext, Player

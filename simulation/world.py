@@ -14,6 +14,7 @@ from PIL import Image
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
 from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.people import Persona
 from coopera.simulation.acts import primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.first_places import first_states
@@ -24,21 +25,23 @@ from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
-from coopera.simulation.sight.engine import Renderer
+from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
-from coopera.simulation.state.home_state import HomeState, room_of_thing
+from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
 
-_WEBP_QUALITY = 82
+WEBP = {"quality": 82, "method": 2}
+"""How pictures are encoded: method 4 takes twice the time for the same size."""
 
 
 class World:
@@ -55,7 +58,7 @@ class World:
         agents: Sequence[Agent] | None = None,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
-        renderer: Renderer = "tiny",
+        renderer: Renderer = "auto",
         motions: Library | None = None,
         match: Rank | None = None,
         errors: PerceptErrors | None = None,
@@ -68,7 +71,8 @@ class World:
                 "robot".
             robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
-            renderer: What draws the pictures; the first world of a process that draws with "egl" decides for all.
+            renderer: What draws the pictures: "auto" is "gl" where that is to be had, else "tiny". The first world of a process
+                that draws with "egl" decides for all that draw with "tiny".
             motions: What the person's body can do; the shipped library without it.
             match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
                 words are compared.
@@ -91,6 +95,8 @@ class World:
         room = Elbowroom(scene)
         self._ground = Ground(scene, Navigator(scene), self._library, people, robots, room, match)
         self.state = self._start = HomeState(scene=self.scene, agents=first_states(self._ground, agents))
+        self.looks = {one.id: one.looks for one in agents if isinstance(one, PersonAgent) and one.looks is not None}
+        """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
 
@@ -139,14 +145,7 @@ class World:
 
         What somebody holds or wears, and what is inside something, is not in it.
         """
-        things = list(self.layout.fixed)
-        for thing in self.state.objects(self.layout):
-            where = self.state.thing(thing)
-            if self.state.bearer(thing.name) is None and where.inside is None:
-                room = room_of_thing(self.layout, self.state, thing)
-                change = {"position": where.position, "yaw": where.yaw, "on": where.on, "room": room}
-                things.append(thing.model_copy(update=change))
-        return self.layout.model_copy(update={"objects": sorted(things, key=lambda thing: thing.id)})
+        return standing_now(self.layout, self.state)
 
     def class_of(self, name: str) -> str:
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
@@ -175,8 +174,7 @@ class World:
         `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
         the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
         outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded, and for who
-        had to let it pass: then the recording shows the person as they are). With `keep` the act is kept in the same way
-        while nobody drives anywhere to see it.
+        had to let it pass: then the recording shows the person as they are). `keep` keeps it, and nobody drives for it.
 
         Raises:
             SimulationError: If there is no such agent or watcher.
@@ -304,7 +302,7 @@ class World:
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
-            self._watcher = Watcher(self._ground, self.renderer)
+            self._watcher = Watcher(self._ground, self.renderer, self.looks)
         return self._watcher
 
     def percept(self, rng: np.random.Generator) -> Percept:
@@ -341,7 +339,7 @@ class World:
             for name in ("robot", "human"):
                 for i, image in enumerate(pictures[name]):
                     path = folder / f"{name}-{i}.webp"
-                    Image.fromarray(image).save(path, "WEBP", quality=_WEBP_QUALITY, method=4)
+                    Image.fromarray(image).save(path, "WEBP", **WEBP)
                     paths.append(path)
         except OSError as err:
             raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
@@ -362,14 +360,14 @@ class World:
 
     @property
     def recording(self) -> Recording:
-        """The newest recording.
-
-        Raises:
-            SimulationError: If nothing has been recorded since the start or the last `restore`.
-        """
+        """The newest recording; a `SimulationError` where there is none since the start or the last `restore`."""
         if self._recording is None or not self._recording.shots:
             raise SimulationError("Nothing has been recorded: call perform with record=True first, and see it succeed.")
         return self._recording
+
+    def inhabit(self, agent: AgentId, person: Persona) -> None:
+        """Draw a person of the home as somebody from now on; nothing but pictures changes."""
+        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""

@@ -52,9 +52,18 @@ def replay(
 
 
 def _show(run: Any, day: int, html: Path | None, mp4: Path | None, as_json: bool) -> None:
-    from coopera.web.replay3d.page import write_film, write_page
+    made: list[Any] = []
+    if html is not None:
+        from coopera.web.replay3d.installed import need_viser
 
-    made = [write(run, day, file) for write, file in ((write_page, html), (write_film, mp4)) if file is not None]
+        need_viser()
+        from coopera.web.replay3d.page import write_page
+
+        made.append(write_page(run, day, html))
+    if mp4 is not None:
+        from coopera.web.replay3d.film import write_film
+
+        made.append(write_film(run, day, mp4))
     for one in made:
         if not as_json:
             minutes, seconds = divmod(round(one.seconds), 60)

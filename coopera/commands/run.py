@@ -44,8 +44,13 @@ def run(
     from coopera.config.schema import load_config
     from coopera.studies.catalogues import resolve
 
-    config = resolve(load_config(study or _recorded(flags.get("models", {})), flags))
+    asked = load_config(study or _recorded(flags.get("models", {})), flags)
+    config = resolve(asked)
     assert config.out is not None  # resolve sets it
+    if asked.renderer == "auto" and config.renderer == "tiny":
+        from coopera.simulation.drawing.context import problem
+
+        typer.echo(printable(f"Pictures are drawn by tiny, without shadows: {problem()}."), err=True)
     if estimate:
         _show_estimate(config, as_json=as_json)
         return

@@ -264,9 +264,13 @@ class Config(Frozen):
         ),
     ] = SMALL
     renderer: Annotated[
-        Literal["tiny", "egl"],
-        Setting("What draws the pictures; egl draws large ones faster.", flag="--renderer"),
-    ] = "tiny"
+        Literal["auto", "gl", "tiny", "egl"],
+        Setting(
+            "What draws the pictures: gl with daylight and shadows (it needs libEGL), tiny without, egl as tiny.",
+            flag="--renderer",
+            unset="gl where it is to be had, else tiny",
+        ),
+    ] = "auto"
     perception: Annotated[
         PerceptErrors,
         Setting("How the perception errs by which a robot is told of the person whose model sees no pictures."),
@@ -364,7 +368,7 @@ class Config(Frozen):
 
 SETTINGS = declared(Config)
 """Every setting by name, such as `days` or `calls.timeout`."""
-AS_BEFORE = {"household": SHARED, "intentions": "hourly"}
+AS_BEFORE = {"household": SHARED, "intentions": "hourly", "renderer": "tiny"}
 """How runs were made before there was a choice, where that is not the default of today."""
 
 

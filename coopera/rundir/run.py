@@ -1,9 +1,9 @@
-"""A run as a Python script or a notebook looks at it: hours, candidates and calls as tables, each hour by its number."""
+"""A run as a script or a notebook looks at it: hours, candidates and calls as tables, each hour by its number."""
 
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -108,15 +108,19 @@ class Run:
 
         `correct` is the predicate's and stands at tasks alone; `helpful`, `grade` and `said` are the evening's.
         """
-        told = {
-            (evening.day, item.hour, item.kind, item.text): item for evening in self.evenings for item in evening.feedback
+        told: dict[tuple[int, int, str, str], FeedbackItem] = {
+            (evening.day, item.hour, item.kind, item.text): item
+            for evening in self.evenings
+            for item in evening.feedback
         }
         return _frame([row for record in self.records for row in _candidate_rows(record, told)])
 
     @cached_property
     def calls(self) -> DataFrame:
         """A row for each call of a language model: of hours, then of the evening (`hour` is then missing)."""
-        rows = [_call_row(call, record.day, record.hour, record.person) for record in self.records for call in record.calls]
+        rows = [
+            _call_row(call, record.day, record.hour, record.person) for record in self.records for call in record.calls
+        ]
         rows += [_call_row(call, one.day, None, one.person) for one in self.evenings for call in one.calls]
         return _frame(sorted(rows, key=lambda row: row["day"])).astype({"hour": "Int64"}) if rows else _frame(rows)
 
@@ -133,7 +137,11 @@ class Run:
             for day in said["days"]
         ]
         hours = [
-            [f"day {one.day}, {hour_label(one.hour)}", one.human.intention.text if one.human else one.reason, *_score(one)]
+            [
+                f"day {one.day}, {hour_label(one.hour)}",
+                one.human.intention.text if one.human else one.reason,
+                *_score(one),
+            ]
             for one in self.records[:_SHOWN]
         ]
         left = len(self.records) - len(hours)
@@ -179,11 +187,13 @@ def _hour_row(record: HourRecord) -> dict[str, Any]:
 
 
 def _candidate_rows(
-    record: HourRecord, told: dict[tuple[int, int, str, str], FeedbackItem]
+    record: HourRecord, told: Mapping[tuple[int, int, str, str], FeedbackItem]
 ) -> Iterator[dict[str, Any]]:
     if record.robot is None:
         return
-    known = [("intention", one.text, one.text, one, None) for one in record.robot.intentions]
+    known: list[tuple[str, str, str, Any, bool | None]] = [
+        ("intention", one.text, one.text, one, None) for one in record.robot.intentions
+    ]
     offers = [("task", one.act.describe(), one.intention, one, one.correct) for one in record.robot.tasks]
     for kind, text, intention, one, correct in [*known, *offers]:
         item = told.get((record.day, record.hour, kind, text))
@@ -202,7 +212,9 @@ def _candidate_rows(
 
 
 def _call_row(call: ModelCall, day: int, hour: int | None, person: str) -> dict[str, Any]:
-    plain = call.model_dump(include={"node", "prompt", "model", "seconds", "tokens_in", "tokens_out", "attempts", "cached"})
+    plain = call.model_dump(
+        include={"node", "prompt", "model", "seconds", "tokens_in", "tokens_out", "attempts", "cached"}
+    )
     return {
         "day": day,
         "hour": hour,

@@ -23,6 +23,7 @@ from coopera.people.changes import open_changes
 from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
 from coopera.simulation.bodies.robot import load_robot
+from coopera.simulation.drawing.context import chosen
 from coopera.simulation.motions.user_folder import load_motions
 from coopera.simulation.sight.video import need_video
 from coopera.studies.own_files import by_id
@@ -94,6 +95,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
                 "scenes": list(scenes),
                 "days": config.days or days,
                 "out": config.out or next_folder(Path("runs")),
+                "renderer": config.renderer if config.pictures == "none" else chosen(config.renderer),
             }
         )
     )

@@ -32,30 +32,34 @@ _FAILURES = (
 )
 
 
-def read_arrays(path: Path, names: Collection[str]) -> Array | dict[str, Array]:
+def read_arrays(
+    path: Path, names: Collection[str], *, most_bytes: int = MOST_BYTES, what: str = "motion file"
+) -> Array | dict[str, Array]:
     """Read a file's array, or of an .npz those of `names` that it holds; nothing in it is executed.
+
+    `most_bytes` are allowed of the file, and of all that is unpacked of it; `what` names the kind of file in errors.
 
     Raises:
         ConfigError: If it cannot be read, is neither, holds something else than numbers, or is too large.
     """
-    data = read_limited(path, MOST_BYTES, "motion file")
+    data = read_limited(path, most_bytes, what)
     try:
         if data.startswith(_BEGINS):
             return _array(data)
         if data.count(_ENTRY) > MOST_MEMBERS:
             raise ValueError(f"it holds more than {MOST_MEMBERS} arrays")
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            return _members(archive, names)
+            return _members(archive, names, most_bytes)
     except _FAILURES as err:
-        what = " ".join(str(err).split())[:200] or type(err).__name__
-        raise ConfigError(f"The motion file {path} cannot be read: {what}.") from err
+        why = " ".join(str(err).split())[:200] or type(err).__name__
+        raise ConfigError(f"The {what} {path} cannot be read: {why}.") from err
 
 
-def _members(archive: zipfile.ZipFile, names: Collection[str]) -> dict[str, Array]:
+def _members(archive: zipfile.ZipFile, names: Collection[str], most_bytes: int) -> dict[str, Array]:
     wanted = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
     wanted = {name: info for name, info in wanted.items() if name in names}
-    if sum(info.file_size for info in wanted.values()) > MOST_BYTES:
-        raise ValueError(f"unpacked it has more than {MOST_BYTES >> 20} MiB")
+    if sum(info.file_size for info in wanted.values()) > most_bytes:
+        raise ValueError(f"unpacked it has more than {most_bytes >> 20} MiB")
     if any(info.compress_type not in _PLAIN for info in wanted.values()):
         raise ValueError("it is compressed in a way that NumPy does not use")
     return {name: _array(archive.read(info)) for name, info in wanted.items()}

@@ -25,8 +25,8 @@ from coopera.core.hour import (
 from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Circumstance, Persona
 from coopera.core.protocols import Ask, Home
-from coopera.graphs.contexts import GivenByCode
 from coopera.graphs.players.changes import Change
+from coopera.graphs.players.contexts import GivenByCode
 from coopera.graphs.players.evening import Lived
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel

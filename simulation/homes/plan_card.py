@@ -81,8 +81,8 @@ def _thing(one: Footprint) -> Markup:
 
 def _name(name: str, bounds: Bounds, width: float) -> Markup:
     return Markup(
-        '<text x="{:.2f}" y="{:.2f}" font-size="{:.2f}" text-anchor="middle" fill="{}" stroke="{}" stroke-width="{:.3f}" '
-        'paint-order="stroke" font-family="system-ui,sans-serif">{}</text>'
+        '<text x="{:.2f}" y="{:.2f}" font-size="{:.2f}" text-anchor="middle" fill="{}" stroke="{}" '
+        'stroke-width="{:.3f}" paint-order="stroke" font-family="system-ui,sans-serif">{}</text>'
     ).format(
         (bounds.x0 + bounds.x1) / 2,
         -(bounds.y0 + bounds.y1) / 2,

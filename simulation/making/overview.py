@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
 from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from coopera.core.errors import ConfigError
+from coopera.simulation.drawing.context import Renderer, chosen
+from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.renderer import Renderer as Drawer
+from coopera.simulation.drawing.scenery import Scenery, thing_mesh
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Room, Scene
+from coopera.simulation.shapes.rotations import about_z
 from coopera.simulation.sight.build import build
 from coopera.simulation.sight.engine import pybullet
 
@@ -26,7 +29,7 @@ _EYES = 2.0
 _CORNER = 0.35
 
 
-def overview(scene: Scene, width: int = 960, height: int = 720) -> Image:
+def overview(scene: Scene, width: int = 960, height: int = 720, renderer: Renderer = "auto") -> Image:
     """Render a home in its initial state from above, leaning to the south; colours (height, width, 3)."""
     b = scene.bounds
     wide, deep = b.x1 - b.x0, b.y1 - b.y0
@@ -34,11 +37,10 @@ def overview(scene: Scene, width: int = 960, height: int = 720) -> Image:
     half = math.tan(math.radians(_FOV / 2))
     high = 2.4 + max((deep + 1.0) / 2 / half, (wide + 1.0) / 2 / half * height / width)
     eye = (middle[0], middle[1] - _LEAN * high, high)
-    with _built(scene) as client:
-        return picture(client, eye, middle, _FOV, (width, height), up=(0.0, 1.0, 0.0))
+    return _pictured(scene, Camera(eye, middle, _FOV, (0.0, 1.0, 0.0)), (width, height), renderer)
 
 
-def inside(scene: Scene, room: str, width: int = 960, height: int = 720) -> Image:
+def inside(scene: Scene, room: str, width: int = 960, height: int = 720, renderer: Renderer = "auto") -> Image:
     """Render one room from the corner from which most of it is seen; colours (height, width, 3).
 
     Raises:
@@ -50,16 +52,26 @@ def inside(scene: Scene, room: str, width: int = 960, height: int = 720) -> Imag
         raise ConfigError(f"room: the home {scene.id!r} has no room {room!r} (it has {known}).")
     x, y = max(_corners(found), key=lambda corner: _outlook(scene, found, corner))
     cx, cy = found.centre
-    with _built(scene) as client:
-        return picture(client, (x, y, _EYES), (cx + (cx - x) * 0.2, cy + (cy - y) * 0.2, 0.55), _WIDE, (width, height))
+    camera = Camera((x, y, _EYES), (cx + (cx - x) * 0.2, cy + (cy - y) * 0.2, 0.55), _WIDE)
+    return _pictured(scene, camera, (width, height), renderer)
 
 
-@contextmanager
-def _built(scene: Scene) -> Iterator[int]:
+def _pictured(scene: Scene, camera: Camera, size: tuple[int, int], renderer: Renderer) -> Image:
+    """A picture of a home in its initial state."""
+    if chosen(renderer) == "gl":
+        scenery = Scenery(scene, {})
+        for number, thing in enumerate(scene.movable):
+            scenery.add(thing.name, thing_mesh(scene, thing), number, thing.cls)
+            scenery.put(thing.name, thing.position, about_z(thing.yaw))
+        drawer = Drawer(scenery)
+        try:
+            return drawer.draw(camera, size).colour
+        finally:
+            drawer.close()
     client = pybullet.connect(pybullet.DIRECT)
     try:
         build(scene, client)
-        yield client
+        return picture(client, camera.eye, camera.target, camera.fov, size, camera.up)
     finally:
         pybullet.disconnect(client)
 

@@ -10,14 +10,16 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from coopera.simulation.drawing.house import WALL_HEIGHT, faces_of
+from coopera.simulation.drawing.scenery import Scenery, parts_mesh, shape_mesh, thing_mesh
 from coopera.simulation.homes.catalogue import catalogue, parts_of
 from coopera.simulation.homes.floorplan import WALL_THICKNESS, Point, Wall
 from coopera.simulation.homes.meshes import part_file
 from coopera.simulation.homes.scene import Room, Scene, SceneObject, rgb_of
 from coopera.simulation.shapes.kit import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
+from coopera.simulation.shapes.rotations import about_z, matrix
 from coopera.simulation.sight.engine import pybullet
 
-WALL_HEIGHT = 2.4
 _UNSEEN = -1
 _KIND = {
     "box": pybullet.GEOM_BOX,
@@ -40,26 +42,34 @@ class BuiltHome:
     """Body of each object, by its name."""
     names: dict[int, str] = field(default_factory=dict)
     """Name of each object, by its body."""
+    scenery: Scenery | None = None
+    """What another renderer draws of it, kept up to date."""
 
     def move(self, name: str, position: tuple[float, float, float], yaw: float) -> None:
         """Set an object's base centre and yaw; nothing else is touched."""
         turn = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))
         pybullet.resetBasePositionAndOrientation(self.bodies[name], position, turn, physicsClientId=self.client)
+        if self.scenery is not None and name in self.scenery:
+            self.scenery.put(name, position, about_z(yaw))
 
     def move_to(
         self, name: str, position: tuple[float, float, float], orientation: tuple[float, float, float, float]
     ) -> None:
         """Set an object's base centre and full orientation (quaternion x, y, z, w), as while it is carried."""
         pybullet.resetBasePositionAndOrientation(self.bodies[name], position, orientation, physicsClientId=self.client)
+        if self.scenery is not None and name in self.scenery:
+            self.scenery.put(name, position, matrix(orientation))
 
     def add(self, name: str, cls: str, size: Size, colour: Colour) -> int:
         """Add one more thing (out of the magic box) far below the floor, to be moved into sight; returns its body."""
         body = _body(self.client, self.visual(parts_of(cls, size, colour)), size)
         self.bodies[name], self.names[body] = body, name
+        if self.scenery is not None:
+            self.scenery.add(name, shape_mesh(cls, size, colour), body, cls)
         self.move(name, (0.0, 0.0, -50.0), 0.0)
         return body
 
-    def show_only(self, name: str, parts: list[Part]) -> int:
+    def show_only(self, name: str, parts: list[Part], cls: str) -> int:
         """Add a body that is seen and stops no ray, such as an open door, to be moved into sight; returns it."""
         body = int(
             pybullet.createMultiBody(
@@ -71,6 +81,8 @@ class BuiltHome:
             )
         )
         self.bodies[name] = body
+        if self.scenery is not None:
+            self.scenery.add(name, parts_mesh(parts, cls, parts[0].rgba[:3]), body, cls)
         return body
 
     def visual(self, parts: list[Part]) -> int:
@@ -81,6 +93,8 @@ class BuiltHome:
         """Take a thing that was added out of the world again."""
         body = self.bodies.pop(name)
         del self.names[body]
+        if self.scenery is not None:
+            self.scenery.remove(name)
         pybullet.removeBody(body, physicsClientId=self.client)
 
 
@@ -164,7 +178,7 @@ def _room_body(home: BuiltHome, room: Room, walls: list[Wall]) -> int:
     kit.box((0, 0, -0.05), (w, d, 0.05), floor)
     cx, cy = room.centre
     for wall in walls:
-        for piece in _faces(room, wall):
+        for piece in faces_of(room, wall):
             x, y, along = piece
             size = (along, WALL_THICKNESS / 2) if wall.axis == "x" else (WALL_THICKNESS / 2, along)
             kit.box((x - cx, y - cy, 0), (*size, WALL_HEIGHT), shade(paint, 0.94 if wall.axis == "x" else 1.0))
@@ -201,17 +215,10 @@ def _boxes(home: BuiltHome, parts: list[Part], at: Point) -> int:
     )
 
 
-def _faces(room: Room, wall: Wall) -> list[tuple[float, float, float]]:
-    """The room's own half of a wall on its edge: middle of the piece and its length; empty if it is elsewhere."""
-    quarter = WALL_THICKNESS / 4
-    low, high = (room.x0, room.x1) if wall.axis == "x" else (room.y0, room.y1)
-    edges = (room.y0, room.y1) if wall.axis == "x" else (room.x0, room.x1)
-    start, end = max(wall.start, low), min(wall.end, high)
-    if end - start < 0.02:
-        return []
-    found = []
-    for edge, inwards in ((edges[0], 1), (edges[1], -1)):
-        if abs(edge - wall.at) < 0.03:
-            along, across = (start + end) / 2, wall.at + inwards * quarter
-            found.append((along, across, end - start) if wall.axis == "x" else (across, along, end - start))
-    return found
+def staged(home: BuiltHome, scene: Scene) -> Scenery:
+    """What another renderer draws of a home that was built, kept up to date from now on."""
+    home.scenery = Scenery(scene, {**home.rooms, **home.bodies})
+    for thing in scene.movable:
+        home.scenery.add(thing.name, thing_mesh(scene, thing), home.bodies[thing.name], thing.cls)
+        home.move(thing.name, thing.position, thing.yaw)
+    return home.scenery

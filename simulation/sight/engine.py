@@ -13,14 +13,14 @@ from ctypes.util import find_library
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from coopera.core.errors import ConfigError
 from coopera.simulation.bodies.body_file import OF_PYBULLET
+from coopera.simulation.drawing.context import Renderer
 
 _QUIET = threading.RLock()
-Renderer = Literal["tiny", "egl"]
-"""Tiny needs nothing; EGL is faster with large pictures and needs the system's libEGL. Their pixels differ."""
+
 
 
 @contextmanager
@@ -88,7 +88,7 @@ def start_renderer(name: Renderer, client: int) -> int:
     Raises:
         ConfigError: If EGL is asked for and is not to be had here.
     """
-    if name == "tiny":
+    if name in ("tiny", "gl"):
         return int(pybullet.ER_TINY_RENDERER)
     found = find_spec("eglRenderer")
     plugin = -1

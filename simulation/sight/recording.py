@@ -24,6 +24,7 @@ from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standin
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
+from coopera.simulation.people.appearance import Outfit, outfit_for
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 from coopera.simulation.sight.walks import Track, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
@@ -49,7 +50,8 @@ class Held(NamedTuple):
 class Moment(NamedTuple):
     """One tick: everybody's body, what those hold who hold something, and the things that were moved by then.
 
-    `worn` is what people wear, `opened` which furniture is open.
+    `worn` is what people have put on, `opened` which furniture is open. `outfits` is how those are dressed who are not
+    dressed for the day; it is drawn, and nothing else knows of it.
     """
 
     bodies: Mapping[AgentId, Placed]
@@ -57,6 +59,7 @@ class Moment(NamedTuple):
     moved: Mapping[str, ThingState]
     worn: Mapping[AgentId, tuple[str, ...]] = MappingProxyType({})
     opened: frozenset[str] = frozenset()
+    outfits: Mapping[AgentId, Outfit] = MappingProxyType({})
 
 
 @dataclass(slots=True)
@@ -130,6 +133,7 @@ class Filming:
         self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
         self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
         self.recording = Recording(start, robot, person)
+        self._outfits = {agent: _outfit(body) for agent, body in start.agents.items() if isinstance(body, PersonState)}
         self._walk: Walk | None = None
         self._actor = person
 
@@ -244,7 +248,10 @@ class Filming:
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
-        moved = self.moved
+        moved, outfit = self.moved, _outfit(person)
+
+        def dressed(moment: Moment) -> Moment:
+            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -253,10 +260,10 @@ class Filming:
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
                 return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
-            return others(body, held, moved)
+            return dressed(others(body, held, moved))
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
-        self.worn = {**self.worn, agent: person.worn}
+        self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
     def _dress(self, step: Dress) -> None:
@@ -313,13 +320,14 @@ class Filming:
     def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
         bodies, all_held, worn, opened = dict(self.bodies), dict(self.held), dict(self.worn), self.opened
+        outfits = {one: outfit for one, outfit in self._outfits.items() if one != agent}
         robot, person = self.recording.robot, self.recording.person
 
         def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
             now = {**bodies, agent: body}
             if agent != robot:
                 now[robot] = watching(self.robots[robot], now[robot], now[person])
-            return Moment(now, _with(all_held, agent, held), moved, worn, opened)
+            return Moment(now, _with(all_held, agent, held), moved, worn, opened, outfits)
 
         return moment
 
@@ -337,6 +345,11 @@ class Filming:
         self.moved = moved
         self.bodies[agent] = body
         self.held = _with(self.held, agent, held)
+
+
+def _outfit(body: PersonState) -> Outfit:
+    """How a person is dressed for what they do."""
+    return outfit_for(body.motion, body.at)
 
 
 def _holds(ground: Ground, state: HomeState, body: PersonState | RobotState) -> Held:

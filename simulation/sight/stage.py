@@ -9,24 +9,32 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from coopera.core.household import AgentId, plain
-from coopera.simulation.sight.engine import Renderer, load_urdf, pybullet, quiet, start_renderer  # isort: split
+from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.drawing.context import Renderer, chosen
+from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.renderer import Renderer as Drawer
+from coopera.simulation.drawing.renderer import bodies_of
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
+from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
-from coopera.simulation.sight.build import build  # after the engine: whoever imports pybullet first makes it print
+from coopera.simulation.sight.build import (
+    build,
+    staged,
+)  # after the engine: whoever imports pybullet first makes it print
+from coopera.simulation.sight.figures import Balls, Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
 
@@ -35,14 +43,7 @@ _AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
 _NEAR, _FAR = 0.05, 30.0
 Image = NDArray[np.uint8]
-
-
-class Camera(NamedTuple):
-    """Where a camera is, what it looks at, and its vertical field of view in degrees."""
-
-    eye: Point3
-    target: Point3
-    fov: float = 58.0
+__all__ = ["Camera", "Image", "Stage"]
 
 
 class Stage:
@@ -53,19 +54,39 @@ class Stage:
         scene: Scene,
         people: Sequence[AgentId],
         robots: Mapping[AgentId, RobotBody],
-        renderer: Renderer | None = "tiny",
+        renderer: Renderer | None = "auto",
+        looks: Mapping[AgentId, Appearance] | None = None,
     ) -> None:
-        """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone."""
+        """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone.
+
+        `looks` says how people look, and may change; who is not in it looks as the id has it.
+        """
         self.scene, self.robots = scene, robots
+        name = None if renderer is None else chosen(renderer)
         self.client: int = pybullet.connect(pybullet.DIRECT)
-        self.renderer = None if renderer is None else start_renderer(renderer, self.client)
-        drawn = renderer is not None
+        self.renderer = None if name is None else start_renderer(name, self.client)
+        drawn = name in ("tiny", "egl")
         self.home = build(scene, self.client, drawn=drawn)
         self.bodies = {agent: load_urdf(BODIES / "person.urdf", self.client, drawn=drawn) for agent in people}
         self.bodies |= {agent: load_urdf(body.urdf, self.client, drawn=drawn) for agent, body in robots.items()}
         names = dict.fromkeys(people, [name for name, _ in JOINTS])
         names |= {agent: list(body.joints) for agent, body in robots.items()}
         self._joints = {agent: self._joints_of(body, names[agent]) for agent, body in self.bodies.items()}
+        self.drawer: Drawer | None = None
+        """Our own renderer, where that is the one."""
+        self._people: dict[AgentId, Person] = {}
+        self._balls: dict[AgentId, Balls] = {}
+        self._figures: dict[AgentId, Robot] = {}
+        self._looks = {} if looks is None else looks
+        if drawn:
+            self._balls = {agent: Balls(self.bodies[agent], self.client) for agent in people}
+        if name == "gl":
+            scenery = staged(self.home, scene)
+            self._people = {agent: Person(scenery, agent, self.bodies[agent]) for agent in people}
+            self._figures = {
+                agent: Robot(scenery, agent, self.bodies[agent], self.client, body) for agent, body in robots.items()
+            }
+            self.drawer = Drawer(scenery)
         self._shown: dict[str, ThingState] = {
             thing.name: ThingState(position=thing.position, yaw=thing.yaw, on=thing.on) for thing in scene.movable
         }
@@ -76,6 +97,9 @@ class Stage:
 
     def close(self) -> None:
         """Give the client back; a second time does nothing."""
+        if self.drawer is not None:
+            self.drawer.close()
+            self.drawer = None
         if self.client >= 0:
             with quiet():
                 pybullet.disconnect(self.client)
@@ -93,6 +117,12 @@ class Stage:
                 self._put_robot(agent, placed)
             else:
                 self._put_person(agent, placed)
+            if agent in self._people:
+                self._people[agent].put(placed, *self._dressed(moment, agent))
+            elif agent in self._balls:
+                self._balls[agent].put(*self._dressed(moment, agent))
+            elif agent in self._figures:
+                self._figures[agent].put(placed)
         self._unused, self._carried = self._carried, set()
         held = {held.name for held in moment.held.values()}
         self._things(state, moment, held.union(*moment.worn.values()))
@@ -104,6 +134,10 @@ class Stage:
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
         self._open(moment.opened)
+
+    def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
+        """How a person looks, and what they wear."""
+        return self._looks.get(agent) or appearance_of("", agent), moment.outfits.get(agent, "day")
 
     def _things(self, state: HomeState, moment: Moment, with_people: set[str]) -> None:
         """Put down all that nobody has: the things of the scene, and those out of the magic box.
@@ -148,7 +182,7 @@ class Stage:
             parts = opened(thing) if thing is not None else []
             if thing is not None and parts:
                 if _door(name) not in self.home.bodies:
-                    self.home.show_only(_door(name), parts)
+                    self.home.show_only(_door(name), parts, thing.cls)
                 self.home.move(_door(name), thing.position, thing.yaw)
                 self._doors.add(name)
 
@@ -244,12 +278,19 @@ class Stage:
             hits += [hit[0] for hit in found]
         return np.array(hits, dtype=np.int64)
 
+    def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
+        """The colours of a picture alone, (height, width, 3)."""
+        return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
+
     def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
-        """Render without shadows.
+        """Render; Tiny and EGL draw no shadows.
 
         Returns:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
         """
+        if self.drawer is not None:
+            drawn = self.drawer.draw(camera, size, more=True)
+            return drawn.colour, bodies_of(drawn.tags)
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
         lens = pybullet.computeProjectionMatrixFOV(camera.fov, width / height, _NEAR, _FAR)

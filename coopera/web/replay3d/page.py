@@ -1,61 +1,36 @@
-"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`): nothing is loaded from anywhere."""
+"""A day in 3D as one HTML file with a time bar, made with viser (the extra `replay3d`); it loads nothing."""
 
 from __future__ import annotations
 
-import importlib
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from markupsafe import escape
 
 from coopera.config.files import write_output
-from coopera.core.errors import ConfigError, RunError
+from coopera.core.errors import RunError
 from coopera.core.household import AgentId
 from coopera.core.naming import printable
 from coopera.rundir.directory import RunDir
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.bodies.shaping.weights import PARTS
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.people.weights import PARTS
 from coopera.simulation.sight.cameras import ROBOT_FOV
 from coopera.simulation.sight.stage import Stage
-from coopera.simulation.sight.video import FPS as FILM_FPS
-from coopera.simulation.sight.video import write_video
 from coopera.simulation.ways.navigation import Navigator
 from coopera.simulation.world import World
 from coopera.web.replay3d import solids
+from coopera.web.replay3d.film import Made
+from coopera.web.replay3d.installed import need_viser
 from coopera.web.replay3d.poses import CAMERA, FPS, GONE, Frame, Pose, Scenery, acts_of, frames_of
 from coopera.web.replay3d.ways import Ways
 
 _VIEW = (13, 133, 119)  # the colour of a robot's view
 _SIGN = 2.05  # height in metres at which it is written what somebody does
 _STILL = 0.6  # seconds between two acts
-
-
-class Made(NamedTuple):
-    """What came of it: the file, its size in bytes, how many moments it shows and for how many seconds."""
-
-    file: Path
-    bytes: int
-    moments: int
-    seconds: float
-
-
-def need_viser() -> Any:
-    """The library, where it is installed.
-
-    Raises:
-        ConfigError: If it is not, or cannot make a page of one file.
-    """
-    try:
-        viser: Any = importlib.import_module("viser")
-    except ImportError as err:
-        raise ConfigError("--html: a day in 3D needs viser 1.0 or newer; install it with: pip install viser.") from err
-    if int(str(viser.__version__).partition(".")[0]) < 1:
-        raise ConfigError(f"--html: a day in 3D needs viser 1.0 or newer, not {viser.__version__}.")
-    return viser
 
 
 def write_page(run: RunDir, day: int, file: Path) -> Made:
@@ -80,28 +55,7 @@ def write_page(run: RunDir, day: int, file: Path) -> Made:
     return Made(file, file.stat().st_size, moments, seconds)
 
 
-def write_film(run: RunDir, day: int, file: Path) -> Made:
-    """Write a day of a run as a film: the robot's view on the left, a third person's on the right.
-
-    Raises:
-        ConfigError: If PyAV is not installed.
-        RunError: If there is no such day, or nothing was done on it.
-    """
-    count = 0
-
-    def pictures() -> Iterator[Any]:
-        nonlocal count
-        with closing(acts_of(run, day)) as acts:
-            for shown in acts:
-                for picture in shown.home.filmed():
-                    count += 1
-                    yield picture
-
-    write_video(file, pictures())
-    return Made(file, file.stat().st_size, count, count / FILM_FPS)
-
-
-def _frames(run: RunDir, day: int) -> Iterator[tuple[Scenery, Frame]]:
+def _frames(run: RunDir, day: int) -> Generator[tuple[Scenery, Frame]]:
     scenery = None
     with closing(acts_of(run, day)) as acts:
         try:
@@ -116,11 +70,12 @@ def _frames(run: RunDir, day: int) -> Iterator[tuple[Scenery, Frame]]:
 
 
 def _scenery(run: RunDir, home: World, person: str) -> Scenery:
-    persona = run.people().get(person)
     robots = {agent: load_robot(run.config.robot) for agent in home.robots}
-    skin = solids.person_skin(persona.profile if persona else "", person)
+    skin = solids.person_skin(run.people()[person])
     stage = Stage(home.layout, home.people, robots, None)
-    return Scenery(home.layout, stage, robots, dict.fromkeys(home.people, skin), Ways(Navigator(home.layout), robots, FPS))
+    return Scenery(
+        home.layout, stage, robots, dict.fromkeys(home.people, skin), Ways(Navigator(home.layout), robots, FPS)
+    )
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -16,9 +16,9 @@ from coopera.rundir.directory import RunDir
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.bodies.shaping.weights import PARTS
-from coopera.simulation.bodies.skin import Skin, carriers
 from coopera.simulation.homes.scene import Scene, SceneObject
+from coopera.simulation.people.skin import Skin, carriers
+from coopera.simulation.people.weights import PARTS
 from coopera.simulation.shapes.rotations import about_z, quaternion
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.engine import pybullet
@@ -79,7 +79,7 @@ class Shown(NamedTuple):
     home: World
 
 
-def acts_of(run: RunDir, day: int) -> Iterator[Shown]:
+def acts_of(run: RunDir, day: int) -> Generator[Shown]:
     """Do a day's acts again, one after another, and yield each of which there is something to see.
 
     The home begins as the trace has it after the hour before, if there was one in this episode.
@@ -97,9 +97,10 @@ def acts_of(run: RunDir, day: int) -> Iterator[Shown]:
         raise RunError(f"{run.root}: there is no day {day}; there are {days or 'none yet'}.")
     before = [one for one in run.hours() if one.day < day and one.episode == records[0].episode]
     before = [one for one in before if one.scene == records[0].scene]
-    with open_embeddings(run.config) as embeddings, open_home(
-        run.config, records[0].scene, embeddings, run.root
-    ) as home:
+    with (
+        open_embeddings(run.config) as embeddings,
+        open_home(run.config, records[0].scene, embeddings, run.root) as home,
+    ):
         home.restore(before[-1].world.get("poses", {}) if before else {})
         for record in records:
             watched = record.world.get("watched", record.robot is not None)

@@ -1,4 +1,4 @@
-"""What is shown in three dimensions, as coloured triangles: the home, its things, the robot's links, the person's parts.
+"""What is shown in 3D, as coloured triangles: the home, its things, the robot's links, the person's parts.
 
 Lengths are metres, z is up. What stands fast is one mesh in the world's frame; all else is in a frame of its own.
 """
@@ -7,25 +7,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.appearance import Outfit, appearance_of
+from coopera.core.people import Persona
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.bodies.shaping.weights import PARTS
-from coopera.simulation.bodies.skin import Skin, skinned
 from coopera.simulation.homes.catalogue import catalogue, parts_of
 from coopera.simulation.homes.floorplan import WALL_THICKNESS
 from coopera.simulation.homes.meshes import part_file
 from coopera.simulation.homes.scene import Scene, SceneObject, rgb_of
+from coopera.simulation.people.appearance import Outfit, appearance_of
+from coopera.simulation.people.skin import Skin, skinned
+from coopera.simulation.people.weights import PARTS
 from coopera.simulation.shapes.kit import Part
 from coopera.simulation.shapes.rotations import matrix
 from coopera.simulation.sight.engine import load_urdf, pybullet
 
-Mesh = trimesh.Trimesh
+Mesh: TypeAlias = trimesh.Trimesh
 Colour = Sequence[float]
 WALLS = 1.15
 """Height of the walls: low, so that one looks in."""
@@ -47,15 +48,15 @@ def home_mesh(scene: Scene) -> Mesh:
         made.append(_box(size, ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, WALLS / 2), _PAINT))
     for thing in scene.fixed:
         made.append(_placed(thing_mesh(scene, thing), thing.position, _about_z(thing.yaw)))
-    return trimesh.util.concatenate(made)
+    return _together(made)
 
 
 def thing_mesh(scene: Scene, thing: SceneObject) -> Mesh:
     """One object in its own frame."""
     if thing.mesh and scene.meshes is not None:
         found = [_coloured(_read(part_file(scene.meshes, part)), rgb_of(part.colour)) for part in thing.mesh]
-        return trimesh.util.concatenate(found)
-    return trimesh.util.concatenate([_of_part(part) for part in parts_of(thing.cls, thing.size, thing.rgb)])
+        return _together(found)
+    return _together([_of_part(part) for part in parts_of(thing.cls, thing.size, thing.rgb)])
 
 
 def robot_links(body: RobotBody) -> dict[int, Mesh]:
@@ -69,14 +70,14 @@ def robot_links(body: RobotBody) -> dict[int, Mesh]:
         ):
             mesh = _of_shape(kind, size, file, body.urdf.parent)
             links.setdefault(link, []).append(_placed(_coloured(mesh, colour[:3]), place, matrix(turn)))
-        return {link: trimesh.util.concatenate(meshes) for link, meshes in links.items()}
+        return {link: _together(meshes) for link, meshes in links.items()}
     finally:
         pybullet.disconnect(client)
 
 
-def person_skin(profile: str, person: str, outfit: Outfit = "day") -> Skin:
-    """The skin of a person as the profile describes them."""
-    return skinned(appearance_of(profile, person), outfit)
+def person_skin(person: Persona, outfit: Outfit = "day") -> Skin:
+    """The skin of a person as the profile describes them, and their file says."""
+    return skinned(appearance_of(person.profile, person.id, person.appearance), outfit)
 
 
 def person_parts(skin: Skin) -> Iterator[tuple[int, Mesh]]:
@@ -88,6 +89,12 @@ def person_parts(skin: Skin) -> Iterator[tuple[int, Mesh]]:
         if len(faces):
             used, faces = np.unique(faces, return_inverse=True)
             yield number, _mesh(skin.vertices[used], faces.reshape(-1, 3), skin.colours[used], skin.normals[used])
+
+
+def _together(meshes: Sequence[Mesh]) -> Mesh:
+    joined: Any = trimesh.util.concatenate(list(meshes))
+    made: Mesh = joined
+    return made
 
 
 def _of_part(part: Part) -> Mesh:
@@ -105,19 +112,21 @@ def _of_part(part: Part) -> Mesh:
 
 def _of_shape(kind: int, size: Sequence[float], file: bytes, folder: Path) -> Mesh:
     """A visual shape as pybullet tells of it."""
+    mesh: Any
     if kind == pybullet.GEOM_BOX:
-        return trimesh.creation.box(extents=list(size))
-    if kind == pybullet.GEOM_SPHERE:
-        return trimesh.creation.icosphere(subdivisions=2, radius=size[0])
-    if kind == pybullet.GEOM_CYLINDER:
-        return trimesh.creation.cylinder(radius=size[1], height=size[0], sections=_SIDES)
-    if kind == pybullet.GEOM_CAPSULE:
+        mesh = trimesh.creation.box(extents=list(size))
+    elif kind == pybullet.GEOM_SPHERE:
+        mesh = trimesh.creation.icosphere(subdivisions=2, radius=size[0])
+    elif kind == pybullet.GEOM_CYLINDER:
+        mesh = trimesh.creation.cylinder(radius=size[1], height=size[0], sections=_SIDES)
+    elif kind == pybullet.GEOM_CAPSULE:
         mesh = trimesh.creation.capsule(radius=size[1], height=size[0], count=[_SIDES, 8])
         mesh.apply_translation((0, 0, -mesh.bounds.mean(axis=0)[2]))
-        return mesh
-    mesh = _read(folder / file.decode())
-    mesh.apply_scale(list(size))
-    return mesh
+    else:
+        mesh = _read(folder / file.decode())
+        mesh.apply_scale(list(size))
+    made: Mesh = mesh
+    return made
 
 
 def _read(path: Path) -> Mesh:

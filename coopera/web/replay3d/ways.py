@@ -1,4 +1,4 @@
-"""The walks that recordings leave out: between two shots everybody goes along the floor to where the next one begins."""
+"""The walks that recordings leave out: between two shots everybody walks to where the next one begins."""
 
 from __future__ import annotations
 

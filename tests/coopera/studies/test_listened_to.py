@@ -58,7 +58,9 @@ def test_each_call_of_the_trace_is_heard_with_person_day_hour_and_node(heard: tu
 
 
 def test_the_graphs_and_their_nodes_are_heard_too(heard: tuple[Listener, RunDir]) -> None:
-    assert {"study", "day", "hour", "human", "propose", "robot", "imagine_intentions", "feedback"} <= set(heard[0].chains)
+    assert {"study", "day", "hour", "human", "propose", "robot", "imagine_intentions", "feedback"} <= set(
+        heard[0].chains
+    )
 
 
 def test_jobs_done_at_once_are_heard_by_whoever_listens_to_them() -> None:

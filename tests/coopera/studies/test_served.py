@@ -1,4 +1,4 @@
-"""A study as LangGraph's server runs it: chosen by plain data, drawn with all that runs inside, interrupted by questions."""
+"""A study as LangGraph's server runs it: chosen by plain data, drawn with its insides, interrupted by questions."""
 
 from __future__ import annotations
 

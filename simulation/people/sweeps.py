@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.simulation.bodies.shaping.fields import Array, Field, slopes
-from coopera.simulation.bodies.shaping.nets import Index
+from coopera.simulation.people.fields import Array, Field, slopes
+from coopera.simulation.people.nets import Index
 
 
 class Piece(NamedTuple):
@@ -40,10 +40,7 @@ def ordered(found: tuple[Array, Array, Index]) -> tuple[Array, Array, Index]:
 
 def tube(path: Array, radii: Array, sides: int, *, closed: bool = False) -> tuple[Array, Array, Index]:
     """Vertices, normals and faces of a tube along a path (N, 3); a closed path comes back to its beginning."""
-    if closed:
-        along = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0)
-    else:
-        along = np.gradient(path, axis=0)
+    along = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0) if closed else np.gradient(path, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
     spread = np.abs(along).max(axis=0)
     across = np.cross(along, np.eye(3)[int(np.argmin(spread))])

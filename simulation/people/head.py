@@ -6,14 +6,11 @@ The hair's fields are whole bodies that hold the head; a face is left open where
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
-from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, carve, cone, join, loft
-
-HairStyle = Literal["bald", "ring", "cropped", "short", "parted", "bob", "long", "bun", "ponytail", "curly"]
-Beard = Literal["none", "stubble", "moustache", "goatee", "full"]
+from coopera.core.people import Beard, HairStyle
+from coopera.simulation.people.fields import Array, Loft, ball, carve, cone, join, loft, within
 
 EYE = (0.0680, 0.0315, 0.013)
 """The middle of the left eye."""
@@ -121,18 +118,18 @@ def hair(style: HairStyle, recede: float, skin: Array, points: Array, *, edges: 
         cap = np.maximum(_cap(skin, points, 0.007, 0.007), _hairline(points, 0.0, -0.062))
         return carve(cap, ball(points, (0.03, 0.0, 0.115), (0.115, 0.064, 0.066)), 0.01)
     if style == "cropped":
-        return np.maximum(_cap(skin, points, 0.004, 0.007), line)
+        return within(_cap(skin, points, 0.004, 0.007), line)
     if style == "short":
-        return np.maximum(_cap(skin, points, 0.008, 0.018), line)
+        return within(_cap(skin, points, 0.008, 0.018), line)
     if style == "parted":
         groove = ball(points, (0.03, 0.034, 0.122), (0.09, 0.005, 0.014))
         wave = 0.007 * np.clip(-(y - 0.03) / 0.05, 0, 1) * np.clip((z - 0.04) / 0.05, 0, 1)
-        return np.maximum(carve(_cap(skin, points, 0.008, 0.019) - wave, groove, 0.014), line)
+        return within(carve(_cap(skin, points, 0.008, 0.019) - wave, groove, 0.014), line)
     if style == "curly":
         lumps = 0.004 * (np.sin(x * 150) * np.sin(y * 150 + 1) + np.sin(z * 150 + 2) * np.sin(x * 110 + y * 90))
         puff = ball(points, (-0.022, 0, 0.040), (0.118, 0.112, 0.110))
         face = ball(points, (0.112, 0.0, -0.022), (0.112, 0.074, 0.108 + 0.02 * recede))
-        return np.maximum(carve(puff, face, 0.03) + lumps, (-0.075 - z) * 0.9)
+        return within(carve(puff, face, 0.03) + lumps, (-0.075 - z) * 0.9)
     if style in ("bun", "ponytail"):
         cap = np.maximum(_cap(skin, points, 0.008, 0.012), line)
         if style == "bun":
@@ -183,7 +180,7 @@ def _falling(style: HairStyle, recede: float, skin: Array, points: Array) -> Arr
 
 def beard(kind: Beard, skin: Array, points: Array) -> Array | None:
     """A beard, None where there is none that stands out."""
-    if kind in ("none", "stubble"):
+    if kind == "shaven":
         return None
     x, _, z = points.T
     half = mirrored(points)

@@ -4,29 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import SHIN, SIDES, THIGH
-from coopera.simulation.bodies.shaping.ends import Footwear
-from coopera.simulation.bodies.shaping.fields import Array, ball, carve, cone, join, loft
-from coopera.simulation.bodies.shaping.figure import Figure, Near
+from coopera.simulation.people.ends import Footwear
+from coopera.simulation.people.fields import Array, ball, carve, cone, join, loft
+from coopera.simulation.people.figure import Figure, Near
 
 Colour = tuple[float, float, float]
-Top = Literal[
-    *("none", "tee", "polo", "jumper", "shirt", "blouse", "cardigan", "hoodie", "tank", "dress"),
-    *("pyjamas", "swimsuit", "towel"),
+Top: TypeAlias = Literal[
+    "nothing",
+    "tee",
+    "polo",
+    "jumper",
+    "shirt",
+    "blouse",
+    "cardigan",
+    "hoodie",
+    "tank",
+    "dress",
+    "pyjamas",
+    "swimsuit",
+    "towel",
 ]
-Bottom = Literal["none", "trousers", "slim", "shorts", "skirt", "trunks"]
+Bottom: TypeAlias = Literal["nothing", "trousers", "slim", "shorts", "skirt", "trunks"]
 
 
 @dataclass(frozen=True, slots=True)
 class Clothes:
     """What somebody wears, and its colours; `accent` is that of a band, an undershirt or a collar."""
 
-    top: Top = "none"
-    bottom: Bottom = "none"
+    top: Top = "nothing"
+    bottom: Bottom = "nothing"
     footwear: Footwear = "bare"
     top_colour: Colour = (0.5, 0.5, 0.5)
     bottom_colour: Colour = (0.2, 0.2, 0.3)
@@ -48,7 +59,7 @@ class _Cut(NamedTuple):
     """How a top is cut: looseness (metres), sleeves, where it ends below, and its neckline."""
 
     ease: float
-    sleeves: Literal["long", "short", "none"]
+    sleeves: Literal["long", "short", "bare"]
     hem: float = -0.055
     neck: Literal["crew", "vee", "scoop", "strapless"] = "crew"
     fill: float = 0.6
@@ -63,11 +74,11 @@ _CUTS: dict[str, _Cut] = {
     "blouse": _Cut(0.011, "long", -0.03, "vee", 0.3),
     "cardigan": _Cut(0.018, "long", -0.07, fill=0.7),
     "hoodie": _Cut(0.019, "long", -0.05, fill=0.9),
-    "tank": _Cut(0.010, "none", -0.03, "scoop", 0.1),
+    "tank": _Cut(0.010, "bare", -0.03, "scoop", 0.1),
     "dress": _Cut(0.010, "short", -0.03, "scoop", 0.15),
     "pyjamas": _Cut(0.020, "long", -0.065, "vee", 0.9),
-    "swimsuit": _Cut(0.006, "none", -0.20, "scoop", 0.0),
-    "towel": _Cut(0.012, "none", -0.10, "strapless", 0.7),
+    "swimsuit": _Cut(0.006, "bare", -0.20, "scoop", 0.0),
+    "towel": _Cut(0.012, "bare", -0.10, "strapless", 0.7),
 }
 _COLLARED = ("polo", "shirt", "pyjamas")
 
@@ -75,14 +86,15 @@ _COLLARED = ("polo", "shirt", "pyjamas")
 def layers(clothes: Clothes, figure: Figure) -> list[Layer]:
     """Everything worn but shoes."""
     found: list[Layer] = []
-    if clothes.bottom != "none":
+    if clothes.bottom != "nothing":
         found.append(Layer(clothes.bottom_colour, _bottom(clothes.bottom)))
-    if clothes.top == "none":
+    if clothes.top == "nothing":
         return found
-    cut, body = _CUTS[clothes.top], Torso(figure, _CUTS[clothes.top])
-    shade = (0.86 * clothes.top_colour[0], 0.86 * clothes.top_colour[1], 0.86 * clothes.top_colour[2])
+    cut = _CUTS[clothes.top]
+    body = Torso(figure, cut, None if clothes.bottom == "nothing" else _bottom(clothes.bottom))
+    shade = (0.90 * clothes.top_colour[0], 0.90 * clothes.top_colour[1], 0.90 * clothes.top_colour[2])
     if clothes.top == "cardigan":
-        under = Torso(figure, _Cut(0.007, "none", -0.02))
+        under = Torso(figure, _Cut(0.007, "bare", -0.02))
         found.append(Layer(clothes.accent, under.at))
         found.append(Layer(clothes.top_colour, lambda near: near.cut(body.at(near), -_opening(near))))
     elif clothes.top in _COLLARED:
@@ -103,9 +115,9 @@ def layers(clothes: Clothes, figure: Figure) -> list[Layer]:
 class Torso:
     """A top over a figure's trunk and arms."""
 
-    def __init__(self, figure: Figure, cut: _Cut) -> None:
-        """Widen the figure's cross-sections, and let the cloth hang over waist and belly."""
-        self.figure, self.cut = figure, cut
+    def __init__(self, figure: Figure, cut: _Cut, over: Callable[[Near], Array] | None = None) -> None:
+        """Widen the figure's cross-sections, and let the cloth hang over waist and belly, and over trousers."""
+        self.figure, self.cut, self._over = figure, cut, over
         rows = np.array(figure.trunk_rows)
         z = rows[:, 0]
         for column in (2, 3, 4):
@@ -124,24 +136,26 @@ class Torso:
             wider = tuple(radius + ease for radius in radii)
             found = join(found, ball(near.points, centre, wider), 0.07)
         z = near.points[:, 2]
-        if cut.sleeves == "none":
+        if cut.sleeves == "bare":
             found = near.cut(found, self._armholes(near))
         else:
             found = join(found, self._sleeves(near), 0.05)
-        if cut.hem > -0.15:
-            found = near.cut(join(found, near.legs - ease - 0.003, 0.04), cut.hem - z)
-        else:
-            found = near.cut(join(found, near.legs - ease, 0.04), _legholes(near))
-        return near.cut(found, -_neckline(cut.neck, near))
+        below = near.legs - ease - 0.003 if self._over is None else self._over(near) - 0.005
+        found = join(found, below, 0.04)
+        found = near.cut(found, cut.hem - z if cut.hem > -0.15 else _legholes(near))
+        open_ = _neckline(cut.neck, near)
+        close = np.clip(1.0 - open_ / 0.05, 0.0, 1.0)  # cloth lies close to the skin where it ends at the neck
+        found = found + close * close * (near.body - 0.004 - found)
+        return near.cut(found, -open_)
 
     def _sleeves(self, near: Near) -> Array:
-        ends = []
+        ends: list[Array] = []
         for side in SIDES:
             down = np.clip(-near.local(f"{side}_shoulder")[:, 2] / 0.12, 0.0, 1.0)
             arm = near.arm(side) - self.cut.ease * (0.35 + 0.65 * down)
             if self.cut.sleeves == "long":
-                wide = self.cut.ease * 0.5 + 0.032
-                cuff = cone(near.local(f"{side}_elbow"), ((0, 0, -0.02), (0, 0, -0.25)), (wide + 0.010, wide))
+                thick = self.cut.ease * 0.5 + 0.032
+                cuff = cone(near.local(f"{side}_elbow"), ((0, 0, -0.02), (0, 0, -0.25)), (thick + 0.010, thick))
                 end = -0.236 - near.local(f"{side}_elbow")[:, 2]
                 ends.append(near.cut(join(arm, cuff, 0.02), end))
             else:
@@ -164,7 +178,7 @@ def _neckline(kind: str, near: Near) -> Array:
     points = near.points
     if kind == "strapless":
         return 0.335 - points[:, 2]
-    around = cone(points, ((0.004, 0, 0.462), (-0.012, 0, 0.60)), (0.060, 0.085))
+    around = ball(points, (0.010, 0.0, 0.514), (0.078, 0.078, 0.070))
     if kind == "vee":
         slot = np.maximum(np.abs(points[:, 1]) * 0.9 - (points[:, 2] - 0.375) * 0.42, -points[:, 0])
         return join(around, slot, 0.01)
@@ -183,15 +197,16 @@ def _legholes(near: Near) -> Array:
 def _collar(near: Near) -> Array:
     """A folded collar, open ahead."""
     local = near.local("neck")
-    band = near.neck - 0.013 - 0.10 * np.maximum(0.045 - local[:, 2], 0.0)
-    ends = np.maximum(0.000 - local[:, 2] - 0.25 * np.maximum(local[:, 0], 0), local[:, 2] - 0.042 + 0.30 * local[:, 0])
-    open_ = np.maximum(0.020 - local[:, 0], np.abs(local[:, 1]) - 0.010 - 0.35 * np.maximum(local[:, 2] + 0.03, 0.0))
+    x, y, z = local.T
+    band = near.neck - 0.010 - 0.22 * np.maximum(0.062 - z, 0.0)
+    ends = np.maximum(0.012 - z - 0.45 * np.maximum(x, 0.0), z - 0.064 + 0.40 * x)
+    open_ = np.maximum(0.010 - x, np.abs(y) - 0.006 - 0.35 * np.maximum(z + 0.04, 0.0))
     return near.cut(near.cut(band, ends), -open_)
 
 
 def _placket(near: Near) -> Array:
     """The strip of the buttons."""
-    return np.maximum(np.abs(near.points[:, 1]) - 0.014, -near.points[:, 0])
+    return np.maximum(np.abs(near.points[:, 1]) - 0.011, -near.points[:, 0])
 
 
 def _band(near: Near) -> Array:
@@ -204,7 +219,7 @@ def _pocket(near: Near) -> Array:
     """A hoodie's pocket."""
     y, z = np.abs(near.points[:, 1]), near.points[:, 2]
     return np.maximum(
-        np.maximum(np.abs(z - 0.07) - 0.055, y - 0.095 + 0.5 * np.maximum(z - 0.06, 0)), -near.points[:, 0]
+        np.maximum(np.abs(z - 0.065) - 0.060, y - 0.115 + 0.6 * np.maximum(z - 0.04, 0)), -near.points[:, 0]
     )
 
 

@@ -9,30 +9,30 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.appearance import Appearance
-from coopera.simulation.bodies.humanoid import ANKLE, SIDES, Side
-from coopera.simulation.bodies.shaping import face as faces_
-from coopera.simulation.bodies.shaping.clothes import Clothes, Layer, layers
-from coopera.simulation.bodies.shaping.ends import Footwear, fingers, foot, palm, toes
-from coopera.simulation.bodies.shaping.fields import Array, Field, slopes
-from coopera.simulation.bodies.shaping.figure import Figure, Near, rest_frames
-from coopera.simulation.bodies.shaping.head import bare, beard, hair, jaw
-from coopera.simulation.bodies.shaping.nets import Box, Index, Mesh, clip, surface
-from coopera.simulation.bodies.shaping.sweeps import Piece
-from coopera.simulation.bodies.shaping.weights import PARTS, shares, strongest
+from coopera.simulation.bodies.humanoid import ANKLE, SIDES, Frames, Side
+from coopera.simulation.people import face as faces_
+from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.clothes import Clothes, Layer, layers
+from coopera.simulation.people.ends import Footwear, fingers, foot, palm, toes
+from coopera.simulation.people.fields import Array, Field, slopes
+from coopera.simulation.people.figure import Figure, Near, rest_frames
+from coopera.simulation.people.head import bare, beard, hair, jaw
+from coopera.simulation.people.nets import Box, Index, Mesh, clip, surface
+from coopera.simulation.people.sweeps import Piece
+from coopera.simulation.people.weights import PARTS, shares, strongest
 
 Colour = tuple[float, float, float]
 
 _BODY = Box((-0.34, -0.72, -0.95), (0.46, 0.72, 0.70), 0.026)
-_HEAD = Box((-0.20, -0.16, -0.31), (0.14, 0.16, 0.17), 0.0108)
-_HAND = Box((-0.06, -0.045, -0.045), (0.06, 0.045, 0.10), 0.011)
-_FOOT = Box((-0.10, -0.07, -0.06), (0.20, 0.07, 0.07), 0.013)
+_HEAD = Box((-0.20, -0.16, -0.31), (0.14, 0.16, 0.17), 0.0115)
+_HAND = Box((-0.06, -0.045, -0.045), (0.06, 0.045, 0.10), 0.0125)
+_FOOT = Box((-0.10, -0.07, -0.06), (0.20, 0.07, 0.07), 0.017)
 _SOLE = 0.016
 _PALE_SOLE = (0.88, 0.87, 0.85)
 
 
 class Parts(NamedTuple):
-    """A mesh as `coopera.simulation.bodies.skin.Skin` has it; `material` counts in `materials`."""
+    """A mesh as `coopera.simulation.people.skin.Skin` has it; `material` counts in `materials`."""
 
     vertices: Array
     normals: Array
@@ -42,6 +42,7 @@ class Parts(NamedTuple):
     parts: NDArray[np.uint8]
     weights: NDArray[np.float32]
     faces: Index
+    rest: Frames
 
 
 class _Carried(NamedTuple):
@@ -75,6 +76,7 @@ def _together(found: Sequence[_Carried]) -> Parts:
         parts,
         weights,
         np.concatenate([one.piece.faces + start for one, start in zip(found, starts, strict=True)]),
+        rest_frames(),
     )
 
 
@@ -96,7 +98,8 @@ def _split(mesh: Mesh, fields: Callable[[Array], list[Array]]) -> list[Mesh]:
 
 def _normals(field: Field, mesh: Mesh) -> Array:
     found = slopes(field, mesh.vertices)
-    return found / np.maximum(np.linalg.norm(found, axis=1), 1e-9)[:, None]
+    found /= np.maximum(np.linalg.norm(found, axis=1), 1e-9)[:, None]
+    return found
 
 
 def _piece(mesh: Mesh, field: Field, colour: Colour, material: str) -> Piece:
@@ -171,7 +174,7 @@ def _features(looks: Appearance, skin_at: Field) -> Iterator[Piece]:
     yield from faces_.lips(skin_at, looks.skin, looks.face)
     if looks.lined:
         yield from faces_.folds(skin_at, looks.skin)
-    if looks.glasses != "none":
+    if looks.glasses is not None:
         yield from faces_.spectacles(skin_at, (0.10, 0.09, 0.10), looks.glasses == "round")
 
 
@@ -212,8 +215,8 @@ def _foot(figure: Figure, skin: Colour, clothes: Clothes, side: Side) -> Iterato
         Piece(mesh.vertices, normals, mesh.faces, sole if is_sole else colour, material)
         for mesh, normals, is_sole in _shoe(wear)
     ]
-    if wear in ("bare", "slippers"):
-        made += [Piece(*one, skin, "skin") for one in toes()] if wear == "bare" else []
+    if wear == "bare":
+        made += [Piece(*one, skin, "skin") for one in toes()]
     if wear == "slippers":
         made += [Piece(mesh.vertices, normals, mesh.faces, skin, "skin") for mesh, normals, _ in _shoe("bare")]
     for piece in made:

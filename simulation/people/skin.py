@@ -12,11 +12,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.appearance import Appearance, Outfit
 from coopera.simulation.bodies.humanoid import Frames
-from coopera.simulation.bodies.shaping.assembly import Parts, dressed
-from coopera.simulation.bodies.shaping.figure import rest_frames
-from coopera.simulation.bodies.shaping.weights import PARTS
+from coopera.simulation.people.appearance import Appearance, Outfit
+from coopera.simulation.people.assembly import Parts, dressed
+from coopera.simulation.people.smplx_model import modelled
+from coopera.simulation.people.weights import PARTS
 
 Floats = NDArray[np.float32]
 
@@ -48,8 +48,16 @@ class Skin:
 
 @lru_cache(maxsize=64)
 def skinned(appearance: Appearance, outfit: Outfit) -> Skin:
-    """The skin of a person in an outfit: made once in a process, in some tenths of a second."""
-    made: Parts = dressed(appearance, appearance.wears(outfit))
+    """The skin of a person in an outfit: made once in a process, in some tenths of a second.
+
+    Raises:
+        ConfigError: If the person has a body model, whose file cannot be used.
+    """
+    clothes = appearance.wears(outfit)
+    if appearance.model is None:
+        made: Parts = dressed(appearance, clothes)
+    else:
+        made = modelled(appearance, clothes, appearance.model)
     return Skin(
         vertices=made.vertices.astype(np.float32),
         normals=made.normals.astype(np.float32),
@@ -58,7 +66,7 @@ def skinned(appearance: Appearance, outfit: Outfit) -> Skin:
         parts=made.parts,
         weights=made.weights,
         faces=made.faces.astype(np.uint32),
-        rest=rest_frames(),
+        rest=made.rest,
     )
 
 

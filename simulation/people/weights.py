@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.simulation.bodies.humanoid import SHIN, SIDES, THIGH, UPPER_ARM
-from coopera.simulation.bodies.shaping.fields import Array
-from coopera.simulation.bodies.shaping.figure import Near
+from coopera.simulation.people.fields import Array
+from coopera.simulation.people.figure import Near
 
 PARTS: tuple[str, ...] = (
     "pelvis",
@@ -16,7 +16,7 @@ PARTS: tuple[str, ...] = (
     "head",
     *(f"{side}_{part}" for side in SIDES for part in ("shoulder", "elbow", "hand", "hip", "knee", "ankle")),
 )
-"""The parts that a vertex may follow, by the names of `humanoid.forward`'s frames; `Skin.parts` counts in this order."""
+"""The parts that a vertex may follow, named as in `humanoid.forward`'s frames; `Skin.parts` counts in this order."""
 
 
 def ramp(values: Array, low: float, high: float) -> Array:

@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import ANKLE
-from coopera.simulation.bodies.shaping.fields import Array, ball, join, loft
-from coopera.simulation.bodies.shaping.nets import Index
-from coopera.simulation.bodies.shaping.sweeps import finger, ordered
+from coopera.simulation.people.fields import Array, ball, join, loft
+from coopera.simulation.people.nets import Index
+from coopera.simulation.people.sweeps import finger, ordered
 
 Footwear = Literal["bare", "shoes", "trainers", "slippers"]
 
@@ -45,10 +45,9 @@ def fingers(size: float) -> Iterator[tuple[Array, Array, Index]]:
         path.append(point)
         for bend, share in zip(_CURL, _BONES, strict=True):
             along = np.array((-0.10 * x / 0.03 * 0.5, -math.sin(math.radians(bend)), -math.cos(math.radians(bend))))
-            for _ in range(2):
-                point = point + along * length * share / 2
-                path.append(point)
-        radii = thick * np.array((1.05, 1.0, 0.98, 0.94, 0.90, 0.86, 0.80))
+            point = point + along * length * share
+            path.append(point)
+        radii = thick * np.array((1.05, 0.98, 0.90, 0.80))
         yield ordered(finger(np.array(path) * size, radii * size))
     thumb = np.array(
         (

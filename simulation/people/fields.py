@@ -35,6 +35,12 @@ def join_all(fields: Sequence[Array], width: float) -> Array:
     return found
 
 
+def within(a: Array, b: Array) -> Array:
+    """What is in both fields, with a sharp edge."""
+    found: Array = np.maximum(a, b)
+    return found
+
+
 def carve(a: Array, b: Array, width: float) -> Array:
     """What is left of `a` outside `b`, with a rounded edge."""
     return -join(-a, b, width)
@@ -89,10 +95,7 @@ class Loft:
         ahead = points[:, 0] - middle
         deep = np.where(ahead > 0, front, back)
         x, y = np.abs(ahead) / deep, np.abs(points[:, 1]) / side
-        if self.power == 2.0:
-            across = x * x + y * y
-        else:
-            across = (x**self.power + y**self.power) ** (2 / self.power)
+        across = x * x + y * y if self.power == 2 else (x**self.power + y**self.power) ** (2 / self.power)
         below, above = np.maximum(low - points[:, 2], 0.0), np.maximum(points[:, 2] - high, 0.0)
         beyond, end = below + above, below / self.caps[0] + above / self.caps[1]
         across = np.sqrt(across + end * end)
@@ -103,7 +106,7 @@ class Loft:
 
 def loft(rows: Sequence[Sequence[float]], power: float = 2.0, caps: tuple[float, float] = (0.03, 0.03)) -> Loft:
     """A loft of rows as its knots are."""
-    return Loft(np.array(sorted(rows), dtype=float), power, caps)
+    return Loft(np.array(sorted(rows, key=lambda row: row[0]), dtype=float), power, caps)
 
 
 def slopes(field: Field, points: Array, step: float = 0.002) -> Array:

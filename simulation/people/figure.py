@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import ANKLE, SIDES, SIZE, SLICES, Frames, Side, forward
-from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, cone, join, join_all, loft
+from coopera.simulation.people.fields import Array, Loft, ball, cone, join, join_all, loft
 from coopera.simulation.shapes.rotations import about_x, about_y, quaternion
 
 _ARM_OUT, _ARM_AHEAD, _ELBOW = 32.0, 16.0, 32.0
@@ -96,11 +96,11 @@ _THIGH = (
     (-0.05, 0.0, 0.084, 0.086, 0.080),
     (-0.15, 0.002, 0.079, 0.077, 0.074),
     (-0.30, 0.002, 0.066, 0.063, 0.061),
-    (-0.42, 0.0, 0.055, 0.054, 0.053),
+    (-0.42, 0.0, 0.051, 0.054, 0.052),
 )
 _SHIN = (
-    (0.0, 0.0, 0.055, 0.052, 0.052),
-    (-0.06, -0.004, 0.050, 0.056, 0.052),
+    (0.0, 0.0, 0.050, 0.052, 0.051),
+    (-0.06, -0.004, 0.048, 0.056, 0.052),
     (-0.13, -0.008, 0.046, 0.060, 0.053),
     (-0.25, -0.006, 0.040, 0.046, 0.041),
     (-0.36, 0.0, 0.034, 0.036, 0.032),

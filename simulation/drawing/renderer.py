@@ -1,0 +1,373 @@
+"""Draws a scenery with OpenGL: colours, depth and numbers of what is seen, with one shadow from the sun.
+
+Nothing but the state decides a picture: the same scenery and camera give the same bytes on one machine.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+
+from coopera.simulation.drawing.context import on_context
+from coopera.simulation.drawing.lens import Camera, projection, reach_of, view_matrix
+from coopera.simulation.drawing.materials import SIDE, Material, pictures
+from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
+from coopera.simulation.drawing.sight import in_view
+from coopera.simulation.shapes.rotations import Array
+
+Image = NDArray[np.uint8]
+Numbers = NDArray[np.int32]
+_SHADERS = Path(__file__).parent / "shaders"
+_LAYOUT = ("3f 4i1 4f1 2f 2i", "at", "normal", "paint", "uv", "tag")
+_TEXEL = 0.011
+"""Metres that a texel of the shadow map covers, as far as `_MOST` allows."""
+_MOST = 2048
+_TILE = 2048
+"""Larger pictures are drawn in tiles of so many pixels a side."""
+_WINDOWS = 3
+_CONTACT = 0.05
+_SKY = (0.80, 0.86, 0.92)
+
+
+class Drawn(NamedTuple):
+    """A picture, the first row on top; what was not asked for is empty."""
+
+    colour: Image
+    """(height, width, 3)."""
+    tags: Numbers
+    """(height, width): see `scenery.BODY_BITS`; 0 where nothing is."""
+    depth: NDArray[np.float32]
+    """(height, width): metres along the viewing direction; infinite where nothing is."""
+
+
+class _Target(NamedTuple):
+    """What is drawn into, of one size."""
+
+    frame: Any
+    """With tags."""
+    plain: Any
+    """Colours alone."""
+    smooth: Any
+    """What `plain` is smoothed into."""
+    colour: Any
+    depth: Any
+    tags: Any
+    held: tuple[Any, ...]
+
+
+class _Store:
+    """A batch in the graphics card's memory."""
+
+    def __init__(self, kit: _Kit, batch: Batch) -> None:
+        context = kit.context
+        self.vertices = context.buffer(batch.vertices.tobytes())
+        self.faces = context.buffer(batch.faces.tobytes())
+        self.seen = context.vertex_array(kit.scene, [(self.vertices, *_LAYOUT)], self.faces)
+        self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 24x", "at")], self.faces)
+        self.set(batch.pieces)
+
+    def set(self, pieces: list[Piece]) -> None:
+        """Know which stretches there are."""
+        self.pieces = pieces
+        self.first = np.array([piece.first for piece in pieces], dtype=np.uint32)
+        self.count = np.array([piece.count for piece in pieces], dtype=np.uint32)
+        self.low = np.array([piece.low for piece in pieces], dtype=np.float64).reshape(-1, 3)
+        self.high = np.array([piece.high for piece in pieces], dtype=np.float64).reshape(-1, 3)
+        self.room = np.array([piece.room for piece in pieces], dtype=np.int64)
+        self.above = np.array([piece.above for piece in pieces], dtype=bool)
+        self.casts = np.array([piece.casts for piece in pieces], dtype=bool)
+
+    def draw(self, context: Any, array: Any, chosen: NDArray[np.int64]) -> None:
+        """Draw some stretches, in this order."""
+        if not len(chosen):
+            return
+        rows = np.zeros((len(chosen), 5), dtype=np.uint32)
+        rows[:, 0], rows[:, 1], rows[:, 2] = self.count[chosen], 1, self.first[chosen]
+        orders = context.buffer(rows.tobytes())
+        array.render_indirect(orders)
+        orders.release()
+
+    def release(self) -> None:
+        """Give the memory back."""
+        for one in (self.seen, self.cast, self.vertices, self.faces):
+            one.release()
+
+
+class _Kit:
+    """What all renderers of a context share: the programs and the pictures of the materials."""
+
+    def __init__(self, context: Any) -> None:
+        self.context = context
+        text = {path.name: path.read_text(encoding="utf-8") for path in sorted(_SHADERS.iterdir())}
+        self.scene = context.program(vertex_shader=text["scene.vert"], fragment_shader=text["scene.frag"])
+        self.shadow = context.program(vertex_shader=text["shadow.vert"], fragment_shader=text["shadow.frag"])
+        self.copy = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["copy.frag"])
+        self.copying = context.vertex_array(self.copy, [])
+        smooth = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["smooth.frag"])
+        self.smoothing = context.vertex_array(smooth, [])
+        self.looks = context.texture_array((SIDE, SIDE, len(Material)), 3, pictures().tobytes())
+        self.looks.build_mipmaps()
+        self.looks.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
+        for number, name in enumerate(("rooms", "shadows", "floors", "looks")):
+            if name in self.scene:
+                self.scene[name] = number
+        self.targets: dict[tuple[int, int], _Target] = {}
+
+    def target(self, size: tuple[int, int]) -> _Target:
+        """What to draw a picture of a size into; a few are kept."""
+        if size not in self.targets:
+            if len(self.targets) >= 6:
+                for one in self.targets.pop(next(iter(self.targets))).held:
+                    one.release()
+            colour = self.context.texture(size, 4)
+            colour.repeat_x = colour.repeat_y = False
+            smooth = self.context.framebuffer([self.context.renderbuffer(size, 4)])
+            tags = self.context.texture(size, 1, dtype="i4")
+            depth = self.context.depth_texture(size)
+            frame = self.context.framebuffer([colour, tags], depth)
+            plain = self.context.framebuffer([colour], depth)
+            self.targets[size] = _Target(
+                frame, plain, smooth, colour, depth, tags, (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth)
+            )
+        return self.targets[size]
+
+
+@lru_cache(maxsize=1)
+def _kit(context: Any) -> _Kit:
+    return _Kit(context)
+
+
+class Renderer:
+    """Draws one home; `close` it after use."""
+
+    def __init__(self, scenery: Scenery, *, shadow: bool = True) -> None:
+        """Bring the home to the graphics card.
+
+        Raises:
+            ConfigError: If there is no OpenGL here.
+        """
+        self.scenery, self.shadow = scenery, shadow
+        self._sun = np.array(scenery.sun)
+        on_context(self._start)
+
+    def _start(self, context: Any) -> None:
+        scene, kit = self.scenery.scene, _kit(context)
+        self._kit = kit
+        self._fixed = _Store(kit, self.scenery.fixed)
+        self._moving: _Store | None = None
+        rows = _room_rows(self.scenery)
+        self._rooms = context.texture((rows.shape[1], rows.shape[0]), 4, rows.tobytes(), dtype="f4")
+        self._rooms.filter = (context.NEAREST, context.NEAREST)
+        contact = _contact(self.scenery)
+        self._floors = context.texture(contact.shape[::-1], 1, contact.tobytes(), alignment=1)
+        self._floors.repeat_x = self._floors.repeat_y = False
+        b = scene.bounds
+        self._ground = (b.x0, b.y0, 1 / (b.x1 - b.x0), 1 / (b.y1 - b.y0))
+        self._sunlens, self._deep, size = _sun_lens(self.scenery)
+        self._still = context.framebuffer(depth_attachment=_shadow_texture(context, size))
+        self._all = context.framebuffer(depth_attachment=_shadow_texture(context, size))
+        if self.shadow:
+            self._cast_fixed(context)
+
+    def _cast_fixed(self, context: Any) -> None:
+        """Cast the shadows of all that stands fast."""
+        self._still.use()
+        context.enable_only(context.DEPTH_TEST)
+        self._still.clear(depth=1.0)
+        self._kit.shadow["lens"].write(_columns(self._sunlens))
+        self._fixed.draw(context, self._fixed.cast, np.flatnonzero(self._fixed.casts))
+
+    def close(self) -> None:
+        """Give the graphics card's memory back; a second time does nothing."""
+        if self._fixed.pieces:
+            on_context(self._release)
+
+    def _release(self, _: Any) -> None:
+        self._fixed.set([])
+        for store in (self._fixed, self._moving):
+            if store is not None:
+                store.release()
+        self._rooms.release()
+        self._floors.release()
+        for frame in (self._still, self._all):
+            frame.depth_attachment.release()
+            frame.release()
+
+    def draw(self, camera: Camera, size: tuple[int, int], *, colour: bool = True, more: bool = False) -> Drawn:
+        """Draw a picture; with `more`, its depth and its tags, too."""
+        return on_context(lambda context: self._draw(context, camera, size, colour, more))
+
+    def _draw(self, context: Any, camera: Camera, size: tuple[int, int], colour: bool, more: bool) -> Drawn:
+        self._update(context)
+        width, height = size
+        found = Drawn(
+            np.zeros((height, width, 3) if colour else (0, 0, 3), dtype=np.uint8),
+            np.zeros((height, width) if more else (0, 0), dtype=np.int32),
+            np.zeros((height, width) if more else (0, 0), dtype=np.float32),
+        )
+        for top in range(0, height, _TILE):
+            for left in range(0, width, _TILE):
+                tile = (left, top, min(_TILE, width - left), min(_TILE, height - top))
+                self._draw_tile(context, camera, size, tile, found)
+        return found
+
+    def _update(self, context: Any) -> None:
+        """Bring what has moved to the graphics card, and cast its shadow."""
+        stirred = self.scenery.stirred
+        if stirred == []:
+            return
+        batch = self.scenery.moving()
+        if self._moving is not None and self._moving.vertices.size == batch.vertices.nbytes:
+            self._moving.vertices.write(batch.vertices.tobytes())
+            self._moving.faces.write(batch.faces.tobytes())
+            self._moving.set(batch.pieces)
+        else:
+            if self._moving is not None:
+                self._moving.release()
+            self._moving = _Store(self._kit, batch) if len(batch.vertices) else None
+        if self.shadow:
+            self._cast_moving(context, stirred)
+
+    def _cast_moving(self, context: Any, stirred: list[tuple[Any, Any]] | None) -> None:
+        """Cast the shadows of what moves anew, where something has."""
+        low, high = np.zeros(2, dtype=int), np.array(self._all.size)
+        if stirred is not None:
+            boxes = self._on_map(np.array([box[0] for box in stirred]), np.array([box[1] for box in stirred]))
+            low, high = np.maximum(boxes[0].min(axis=0), 0), np.minimum(boxes[1].max(axis=0), high)
+        if (low >= high).any():
+            return
+        self._all.use()
+        self._all.scissor = (*low.tolist(), *(high - low).tolist())
+        context.enable_only(context.DEPTH_TEST)
+        context.depth_func = "1"
+        self._still.depth_attachment.use(0)
+        self._kit.copying.render(vertices=3)
+        context.depth_func = "<"
+        self._kit.shadow["lens"].write(_columns(self._sunlens))
+        if self._moving is not None and self._moving.pieces:
+            begin, end = self._on_map(self._moving.low, self._moving.high)
+            near = (begin < high).all(axis=1) & (end > low).all(axis=1)
+            self._moving.draw(context, self._moving.cast, np.flatnonzero(near & self._moving.casts))
+        self._all.scissor = None
+
+    def _on_map(self, low: Array, high: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """The texels of the shadow map, from and to, that boxes cover."""
+        sides = np.stack((low, high), axis=1)
+        corners = np.stack([sides[:, pick, (0, 1, 2)] for pick in product((0, 1), repeat=3)], axis=1)
+        flat = corners @ self._sunlens[:2, :3].T + self._sunlens[:2, 3]
+        texels = (flat * 0.5 + 0.5) * np.array(self._all.size)
+        begin, end = np.floor(texels.min(axis=1)) - 1, np.ceil(texels.max(axis=1)) + 1
+        return begin.astype(np.int64), end.astype(np.int64)
+
+    def _draw_tile(
+        self, context: Any, camera: Camera, size: tuple[int, int], tile: tuple[int, int, int, int], found: Drawn
+    ) -> None:
+        reach = reach_of(camera)
+        lens = projection(camera, size, tile, reach) @ view_matrix(camera)
+        target = self._kit.target(tile[2:])
+        frame = target.frame if found.tags.size else target.plain
+        frame.use()
+        frame.clear(*_SKY, 1.0, depth=1.0)
+        if found.tags.size:
+            target.tags.write(bytes(4 * tile[2] * tile[3]))
+        context.enable_only(context.DEPTH_TEST)
+        program = self._kit.scene
+        program["lens"].write(_columns(lens))
+        program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
+        program["sun"] = (*self._sun.tolist(), self._deep)
+        program["ground"] = self._ground
+        program["eye"] = camera.eye
+        program["shadowed"] = self.shadow
+        self._rooms.use(0)
+        (self._all if self.shadow else self._still).depth_attachment.use(1)
+        self._floors.use(2)
+        self._kit.looks.use(3)
+        for store in (self._fixed, self._moving):
+            if store is not None:
+                store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store))
+        left, top, width, height = tile
+        part = (slice(top, top + height), slice(left, left + width))
+        if found.colour.size:
+            target.smooth.use()
+            context.enable_only(context.NOTHING)
+            target.colour.use(0)
+            self._kit.smoothing.render(vertices=3)
+            raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
+            found.colour[part] = raw.reshape(height, width, 3)[::-1]
+        if found.tags.size:
+            tags = np.frombuffer(target.tags.read(alignment=1), dtype=np.int32).reshape(height, width)
+            found.tags[part] = tags[::-1]
+            depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
+            near, far = reach
+            metres = 2 * near * far / (far + near - (2.0 * depth.astype(np.float64) - 1.0) * (far - near))
+            found.depth[part] = np.where(depth >= 1.0, np.inf, metres)
+
+
+_TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0, 0, 1.0)))
+
+
+def bodies_of(tags: Numbers) -> NDArray[np.int64]:
+    """The body of each tag, -1 for none."""
+    return (tags & ((1 << BODY_BITS) - 1)).astype(np.int64) - 1
+
+
+def _columns(matrix: Array) -> bytes:
+    """A matrix as OpenGL reads it."""
+    return matrix.T.astype("f4").tobytes()
+
+
+def _shadow_texture(context: Any, size: tuple[int, int]) -> Any:
+    texture = context.depth_texture(size)
+    texture.compare_func = ""
+    texture.filter = (context.NEAREST, context.NEAREST)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def _room_rows(scenery: Scenery) -> NDArray[np.float32]:
+    """For each room a row of texels: its rectangle within its walls, and its windows as scene.frag reads them."""
+    rooms = scenery.scene.rooms
+    rows = np.zeros((len(rooms), 1 + 2 * _WINDOWS, 4), dtype=np.float32)
+    for number, room in enumerate(rooms):
+        rows[number, 0] = (room.x0 + 0.05, room.y0 + 0.05, room.x1 - 0.05, room.y1 - 0.05)
+        for i, one in enumerate(scenery.windows.get(room.name, [])[:_WINDOWS]):
+            rows[number, 1 + 2 * i] = (one.axis, one.at, one.start, one.end)
+            area = (one.end - one.start) * (one.high - one.low)
+            rows[number, 2 + 2 * i] = (one.low, one.high, one.inward, area)
+    return rows
+
+
+def _contact(scenery: Scenery) -> NDArray[np.uint8]:
+    """How much the furniture that stands on the floor keeps light from it: a picture of the home's rectangle."""
+    scene, b = scenery.scene, scenery.scene.bounds
+    shape = (math.ceil((b.y1 - b.y0) / _CONTACT), math.ceil((b.x1 - b.x0) / _CONTACT))
+    covered = np.zeros(shape, dtype=np.float32)
+    y, x = ((np.arange(count) + 0.5) * _CONTACT for count in shape)
+    for thing in scene.fixed:
+        if thing.position[2] < 0.3 and thing.size[2] > 0.06:
+            t = thing.bounds
+            inside = np.ix_((y + b.y0 > t.y0) & (y + b.y0 < t.y1), (x + b.x0 > t.x0) & (x + b.x0 < t.x1))
+            covered[inside] = 1.0
+    soft = 0.6 * gaussian_filter(covered, 1.6) + 0.4 * gaussian_filter(covered, 5.0)
+    return np.clip(np.round(soft * 255), 0, 255).astype(np.uint8)
+
+
+def _sun_lens(scenery: Scenery) -> tuple[Array, float, tuple[int, int]]:
+    """The sun's camera over the whole home: world to clip space, how deep it sees in metres, and its size in texels."""
+    b = scenery.scene.bounds
+    corners = np.array([(x, y, z) for x in (b.x0, b.x1) for y in (b.y0, b.y1) for z in (-0.1, 2.6)])
+    middle = corners.mean(axis=0)
+    view = view_matrix(Camera(tuple((middle + scenery.sun).tolist()), tuple(middle.tolist())))
+    seen = corners @ view[:3, :3].T + view[:3, 3]
+    low, high = seen.min(axis=0) - 0.2, seen.max(axis=0) + 0.2
+    scale = np.diag([*(2 / (high - low) * (1, 1, -1)), 1.0])
+    scale[:3, 3] = -(high + low) / (high - low) * (1, 1, -1)
+    size = tuple(min(_MOST, math.ceil(float(side) / _TEXEL / 64) * 64) for side in (high - low)[:2])
+    return scale @ view, float(high[2] - low[2]), (size[0], size[1])
