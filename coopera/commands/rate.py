@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coopera.commands.asking import HOST, PORT, PageHost, PagePort
-from coopera.commands.options import AsJson
+from coopera.commands.options import HOST, PORT, AsJson, PageHost, PagePort
 
 if TYPE_CHECKING:
     from coopera.web.common import Door

@@ -3,26 +3,32 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coopera.commands.asking import HOST, PORT, PageHost, PagePort, asked
 from coopera.commands.options import (
+    HOST,
+    PORT,
     AsJson,
     CallBudget,
     MoneyBudget,
+    PageHost,
+    PagePort,
     RunPath,
     TokenBudget,
     nested,
     takes_settings,
 )
-from coopera.core.errors import BudgetError
+from coopera.core.errors import BudgetError, CooperaError, StoppedError
 from coopera.core.naming import printable
 
 if TYPE_CHECKING:
+    from coopera.config.schema import Config
+    from coopera.graphs.players.real_person import Interview
     from coopera.studies.study import Event
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
@@ -85,6 +91,36 @@ def resume(
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
+@contextmanager
+def asked(config: Config, host: str, port: int) -> Iterator[Interview]:
+    """What puts a run's questions to the person; with `played_by: web` a page, whose address is told.
+
+    Raises:
+        ConfigError: If the page cannot have its address.
+    """
+    if config.played_by != "web":
+        from coopera.people.terminal import Terminal
+
+        yield Terminal()
+        return
+    from coopera.web.common import Door, served
+    from coopera.web.person.app import make_person_app
+    from coopera.web.person.person import WebPerson
+
+    person = WebPerson()
+    with served(lambda door: make_person_app(person, door), Door.opened(host, port)) as server:
+        typer.echo(f"The day is lived at {server.address}", err=True)
+        try:
+            yield person
+        except (KeyboardInterrupt, StoppedError):
+            person.end("The run was stopped; it goes on with the same page when it is resumed.")
+            raise
+        except CooperaError as err:
+            person.end(f"The run has stopped: {err}")
+            raise
+        person.end("The study is over.")
+
+
 def _recorded(models: Mapping[str, str]) -> Path | None:
     """The study file of the run whose record is to answer, so that it need not be described again."""
     from coopera.config.schema import Models
@@ -127,7 +163,7 @@ def _carry_out(
     done: Collection[tuple[int, int]] = (),
 ) -> None:
     """Do the work with progress on standard error, then show what came of it."""
-    from coopera.core.errors import StoppedError, WaitingError
+    from coopera.core.errors import WaitingError
     from coopera.report.console import PlainConsole
     from coopera.report.progress import Progress, days_table
 

@@ -369,7 +369,7 @@ def test_before_the_run_has_begun_and_after_it_has_ended_the_page_says_so() -> N
     assert page.say("step", text="x").status_code == 409
     person.end("The study is over.", patience=0.0)
     assert "The study is over." in page.look()["html"]
-    assert '/static/person.' in client.get("/").text
+    assert "/static/person." in client.get("/").text
 
 
 def test_a_chair_is_free_again_once_its_page_is_gone() -> None:
