@@ -22,6 +22,10 @@ PageHost = Annotated[
     typer.Option("--host", metavar="ADDRESS", help="Where pages listen; on another than 127.0.0.1 they need a token."),
 ]
 PagePort = Annotated[int, typer.Option("--port", metavar="N", help="The pages' port; 0 takes any that is free.")]
+PageName = Annotated[
+    str | None,
+    typer.Option("--name", metavar="NAME", help="Name of a proxy with TLS before the pages; they then need a token."),
+]
 HOST, PORT = "127.0.0.1", 8765
 
 

@@ -17,6 +17,7 @@ from coopera.commands.options import (
     CallBudget,
     MoneyBudget,
     PageHost,
+    PageName,
     PagePort,
     RunPath,
     TokenBudget,
@@ -44,6 +45,7 @@ def run(
     ] = False,
     host: PageHost = HOST,
     port: PagePort = PORT,
+    name: PageName = None,
     as_json: AsJson = False,
 ) -> None:
     """Let people live their days while a robot learns to help them."""
@@ -59,7 +61,7 @@ def run(
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.studies.study import run_study
 
-        with asked(config, host, port) as ask_person:
+        with asked(config, host, port, name) as ask_person:
             return run_study(config, on_event=on_event, ask_person=ask_person)
 
     _carry_out(work, config.out, config, as_json=as_json)
@@ -72,6 +74,7 @@ def resume(
     budget_money: MoneyBudget = None,
     host: PageHost = HOST,
     port: PagePort = PORT,
+    name: PageName = None,
     as_json: AsJson = False,
 ) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
@@ -85,14 +88,14 @@ def resume(
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
         from coopera.studies.study import resume_study
 
-        with asked(found.config, host, port) as ask_person:
+        with asked(found.config, host, port, name) as ask_person:
             return resume_study(run, on_event=on_event, budget=raised, ask_person=ask_person)
 
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
 @contextmanager
-def asked(config: Config, host: str, port: int) -> Iterator[Interview]:
+def asked(config: Config, host: str, port: int, name: str | None) -> Iterator[Interview]:
     """What puts a run's questions to the person; with `played_by: web` a page, whose address is told.
 
     Raises:
@@ -108,7 +111,7 @@ def asked(config: Config, host: str, port: int) -> Iterator[Interview]:
     from coopera.web.person.person import WebPerson
 
     person = WebPerson()
-    with served(lambda door: make_person_app(person, door), Door.opened(host, port)) as server:
+    with served(lambda door: make_person_app(person, door), Door.opened(host, port, (name,) if name else ())) as server:
         typer.echo(f"The day is lived at {server.address}", err=True)
         try:
             yield person
