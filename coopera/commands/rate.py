@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coopera.commands.asking import HOST, PORT, PageHost, PagePort
-from coopera.commands.options import AsJson
+from coopera.commands.options import HOST, PORT, AsJson, PageHost, PageName, PagePort
 
 if TYPE_CHECKING:
     from coopera.web.common import Door
@@ -46,7 +45,7 @@ def begin(
 
 
 @app.command("open")
-def open_rating(folder: Folder, host: PageHost = HOST, port: PagePort = PORT) -> None:
+def open_rating(folder: Folder, host: PageHost = HOST, port: PagePort = PORT, name: PageName = None) -> None:
     """Show a rating until Ctrl-C: each rater has an address, at which they may stop and go on."""
     from coopera.web.common import Door, serve
     from coopera.web.rating.app import make_rating_app
@@ -59,7 +58,7 @@ def open_rating(folder: Folder, host: PageHost = HOST, port: PagePort = PORT) ->
         doors.append(door)
         return make_rating_app(rating, door)
 
-    serve(make, Door.opened(host, port), lambda _: _say_addresses(rating, doors[-1]))
+    serve(make, Door.opened(host, port, (name,) if name else ()), lambda _: _say_addresses(rating, doors[-1]))
     typer.echo(f"Stopped; nothing is lost. Go on with: coopera rate open {folder}", err=True)
 
 

@@ -56,9 +56,9 @@ def make_person_app(person: WebPerson, door: Door) -> Starlette:
         page = str(said.get("page", ""))
         try:
             await run_in_threadpool(_act, person, request.path_params["what"], page, said)
-        except Refused as err:
-            shown = await run_in_threadpool(_shown, person, page, "") if err.status == 409 else {}
-            return JSONResponse({"problem": str(err), **shown}, err.status)
+        except Refused as err:  # an answer like others: the page shows the sentence, and how it stands if that changed
+            shown = await run_in_threadpool(_shown, person, page, "") if err.overtaken else {}
+            return JSONResponse({"problem": str(err), **shown})
         return JSONResponse(await run_in_threadpool(_shown, person, page, ""))
 
     async def frame(request: Request) -> Response:
@@ -88,7 +88,7 @@ def _act(person: WebPerson, what: str, page: str, said: dict[str, Any]) -> None:
         revision = said.get("revision")
         person.say(page, str(said.get("question", "")), revision if isinstance(revision, int) else -1, said)
     else:
-        raise Refused("There is nothing of that name to do.", 404)
+        raise HTTPException(404, "There is nothing of that name to do.")
 
 
 def _shown(person: WebPerson, page: str, seen: str) -> dict[str, Any]:

@@ -21,12 +21,12 @@ _LOOK = 0.5  # seconds between two looks whether the run was asked to stop
 
 
 class Refused(CooperaError):  # noqa: N818 - it is told to a page, beside the line
-    """What a page wants cannot be done now; `status` is that of HTTP."""
+    """What a page wants cannot be done; `overtaken` if that is since something else happened meanwhile."""
 
-    def __init__(self, sentence: str, status: int = 422) -> None:
+    def __init__(self, sentence: str, *, overtaken: bool = False) -> None:
         """Say why."""
         super().__init__(sentence)
-        self.status = status
+        self.overtaken = overtaken
 
 
 class Now(NamedTuple):
@@ -136,7 +136,7 @@ class WebPerson:
         """
         with self._turn:
             if not self._chair.sit(page, take=take):
-                raise Refused("This day is open on another page.", 409)
+                raise Refused("This day is open on another page.", overtaken=True)
 
     def leave(self, page: str) -> None:
         """Have a page get up; what was said stays."""
@@ -153,7 +153,7 @@ class WebPerson:
             self._must_sit(page)
             sitting, answers = self._there()
             if not self._waits_for_consent:
-                raise Refused("This was answered before.", 409)
+                raise Refused("This was answered before.", overtaken=True)
             id = sitting.config.real_person.participant or " ".join(participant.split())[:60]
             if not id:
                 raise Refused("Please fill in your participant number.")
@@ -181,10 +181,10 @@ class WebPerson:
             _, answers = self._there()
             asked = self._question
             if asked is None or self._answer is not None or key(asked) != question:
-                raise Refused("The day has gone on; here is what is asked now.", 409)
+                raise Refused("The day has gone on; here is what is asked now.", overtaken=True)
             draft = answers.draft(asked)
             if draft.revision != revision:
-                raise Refused("This was changed on another page; here is how it stands.", 409)
+                raise Refused("This was changed on another page; here is how it stands.", overtaken=True)
             try:
                 self._taken(asked, draft, answers, str(said.get("do", "")), said)
             except (ValueError, TypeError) as err:
@@ -228,11 +228,11 @@ class WebPerson:
 
     def _must_sit(self, page: str) -> None:
         if self._chair.seat(page) != "yours" and not self._chair.sit(page):
-            raise Refused("This day is open on another page; take over there first.", 409)
+            raise Refused("This day is open on another page; take over there first.", overtaken=True)
 
     def _there(self) -> tuple[Sitting, Answers]:
         if self._sitting is None or self._answers is None:
-            raise Refused("The home is still being opened.", 409)
+            raise Refused("The home is still being opened.", overtaken=True)
         return self._sitting, self._answers
 
     def _status(self) -> Status:

@@ -72,13 +72,12 @@
           connected(true);
           busy = false;
           show(answer);
-          return true;
+          return !answer.problem;
         } catch (err) {
           if (err.status) {
             connected(true);
             busy = false;
-            if (err.answer.html !== undefined) show(err.answer);
-            else tell(err.message);
+            tell(err.message);
             return false;
           }
           connected(false);
