@@ -127,6 +127,7 @@ def hour_page(desk: Desk, left: Shelved, right: Shelved, day: int, hour: int) ->
     at = order.index((day, hour))
     return {
         "entries": (left, right),
+        "there": [one is not None for one in found],
         "day": day,
         "hour": hour,
         "line": found[0] or found[1],
