@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ from coopera.report.progress import figure
 from coopera.report.tree import reasons
 from coopera.rundir import seals
 from coopera.rundir.directory import RunDir
+from coopera.rundir.helping import help_frames
 from coopera.rundir.summary import day_entry, headline, needed, pooled
 from coopera.rundir.trace_files import intention_verdicts
 
@@ -106,7 +108,11 @@ def write_report(run: RunDir) -> Path:
 
 def gather_pictures(run: RunDir, budget: int) -> Album:
     """The run's sampled frames, in at most `budget` characters."""
-    frames = {(one.day, one.hour): one.robot.observation.frames for one in run.hours() if one.robot}
+    frames = {
+        (one.day, one.hour): [*one.robot.observation.frames, *chain(*help_frames(run.root, one.day, one.hour).values())]
+        for one in run.hours()
+        if one.robot
+    }
     return embed(run.root, frames, budget)
 
 

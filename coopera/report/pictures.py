@@ -35,7 +35,7 @@ def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: i
 
     Args:
         root: The run directory, to which the frames' paths are relative.
-        frames: Paths by (day, hour), in order of time; the file name's first part is the view ("robot-3.webp").
+        frames: Paths by (day, hour), in order of time; the file name but its number is the view ("robot-3.webp").
         budget: Most characters that all data URIs together may take.
     """
     hours = {key: _by_view(root, paths) for key, paths in frames.items()}
@@ -64,7 +64,7 @@ def _by_view(root: Path, paths: Sequence[str]) -> dict[str, list[Path]]:
     for path in paths:
         pure = PurePosixPath(path)
         if pure.suffix in _TYPES and _is_of_the_run(root / pure, root):
-            views[pure.stem.partition("-")[0]].append(root / pure)
+            views[pure.stem.rpartition("-")[0]].append(root / pure)
     return dict(views)
 
 
