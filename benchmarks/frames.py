@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from benchmarks.perception import acts
@@ -26,7 +27,9 @@ from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.shapes.rotations import Array, about_z, wrapped
 from coopera.simulation.sight.engine import pybullet
 from coopera.simulation.sight.recording import Moment
+from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.sight.stage import Image as Picture
 from coopera.simulation.sight.watching import Watcher
 
 SIZE = (160, 120)
@@ -44,7 +47,7 @@ class Seen(NamedTuple):
     person: float
     robot: float
     angle: float
-    image: Array
+    image: Picture
 
 
 def looked_at(stage: Stage, moment: Moment, camera: Camera) -> Seen:
@@ -78,7 +81,7 @@ def looked_at(stage: Stage, moment: Moment, camera: Camera) -> Seen:
     )
 
 
-def _at_depth(camera: Camera, place: Array, depth: Array, ours: Array) -> bool:
+def _at_depth(camera: Camera, place: Array, depth: Array, ours: NDArray[np.bool_]) -> bool:
     """Whether a third of the pixels where a hand must be are the person's or the thing's, and no nearer than a hand."""
     width, height = SIZE
     ahead = np.array(camera.target) - np.array(camera.eye)
@@ -101,7 +104,8 @@ def _at_depth(camera: Camera, place: Array, depth: Array, ours: Array) -> bool:
 
 def every_motion(world: World) -> list[FreeMotion | PickPlace]:
     """One act of each motion that the home has the furniture for, and some pick-and-place."""
-    found, known = [], set()
+    found: list[FreeMotion | PickPlace] = []
+    known = set()
     for act in acts(world, 600, rng_at(0, "frames", world.scene)):
         if isinstance(act, PickPlace):
             if len(found) % 6 == 5:
@@ -120,15 +124,15 @@ class Counted:
         rays, picture = Stage.rays, Stage.picture
         counted = self
 
-        def count_rays(stage: Stage, starts: Array, ends: Array) -> Array:
+        def count_rays(stage: Stage, starts: Array, ends: Array) -> NDArray[np.int64]:
             counted.rays += len(starts)
             return rays(stage, starts, ends)
 
-        def count_pictures(stage: Stage, camera: Camera, size: tuple[int, int]) -> tuple[Array, Array]:
+        def count_pictures(stage: Stage, camera: Camera, size: tuple[int, int]) -> tuple[Picture, NDArray[np.int64]]:
             counted.small += size[0] <= SIZE[0] // 2
             return picture(stage, camera, size)
 
-        Stage.rays, Stage.picture = count_rays, count_pictures  # type: ignore[method-assign]
+        Stage.rays, Stage.picture = count_rays, count_pictures  # type: ignore[method-assign, assignment]
 
 
 def frames_of(watcher: Watcher, world: World, count: int, evenly: bool) -> Iterator[tuple[Seen, Seen]]:
@@ -137,8 +141,6 @@ def frames_of(watcher: Watcher, world: World, count: int, evenly: bool) -> Itera
     assert recording is not None
     ticks = np.linspace(0, recording.ticks - 1, count).round().astype(int).tolist()
     if not evenly:
-        from coopera.simulation.sight.sampling import telling_ticks
-
         ticks = telling_ticks(recording, world._ground.robots, count)
     views: dict[int, Camera] = {}
     for tick in ticks:
@@ -182,10 +184,8 @@ def main() -> None:
                     names.append(act.describe())
             for view in VIEWS:
                 print(f"{robot:12} {scene:6} {view:12} {figures(seen[view])}")
-            acts_done = max(len(names), 1)
-            print(
-                f"{robot:12} {scene:6} {counted.rays / acts_done:.0f} rays, {counted.small / acts_done:.2f} small pictures an act"
-            )
+            rays, small = counted.rays / max(len(names), 1), counted.small / max(len(names), 1)
+            print(f"{robot:12} {scene:6} {rays:.0f} rays, {small:.2f} small pictures an act")
             if options.sheet:
                 options.sheet.mkdir(parents=True, exist_ok=True)
                 sheet(seen, names, options.sheet / f"{robot}-{scene}.webp")
@@ -200,7 +200,7 @@ def figures(recordings: list[list[Seen]]) -> str:
     values = (
         np.mean([all(frame.hands) for frame in frames]),
         np.mean([any(frame.hands) for frame in frames]),
-        np.mean(things or [0.0]),
+        np.mean(things or [False]),
         np.mean([frame.person for frame in frames]),
         np.mean([frame.robot for frame in frames]),
         np.mean([frame.angle > 120 for frame in frames]),

@@ -7,6 +7,7 @@ nothing else. A robot of one's own has a graph of two nodes over the same view: 
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeVar
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 def help_frames(root: Path, day: int, hour: int) -> dict[int, list[str]]:
-    """The pictures of the robot's acts in an hour: {number of the act among its outcomes: paths in the run, in order}."""
+    """The pictures of the robot's acts in an hour: {number of the act among its outcomes: paths in the run}."""
     found: dict[int, list[tuple[int, str]]] = {}
     for path in (root / "frames" / f"day-{day:02d}" / f"hour-{hour:02d}").glob("help-*-*.webp"):
         act, _, moment = path.stem.removeprefix("help-").partition("-")

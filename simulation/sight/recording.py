@@ -75,8 +75,8 @@ class Shot:
 class Recording:
     """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
 
-    `actor` is who acts, `robot` who sees it, `person` who is looked at. `states` is {object: its states in words} of what could be seen
-    after the act not to be as at first.
+    `actor` is who acts, `robot` who sees it, `person` who is looked at. `states` is {object: its states in words} of
+    what could be seen after the act not to be as at first.
     """
 
     state: HomeState

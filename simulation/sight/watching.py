@@ -118,7 +118,7 @@ class Watcher:
     def _moments(
         self, recording: Recording, ticks: Iterable[int], views: Sequence[View]
     ) -> Iterator[tuple[Moment, dict[View, Camera]]]:
-        """Each moment, while it is shown, and where it is looked at from: the third person keeps its place in a shot."""
+        """Each moment, while it is shown, and its cameras: the third person keeps its place during a shot."""
         across: dict[int, Camera] = {}
         for tick in ticks:
             index, within = recording.find(tick)
