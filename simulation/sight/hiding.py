@@ -21,7 +21,7 @@ _SEEN = {"head": 2.0, "chest": 1.5, "pelvis": 1.0, "right_knee": 0.5, "left_knee
 _HAND = 3.0
 _TORSO, _HEAD = 0.14, 0.11  # radii (metres)
 _TOUCH = 0.02
-"""A ball or a part ends so far from a point that it holds: a hand in the lap is hidden by neither."""
+"""A ball ends so far from a point that it holds: a hand in the lap is seen from the front."""
 _NEAR = 0.1
 """Parts within this distance of a point hide nothing of it: it lies on them."""
 _OPAQUE = 0.99
@@ -73,7 +73,7 @@ def _in_world(placed: Placed, points: Array) -> Array:
 
 
 def behind_balls(starts: Array, ends: Array, balls: Array, radii: Array) -> Hidden:
-    """Which lines, shapes (n, 3), pass through a ball before they end; a ball that holds the end does not hide it."""
+    """Which lines, shapes (n, 3), pass through a ball before they end; one that holds the end hides it from beyond."""
     line = ends - starts
     to_ball = balls[None] - starts[:, None]
     length = np.maximum((line * line).sum(axis=1), 1e-9)[:, None]
