@@ -1,7 +1,8 @@
 """What the frames of an hour show: `python -m benchmarks.frames [--robots fetch,husky_panda] [--scenes maple,oak]`.
 
 Every motion that the offline people's common sense knows is done once in each home, at furniture that fits, and a
-pick-and-place after every fifth. Of each act the frames are taken as a run takes them. A hand counts as seen if the
+pick-and-place after every fifth. Of each act the frames are taken as a run takes them. What is seen is counted in those
+of the act itself (not of the ways to it), how far frames differ in all. A hand counts as seen if the
 picture's depth at its place is that of the hand, and what is there is the person or the thing in hand; the thing in
 hand if it fills twelve pixels of 160x120. `--evenly` takes the frames at equal times in place of distinct ones.
 """
@@ -48,6 +49,7 @@ class Seen(NamedTuple):
     robot: float
     angle: float
     image: Picture
+    doing: bool = True
 
 
 def looked_at(stage: Stage, moment: Moment, camera: Camera) -> Seen:
@@ -136,7 +138,7 @@ class Counted:
 
 
 def frames_of(watcher: Watcher, world: World, count: int, evenly: bool) -> Iterator[tuple[Seen, Seen]]:
-    """The frames of the recording, from both views."""
+    """The frames of the recording, from both views; the deed is in the middle of the act, after the way to it."""
     recording = world._recording
     assert recording is not None
     ticks = np.linspace(0, recording.ticks - 1, count).round().astype(int).tolist()
@@ -150,8 +152,10 @@ def frames_of(watcher: Watcher, world: World, count: int, evenly: bool) -> Itera
             views[index] = watcher._view(recording, shot)
         moment = shot.at(within)
         watcher.drawn.show(recording.state, moment)
+        doing = index == len(recording.shots) - 1 and within >= 2 * shot.deed - shot.ticks
         robot, third = (
-            looked_at(watcher.drawn, moment, camera) for camera in (watcher._eyes(recording, moment), views[index])
+            looked_at(watcher.drawn, moment, camera)._replace(doing=doing)
+            for camera in (watcher._eyes(recording, moment), views[index])
         )
         yield robot, third
 
@@ -192,8 +196,8 @@ def main() -> None:
 
 
 def figures(recordings: list[list[Seen]]) -> str:
-    """Shares over all frames; `alike`: of pairs of following frames that differ by less than 2 of 255 a pixel."""
-    frames = [frame for one in recordings for frame in one]
+    """Shares over the frames of the acts; `alike`: of pairs of following frames that differ by less than 2 of 255 a pixel."""
+    frames = [frame for one in recordings for frame in one if frame.doing]
     things = [frame.thing for frame in frames if frame.thing is not None]
     pairs = [pair for one in recordings for pair in zip(one, one[1:], strict=False)]
     differ = np.array([np.abs(a.image.astype(int) - b.image).mean() for a, b in pairs] or [0.0])
