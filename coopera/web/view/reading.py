@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, TypeVar
 
 from coopera.core.errors import CooperaError
 from coopera.core.hour import Evening, HourRecord
-from coopera.report.pictures import TYPES, is_of_the_run, pictures_of
+from coopera.report.pictures import TYPES, is_of_the_run, pictures_of, view_of
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
 from coopera.web.view.lines import trace_files
@@ -78,11 +78,11 @@ def picture_views(
     views: dict[str, list[str]] = {}
     missing = []
     for name in pictures_of(root, record):
-        path = Path(name)
+        path = PurePosixPath(name)
         if path.suffix not in TYPES or not is_of_the_run(root / path, root):
             missing.append(path.name)
             continue
-        views.setdefault(path.stem.partition("-")[0], []).append(link(name))
+        views.setdefault(view_of(path), []).append(link(name))
     if not missing:
         return views, []
     some = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")

@@ -241,12 +241,14 @@ def test_a_missing_frame_is_told_and_the_others_are_shown(one: Path) -> None:
     assert "frames/day-00/hour-10/human-0.webp" in text
 
 
-def test_pictures_of_the_robots_help_are_shown_where_there_are_any(one: Path) -> None:
-    frames = one / "frames" / "day-00" / "hour-10"
-    shutil.copy(frames / "robot-0.webp", frames / "help-0.webp")
-    text = shown(one.parent, "run/one/day-00/hour-10.html")
-    assert "frames/day-00/hour-10/help-0.webp" in text
-    assert "the robot’s help" in text
+def test_pictures_of_the_robots_help_stand_beside_its_acts(one: Path) -> None:
+    hour = next(record for record in RunDir.open(one).hours() if record.robot and len(record.robot.outcomes) > 1)
+    frames = one / "frames" / "day-00" / f"hour-{hour.hour:02d}"
+    shutil.copy(frames / "robot-0.webp", frames / "help-1-0.webp")
+    text = shown(one.parent, f"run/one/day-00/hour-{hour.hour:02d}.html")
+    assert hour.robot is not None
+    act = hour.robot.outcomes[1].act.describe()
+    assert re.search(rf"<b>{act}</b>(?:(?!<b>).)*help-1-0.webp", text, re.DOTALL)
 
 
 @pytest.mark.parametrize(
