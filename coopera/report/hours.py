@@ -1,4 +1,4 @@
-"""An hour as pages show it: its record joined with the evening's answers, with what was done, and with what was missed."""
+"""An hour as pages show it: its record joined with the evening's answers, what was done, and what was missed."""
 
 from __future__ import annotations
 

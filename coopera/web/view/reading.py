@@ -42,9 +42,9 @@ def read_all(run: RunDir) -> Readable:
             found.hours.append(hour)
     for day in dict.fromkeys(days):
         path = run.evening_file(day)
-        if path.is_file() and not path.is_symlink():
-            if (evening := try_read(path, Evening, run.root, found.problems)) is not None:
-                found.evenings.append(evening)
+        there = path.is_file() and not path.is_symlink()
+        if there and (evening := try_read(path, Evening, run.root, found.problems)) is not None:
+            found.evenings.append(evening)
     return found
 
 
@@ -71,9 +71,7 @@ def poses_of(path: Path) -> Mapping[str, Any] | None:
     return found if isinstance(found, dict) else None
 
 
-def picture_views(
-    root: Path, record: HourRecord, link: Callable[[str], str]
-) -> tuple[dict[str, list[str]], list[str]]:
+def picture_views(root: Path, record: HourRecord, link: Callable[[str], str]) -> tuple[dict[str, list[str]], list[str]]:
     """The addresses of an hour's pictures by view, and a sentence where files of pictures are missing."""
     views: dict[str, list[str]] = {}
     missing = []
