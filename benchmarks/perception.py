@@ -29,6 +29,7 @@ def acts(world: World, count: int, rng: np.random.Generator) -> list[FreeMotion 
     for name in world.objects("fixed"):
         fixed.setdefault(world.class_of(name), []).append(name)
     movable = {world.class_of(name): name for name in world.objects("movable")}
+    ids = {name: number for kind in ("fixed", "movable") for name, (number, _) in world.objects(kind).items()}
     free: dict[tuple[str, str], str] = {}
     placed: list[tuple[str, str]] = []
     for activity in shipped().activities:
@@ -43,12 +44,12 @@ def acts(world: World, count: int, rng: np.random.Generator) -> list[FreeMotion 
     for i in range(count):
         if i % 5 == 4:
             thing, there = placed[int(rng.integers(len(placed)))]
-            found.append(PickPlace(object_id=0, object=thing, receptacle_id=0, receptacle=there))
+            found.append(PickPlace(object_id=ids[thing], object=thing, receptacle_id=ids[there], receptacle=there))
         else:
             motion = motions[int(rng.integers(len(motions)))]
             choices = [pair for pair in pairs if pair[0] == motion]
             _, target = choices[int(rng.integers(len(choices)))]
-            found.append(FreeMotion(target_id=0, target=target, in_hand=free[motion, target], motion=motion))
+            found.append(FreeMotion(target_id=ids[target], target=target, in_hand=free[motion, target], motion=motion))
     return found
 
 

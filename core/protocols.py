@@ -100,8 +100,8 @@ class Home(Protocol):
     def perform(self, agent: AgentId, act: Act, *, record: bool = False, watcher: AgentId | None = None) -> Outcome:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
-        With `record`, the motion is kept for `percept` and `frames` (the newest recording counts), as the robot
-        `watcher` sees it (None: the only one).
+        With `record`, the motion is kept for `percept` and `frames` (the newest recording counts), a person's as the
+        robot `watcher` sees it (None: the only one).
         Something impossible is a failed `Outcome` with its reason, and the world stays consistent.
         """
         ...
@@ -136,10 +136,11 @@ class Home(Protocol):
         """What a perception module reports of the recording, with its errors drawn from `rng`."""
         ...
 
-    def frames(self, count: int, folder: Path) -> list[Path]:
-        """Render `count` uniformly sampled moments of the recording from two views into `folder`.
+    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+        """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
-        Files are robot-0.webp … and human-0.webp …; robot views first in the returned list.
+        Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
+        a `name` only the latter, as NAME-0.webp ….
         """
         ...
 

@@ -218,15 +218,28 @@ def robot_view(
 def _helped(services: Services, plan: DayPlan, view: RobotView, truth: Intention) -> RobotHour:
     """Run the graph of the method's robot; the truth reaches the method that declares it, and no other."""
     home, method, who = services.home(plan.scene), services.method, services.robot_agent
+    film = _filming(services, home, view)
     if services.own:
-        ours = OwnRobotContext(view, home, method, services.own.robot, agent=who)
+        ours = OwnRobotContext(view, home, method, services.own.robot, agent=who, film=film)
         done = _own_robot().invoke(RobotInput(), context=ours)
     elif method.intentions == "given":
         told = OracleInput(true_intention=truth.text)
-        done = _oracle().invoke(told, context=RobotContext(view, home, method, services.learner, agent=who))
+        done = _oracle().invoke(told, context=RobotContext(view, home, method, services.learner, agent=who, film=film))
     else:
-        done = _robot().invoke(RobotInput(), context=RobotContext(view, home, method, services.learner, agent=who))
+        context = RobotContext(view, home, method, services.learner, agent=who, film=film)
+        done = _robot().invoke(RobotInput(), context=context)
     return robot_hour(cast(RobotState, done), view.observation)
+
+
+def _filming(services: Services, home: Home, view: RobotView) -> Callable[[int], None] | None:
+    """What keeps pictures of the robot's acts beside those of the first task; the robot is never shown them."""
+    if not view.pictures or not services.help_frames:
+        return None
+
+    def film(number: int) -> None:
+        home.frames(services.help_frames, view.pictures[0].parent, f"help-{number}")
+
+    return film
 
 
 def _with_whom(state: HourState, services: Services) -> PersonId | None:

@@ -7,6 +7,7 @@ nothing else. A robot of one's own has a graph of two nodes over the same view: 
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeVar
 
@@ -63,6 +64,8 @@ class Helping(GivenByCode):
     method: Method
     agent: AgentId = field(default=ROBOT, kw_only=True)
     """Whose body in the home the robot has."""
+    film: Callable[[int], None] | None = field(default=None, kw_only=True)
+    """Keeps pictures of the act that was recorded last, by its number in the hour; None: no act is recorded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -342,8 +345,12 @@ def classify_tasks(state: RobotState, runtime: Runtime[RobotContext]) -> dict[st
 
 def act(state: RobotState, runtime: Runtime[Context]) -> dict[str, Any]:
     """Do the accepted tasks in the home, most probable first. Reads `tasks`; writes `outcomes`."""
-    accepted = sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0))
-    return {"outcomes": [runtime.context.home.perform(runtime.context.agent, task.act) for task in accepted]}
+    ctx, outcomes = runtime.context, list[Outcome]()
+    for task in sorted((t for t in state["tasks"] if t.accepted), key=lambda t: -(t.probability or 0.0)):
+        outcomes.append(ctx.home.perform(ctx.agent, task.act, record=ctx.film is not None))
+        if ctx.film is not None and outcomes[-1].ok:
+            ctx.film(len(outcomes) - 1)
+    return {"outcomes": outcomes}
 
 
 def _recall(ctx: RobotContext, saw: str = "") -> dict[str, Any]:

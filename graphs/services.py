@@ -117,6 +117,8 @@ class Services(GivenByCode):
     """Who plays the people."""
     life: Life
     """How their hours come about."""
+    help_frames: int = 0
+    """Pictures of each of the robot's acts, where any are taken."""
     video: bool = False
     """Whether the first task of each hour is filmed, too."""
     person: PersonModel = FULL

@@ -33,7 +33,7 @@ from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, write_video
-from coopera.simulation.sight.watching import Onlooker, Watcher
+from coopera.simulation.sight.watching import Onlooker, View, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
@@ -58,6 +58,7 @@ class World:
         agents: Sequence[Agent] | None = None,
         robot: str = "fetch",
         frame_size: tuple[int, int] = (320, 240),
+        labels: bool = False,
         renderer: Renderer = "auto",
         motions: Library | None = None,
         match: Rank | None = None,
@@ -71,8 +72,9 @@ class World:
                 "robot".
             robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
-            renderer: What draws the pictures: "auto" is "gl" where that is to be had, else "tiny". The first world of a process
-                that draws with "egl" decides for all that draw with "tiny".
+            labels: Whether names are written into the pictures: of the thing in hand, the people, the furniture there.
+            renderer: What draws the pictures: "auto" is "gl" where that is to be had, else "tiny". The first world of
+                a process that draws with "egl" decides for all that draw with "tiny".
             motions: What the person's body can do; the shipped library without it.
             match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
                 words are compared.
@@ -85,7 +87,7 @@ class World:
         agents = [PersonAgent(), RobotAgent(body=robot)] if agents is None else agents
         check_agents(agents)
         self.scene = scene.id
-        self.frame_size = frame_size
+        self.frame_size, self.labels = frame_size, labels
         self.renderer = renderer
         self.errors = errors or PerceptErrors()
         self.layout = scene
@@ -170,11 +172,12 @@ class World:
     ) -> Outcome:
         """Do an act with all that it needs (walk, reach, pick, place, move, hand over).
 
-        With `record`, a robot first drives to where it sees the person, and the act is kept for `percept` and
-        `frames`. That robot is `watcher`; by default it is the one that acts, or the only one. A robot's own act shows
-        the receiver of what it hands over, or else the first person of the home. Something impossible is a failed
-        outcome with its reason, and the home stays as it was (but for the robot's drive if it is recorded, and for who
-        had to let it pass: then the recording shows the person as they are). `keep` keeps it, and nobody drives for it.
+        With `record`, the act is kept for `percept` and `frames`; of a person's act a robot sees it, and first drives
+        to where it does. That robot is `watcher`; by default it is the one that acts, or the only one. Of a robot's
+        own act the pictures show the robot; `percept` then tells of the receiver of what it hands over, or else of the
+        first person of the home. Something impossible is a failed outcome with its reason, and the home stays as it
+        was (but for the drive of a robot that watches, and for who had to let it pass: then the recording shows the
+        person as they are); of a robot's own act there is then no recording. `keep` keeps it, too, and nobody drives.
 
         Raises:
             SimulationError: If there is no such agent or watcher.
@@ -184,7 +187,9 @@ class World:
         try:
             plan = self._plan(agent, act, watch)
         except UnableError as unable:
-            if watch is not None:  # there is still the person to be seen, doing what they were doing
+            if agent in self.robots and record:
+                self._recording = None
+            elif watch is not None:  # there is still the person to be seen, doing what they were doing
                 plan = stay(self._ground, before, watch.person, watch)
                 self._record(plan, agent, watch)
             return Outcome(agent=agent, act=act, ok=False, reason=unable.sentence)
@@ -322,23 +327,26 @@ class World:
             rng=rng,
         )
 
-    def frames(self, count: int, folder: Path) -> list[Path]:
-        """Render `count` uniformly sampled moments of the recording from two views into `folder`.
+    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+        """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
-        Files are robot-0.webp … and human-0.webp …; robot views first in the returned list.
+        Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
+        a `name` only the latter, as NAME-0.webp …. There are fewer only where the recording has fewer moments.
 
         Raises:
             SimulationError: If nothing has been recorded, or the folder cannot be written.
         """
         recording = self.recording
         folder = Path(folder)
-        pictures = self._watching().film(recording, count, self.frame_size)
+        views: dict[View, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
+        watcher = self._watching()
+        pictures = watcher.film(recording, count, self.frame_size, views=tuple(views), labels=self.labels)
         paths = []
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            for name in ("robot", "human"):
-                for i, image in enumerate(pictures[name]):
-                    path = folder / f"{name}-{i}.webp"
+            for view, stem in views.items():
+                for i, image in enumerate(pictures[view]):
+                    path = folder / f"{stem}-{i}.webp"
                     Image.fromarray(image).save(path, "WEBP", **WEBP)
                     paths.append(path)
         except OSError as err:

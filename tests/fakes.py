@@ -108,9 +108,10 @@ class FakeHome:
     def percept(self, rng: np.random.Generator) -> Percept:
         return Percept(room="kitchen", near=["stove_1"], motion="stirring", in_hand=None, visible=["mug_1"])
 
-    def frames(self, count: int, folder: Path) -> list[Path]:
+    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
-        paths = [folder / f"{view}-{n}.webp" for view in ("robot", "human") for n in range(count)]
+        views = ("robot", "human") if name is None else (name,)
+        paths = [folder / f"{view}-{n}.webp" for view in views for n in range(count)]
         for path in paths:
             path.write_bytes(b"picture")
         return paths

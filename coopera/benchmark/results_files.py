@@ -84,13 +84,17 @@ def _page(card: Card, coverage: str, rows: list[Row], tables: list[Table], figur
     """The page as text; `figures` are the names of the drawings for a paper that lie beside it."""
     style = style_with("benchmark.css")
     script = "".join((TEMPLATES / name).read_text(encoding="utf-8") for name in ("theme.js", "tables.js"))
-    return environment().get_template("benchmark.html.j2").render(
-        **shown(card, rows, tables),
-        coverage=coverage,
-        drawn=figures,
-        style=Markup(style),
-        script=Markup(script),
-        policy=content_policy(styles=[style], scripts=[script]),
+    return (
+        environment()
+        .get_template("benchmark.html.j2")
+        .render(
+            **shown(card, rows, tables),
+            coverage=coverage,
+            drawn=figures,
+            style=Markup(style),
+            script=Markup(script),
+            policy=content_policy(styles=[style], scripts=[script]),
+        )
     )
 
 

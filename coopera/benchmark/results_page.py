@@ -1,4 +1,4 @@
-"""A results folder as a page shows it: its tables, and figures of need and of the paper's F1 in the design of all pages."""
+"""A results folder as a page shows it: its tables, and figures of need and of the paper's F1."""
 
 from __future__ import annotations
 
@@ -56,7 +56,9 @@ def figures(rows: Sequence[Row], methods: Sequence[str]) -> list[Figure]:
     """Need F1 and the paper's F1 across days with a person, and within a day; all settings and types together."""
     found = []
     for measure, title in _MEASURES:
-        found += _figures(f"{title}, across days", "day with this person", rows, methods, measure, lambda row: row.round)
+        found += _figures(
+            f"{title}, across days", "day with this person", rows, methods, measure, lambda row: row.round
+        )
         found += _figures(f"{title}, within a day", "all days together", rows, methods, measure, lambda row: row.hour)
     return found
 
@@ -75,5 +77,8 @@ def _figures(
     ]
     hours = about != "day with this person"
     names = [hour_label(tick).replace(" ", "") if hours else str(tick) for tick in ticks]
-    last = [(method, next((v for tick in reversed(ticks) if (v := lines[method].get(tick)) is not None), None)) for method in known]
+    last = [
+        (method, next((v for tick in reversed(ticks) if (v := lines[method].get(tick)) is not None), None))
+        for method in known
+    ]
     return [Figure(title, about, charts.lines(series[::-1], names, label=title), last)]

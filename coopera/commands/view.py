@@ -29,8 +29,8 @@ def view(
         from coopera.web.view.export import export
 
         made = export(folder, static)
-        told = {"index": str(made.index), "pages": made.pages, "bytes": made.bytes}
-        typer.echo(json.dumps(told) if as_json else f"{made.pages} pages, {made.bytes / 1e6:.1f} MB: {made.index}")
+        told = {"index": str(made.start), "pages": made.pages, "bytes": made.size}
+        typer.echo(json.dumps(told) if as_json else f"{made.pages} pages, {made.size / 1e6:.1f} MB: {made.start}")
         return
     from functools import partial
 

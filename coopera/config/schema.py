@@ -13,7 +13,7 @@ from coopera.config.complaints import complaint
 from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
-from coopera.config.sections import KeptAdapters, PlayedBy, Private, RealPerson, Text
+from coopera.config.sections import FrameSize, HelpFrames, KeptAdapters, Labels, PlayedBy, Private, RealPerson, Text
 from coopera.config.sections import Models as Models
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
@@ -28,7 +28,6 @@ from coopera.models.settings import ADDRESS, AN_ADDRESS, OWN, SHARED, Budget, Ca
 
 MAX_HOURS = 24 - FIRST_HOUR
 Ids = Annotated[list[Text], Field(min_length=1)]
-Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
 SMALL, LARGE = (320, 240), (1024, 768)
 
 
@@ -254,15 +253,12 @@ class Config(Frozen):
         Literal["sampled", "none", "video"],
         Setting("How the first task of each hour is recorded.", flag="--pictures"),
     ] = "sampled"
-    frames: Annotated[int, Field(strict=True, ge=1, le=64), Setting("Pictures per view and hour.")] = 8
-    frame_size: Annotated[
-        tuple[Pixels, Pixels],
-        Setting(
-            "Width and height of a picture in pixels.",
-            "two whole numbers from 32 to 2048, [width, height]",
-            unset="320 x 240, or 1024 x 768 where the robot's model looks at pictures",
-        ),
-    ] = SMALL
+    frames: Annotated[
+        int, Field(strict=True, ge=1, le=64), Setting("Pictures per view and hour, of different moments.")
+    ] = 5
+    help_frames: HelpFrames = 2
+    labels: Labels = False
+    frame_size: FrameSize = SMALL
     renderer: Annotated[
         Literal["auto", "gl", "tiny", "egl"],
         Setting(
@@ -368,7 +364,7 @@ class Config(Frozen):
 
 SETTINGS = declared(Config)
 """Every setting by name, such as `days` or `calls.timeout`."""
-AS_BEFORE = {"household": SHARED, "intentions": "hourly", "renderer": "tiny"}
+AS_BEFORE = {"household": SHARED, "intentions": "hourly", "renderer": "tiny", "help_frames": 0}
 """How runs were made before there was a choice, where that is not the default of today."""
 
 

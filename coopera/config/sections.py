@@ -12,6 +12,7 @@ from coopera.core.setting import Setting
 from coopera.models.given import GivenModel, as_spec, by_role
 
 Text = Annotated[str, Field(min_length=1)]
+Pixels = Annotated[int, Field(strict=True, ge=32, le=2048)]
 
 KeptAdapters = Annotated[
     str,
@@ -22,6 +23,30 @@ KeptAdapters = Annotated[
         "all, last or every:N, such as every:5",
         flag="--keep-adapters",
         metavar="all|last|every:N",
+    ),
+]
+
+FrameSize = Annotated[
+    tuple[Pixels, Pixels],
+    Setting(
+        "Width and height of a picture in pixels.",
+        "two whole numbers from 32 to 2048, [width, height]",
+        unset="320 x 240, or 1024 x 768 where the robot's model looks at pictures",
+    ),
+]
+
+HelpFrames = Annotated[
+    int,
+    Field(strict=True, ge=0, le=16),
+    Setting("Pictures of each of the robot's own acts, where pictures are taken; no model is shown them."),
+]
+
+Labels = Annotated[
+    bool,
+    Setting(
+        "Whether names are written into the pictures, for vision models that see little: of the thing in hand, of who "
+        "is there and of the furniture beside them.",
+        flag="--labels",
     ),
 ]
 

@@ -1,4 +1,4 @@
-"""An hour as pages show it: its record joined with the evening's answers, with what was done, and with what was missed."""
+"""An hour as pages show it: its record joined with the evening's answers, what was done, and what was missed."""
 
 from __future__ import annotations
 
@@ -79,11 +79,15 @@ class OwnTask:
 
 @dataclass(frozen=True, slots=True)
 class ActView:
-    """An act of the robot; `fate` is "helped", "failed", a name of `FALSE`, or None where that is not known."""
+    """An act of the robot; `fate` is "helped", "failed", a name of `FALSE`, or None where that is not known.
+
+    `view` names the pictures of it among the hour's.
+    """
 
     task: TaskCandidate
     outcome: Outcome | None
     fate: str | None
+    view: str = ""
 
     @property
     def why(self) -> str:
@@ -217,12 +221,12 @@ def _acts(robot: RobotHour, fates: Fates | None) -> list[ActView]:
     left = [*robot.tasks]
     found: list[ActView] = []
     why = [(task, fate) for task, fate in fates.acts] if fates else []
-    for outcome in robot.outcomes:
+    for number, outcome in enumerate(robot.outcomes):
         task = next((one for one in left if one.accepted and one.act == outcome.act), None)
         if task is None:
             continue
         left.remove(task)
-        found.append(ActView(task, outcome, _fate(task, why, known=fates is not None)))
+        found.append(ActView(task, outcome, _fate(task, why, known=fates is not None), f"help-{number}"))
     rest = [ActView(task, None, FAILED) for task in left if task.accepted]
     return [*found, *rest]
 

@@ -1,4 +1,4 @@
-"""Prompts and replies as they stand in a page that is one file: packed, a day at a time, and unpacked when looked at."""
+"""Prompts and replies in a page that is one file: packed, a day at a time, and unpacked when looked at."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ def _said(call: ModelCall) -> list[list[Any]]:
 def _text(text: Any) -> str:
     said = text if isinstance(text, str) else str(text)
     left = len(said) - MOST_SHOWN
-    return printable(said if left <= 0 else f"{said[:MOST_SHOWN]}… ({left:,} more characters; all is in the trace file)")
+    return printable(
+        said if left <= 0 else f"{said[:MOST_SHOWN]}… ({left:,} more characters; all is in the trace file)"
+    )
 
 
 def _packed(data: Any) -> str:

@@ -85,7 +85,7 @@ def fitted(run: RunDir) -> str:
 
 
 def _most_bytes(hours: int) -> int:
-    """How large a page may be: that of five days below 5 MB, so that it opens at once; that of many days in proportion."""
+    """How large a page may be: that of five days below 5 MB, to open at once; that of many days in proportion."""
     return min(max(SMALL_BYTES, hours * HOUR_BYTES), MAX_BYTES)
 
 

@@ -6,14 +6,14 @@ import base64
 import io
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
 from coopera.core.hour import HourRecord
+from coopera.rundir.helping import help_frames
 
 SMALL = (160, 120)  # pixels, where even one full frame per view and hour is too much
-HELP = "help"
-"""The view of pictures that show the robot at its help."""
 TYPES = {".webp": "image/webp", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
 
 
@@ -39,7 +39,7 @@ def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: i
 
     Args:
         root: The run directory, to which the frames' paths are relative.
-        frames: Paths by (day, hour), in order of time; the file name's first part is the view ("robot-3.webp").
+        frames: Paths by (day, hour), in order of time; the file name but its number is the view ("robot-3.webp").
         budget: Most characters that all data URIs together may take.
     """
     hours = {key: _by_view(root, paths) for key, paths in frames.items()}
@@ -57,19 +57,12 @@ def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: i
 def pictures_of(root: Path, record: HourRecord) -> list[str]:
     """The pictures of an hour, relative to the run: those that the trace names, and those of the robot's help."""
     seen = list(record.robot.observation.frames) if record.robot else []
-    folder = root / "frames" / f"day-{record.day:02d}" / f"hour-{record.hour:02d}"
-    try:
-        own = [path for path in folder.glob(f"{HELP}-*") if path.suffix in TYPES]
-    except OSError:
-        own = []
-    more = [path.relative_to(root).as_posix() for path in sorted(own, key=_number)]
-    return [*seen, *(path for path in more if path not in seen)]
+    return [*seen, *chain(*help_frames(root, record.day, record.hour).values())]
 
 
-def _number(path: Path) -> tuple[int, str]:
-    """Where a picture stands among those of its view: "help-10" comes after "help-9"."""
-    number = path.stem.rpartition("-")[2]
-    return (int(number) if number.isdecimal() and len(number) < 9 else 0), path.name
+def view_of(path: PurePosixPath) -> str:
+    """The view that a picture is of: "robot" of robot-3.webp, "help-0" of help-0-1.webp."""
+    return path.stem.rpartition("-")[0]
 
 
 def thin(files: Sequence[Path], count: int) -> list[Path]:
@@ -86,7 +79,7 @@ def _by_view(root: Path, paths: Sequence[str]) -> dict[str, list[Path]]:
     for path in paths:
         pure = PurePosixPath(path)
         if pure.suffix in TYPES and is_of_the_run(root / pure, root):
-            views[pure.stem.partition("-")[0]].append(root / pure)
+            views[view_of(pure)].append(root / pure)
     return dict(views)
 
 

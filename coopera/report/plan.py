@@ -24,6 +24,7 @@ from coopera.simulation.ways.navigation import Navigator
 
 _SCALE = 100  # SVG units per metre
 _MARGIN = 0.12
+_FARTHEST = 1000  # metres from the middle of a home
 _ROOM_LABEL = 1.1  # metres that a room must be wide for its name
 
 
@@ -89,9 +90,9 @@ def _spots(poses: Any) -> dict[str, Point]:
     found = {}
     for name, agent in agents.items() if isinstance(agents, dict) else ():
         spot = agent.get("spot") if isinstance(agent, dict) else None
-        if isinstance(spot, list) and len(spot) == 2 and all(isinstance(one, int | float) for one in spot):
-            if all(math.isfinite(one) and abs(one) < 1000 for one in spot):
-                found[str(name)] = (float(spot[0]), float(spot[1]))
+        known = isinstance(spot, list) and len(spot) == 2 and all(isinstance(one, int | float) for one in spot)
+        if known and all(math.isfinite(one) and abs(one) < _FARTHEST for one in spot):
+            found[str(name)] = (float(spot[0]), float(spot[1]))
     return found
 
 
@@ -200,7 +201,9 @@ def _symbol(scene: Scene) -> Markup:
         half_x, half_y = thing.size[0] / 2, thing.size[1] / 2
         points = (thing.to_world(a * half_x, b * half_y)[:2] for a, b in corners)
         line = " ".join(f"{x:.0f},{y:.0f}" for x, y in map(_xy, points))
-        marks.append(Markup('<polygon class="thing" points="{}"><title>{}</title></polygon>').format(line, plain(thing.name)))
+        marks.append(
+            Markup('<polygon class="thing" points="{}"><title>{}</title></polygon>').format(line, plain(thing.name))
+        )
     for wall in scene.walls():
         ends = [(one, wall.at) if wall.axis == "x" else (wall.at, one) for one in (wall.start, wall.end)]
         (x0, y0), (x1, y1) = map(_xy, ends)
@@ -208,7 +211,9 @@ def _symbol(scene: Scene) -> Markup:
     for room in scene.rooms:
         if room.x1 - room.x0 >= _ROOM_LABEL:
             x, y = _xy((room.x0, room.y1))
-            marks.append(Markup('<text class="roomname" x="{:.0f}" y="{:.0f}">{}</text>').format(x + 14, y + 32, room.name))
+            marks.append(
+                Markup('<text class="roomname" x="{:.0f}" y="{:.0f}">{}</text>').format(x + 14, y + 32, room.name)
+            )
     return Markup('<svg class="homes" aria-hidden="true"><symbol id="{}" viewBox="{}">{}</symbol></svg>').format(
         _id(scene), _box(scene), Markup("").join(marks)
     )

@@ -79,7 +79,12 @@ def film_again(run: RunDir, wrong: Collection[str]) -> list[str]:
             if f"video/{at}.mp4" in wrong:
                 world.film(apart.video_file(record.day, record.hour))
 
-        for _ in replay(run, look):
+        def helped(record: HourRecord, number: int, world: World) -> None:
+            folder = f"frames/day-{record.day:02d}/hour-{record.hour:02d}"
+            if any(file.startswith(f"{folder}/help-{number}-") for file in wrong):
+                world.frames(run.config.help_frames, apart.root / folder, f"help-{number}")
+
+        for _ in replay(run, look, helped=helped):
             pass
         return _taken(apart.root, run.root, wrong)
 

@@ -37,9 +37,12 @@ class Replayed(NamedTuple):
 
 Look: TypeAlias = Callable[[HourRecord, World], None]
 Each: TypeAlias = Callable[[HourRecord, Outcome, World], None]
+Helped: TypeAlias = Callable[[HourRecord, int, World], None]
 
 
-def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> Iterator[Replayed]:
+def replay(
+    run: RunDir, look: Look | None = None, each: Each | None = None, helped: Helped | None = None
+) -> Iterator[Replayed]:
     """Do all acts of a run again, hour by hour; every episode begins with its homes as they were built.
 
     The homes are not set from the trace, so each hour builds on all hours before it. There is one exception: after an
@@ -49,6 +52,8 @@ def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> I
         run: The run, open for reading.
         look: Called after each hour's first act, while its recording is there.
         each: Called after each act with what came of it now.
+        helped: Called after each act of the robot that was done, with its number in the hour, while its recording is
+            there.
 
     Raises:
         RunError: If the run has no hours yet, or its people lived their hours in another run.
@@ -73,17 +78,20 @@ def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> I
                 homes[record.scene] = stack.enter_context(home)
             if record.person in people:
                 homes[record.scene].inhabit(HUMAN, people[record.person])
-            yield _hour(homes[record.scene], record, look, each)
+            yield _hour(homes[record.scene], record, look, each, helped)
 
 
-def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None) -> Replayed:
+def _hour(home: World, record: HourRecord, look: Look | None, each: Each | None, helped: Helped | None) -> Replayed:
     expected = in_order(record)
     watched = record.world.get("watched", record.robot is not None)
     difference = ""
     for number, then in enumerate(expected):
-        now = home.perform(then.agent, then.act, record=watched and number == 0)
-        if look is not None and watched and number == 0:
+        first, by_robot = watched and number == 0, helped is not None and then.agent in home.robots
+        now = home.perform(then.agent, then.act, record=first or by_robot)
+        if look is not None and first:
             look(record, home)
+        if helped is not None and by_robot and now.ok:
+            helped(record, number - bool(watched), home)
         if each is not None:
             each(record, now, home)
         if _done(now) != _done(then) and not difference:

@@ -87,6 +87,7 @@
     }
   };
   const fill = (within) => {
+    for (const frame of all(".shots img", within)) source(frame);
     for (const strip of all(".strip", within)) {
       for (const frame of strip.children) source(frame);
       if (!strip.parentElement.querySelector(".big").src) show(strip, strip.children.length >> 1); // the middle of the deed
@@ -108,14 +109,14 @@
   const light = document.getElementById("light");
   const enlarge = (frame) => { light.firstElementChild.src = frame.src; light.firstElementChild.alt = frame.alt; light.showModal(); };
   document.addEventListener("click", (event) => {
-    const frame = event.target.closest(".big, .strip img"), button = event.target.closest(".play");
+    const frame = event.target.closest(".big, .strip img, .shots img"), button = event.target.closest(".play");
     if (button) { const strip = stripOf(button); play(strip, 2 * strip.children.length); }
     else if (frame && light) enlarge(frame);
     else if (light?.open) light.close();
   });
   for (const strip of all("main > .strip, .page-hour .strip")) fill(strip.closest(".reel").parentElement);
   document.addEventListener("error", (event) => {
-    if (event.target.matches?.(".strip img")) { event.target.classList.add("gone"); event.target.alt += " (the file is missing)"; }
+    if (event.target.matches?.(".strip img, .shots img")) { event.target.classList.add("gone"); event.target.alt += " (the file is missing)"; }
   }, true);
 
   // Prompts that are packed

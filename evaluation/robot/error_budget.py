@@ -80,8 +80,8 @@ class Fates(NamedTuple):
     """What became of each task and each act of an hour.
 
     Attributes:
-        tasks: Of each of the person's tasks after the first, where it was lost (a name of `LOST`); None if it was helped.
-        acts: Each of the robot's accepted acts and why it was of no use: a name of `FALSE`, `FAILED`, or None if it helped.
+        tasks: Of each of the person's tasks after the first, where it was lost (of `LOST`); None if it was helped.
+        acts: Each of the robot's accepted acts and why it was of no use: of `FALSE`, `FAILED`, or None if it helped.
     """
 
     tasks: list[str | None]
@@ -189,7 +189,8 @@ def hour_fates(
     helped = [any(ok and helps(task.act, wanted) for task, ok in done) for wanted in remaining]
     stage = _reached(robot, right, imagines=imagines)
     tasks = [
-        None if yes else _lost(robot.tasks, wanted, helps) or stage for wanted, yes in zip(remaining, helped, strict=True)
+        None if yes else _lost(robot.tasks, wanted, helps) or stage
+        for wanted, yes in zip(remaining, helped, strict=True)
     ]
     acts: list[tuple[TaskCandidate, str | None]] = []
     for task, ok in done:

@@ -43,6 +43,7 @@ ROOM_REACH = 1.5
 """Farthest from the furniture at which one does what takes free floor (metres)."""
 _WORKTOP = (0.45, 1.3)
 _KEYS = 0.61  # a piano's keyboard, as a share of its height
+_MOMENTS = (0.0, 0.25, 0.5, 0.75)
 _STANDS, _ANY = 12, 1000
 """From how many places at a piece of furniture one chooses, and from how many where those are taken."""
 
@@ -66,7 +67,7 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     if done.undresses:
         undress(ground, plan, agent, watch)
     body, used_furniture = _placed(ground, plan, agent, target, motion)
-    pose = _first_pose(ground, body, motion)
+    pose = _pose(ground, body, motion)
     hands = _hands(body, pose)
     at = Workplace(target, body, hands)
     if done.gathers is not None:
@@ -76,7 +77,7 @@ def free_motion(ground: Ground, state: HomeState, agent: AgentId, act: FreeMotio
     held = plan.state.agents[agent].thing
     if tool is None and held is not None and in_hand_is(ground, plan.state, held, done.tools):
         tool = plan.state.find(ground.scene, held)
-    walk_to_deed(ground, plan, agent, Placed(*body.place, body.yaw, pose), body.spot, watch, held)
+    walk_to_deed(ground, plan, agent, _deeds(ground, body, motion) if watch else [], body.spot, watch, held)
     now = plan.state.person(agent)
     place = now.spot if body.place == body.spot else body.place
     kept = {"spot": now.spot, "place": place, "motion": motion.caption, "thing": held, "worn": now.worn}
@@ -103,16 +104,20 @@ def stay(ground: Ground, state: HomeState, agent: AgentId, watch: Watch) -> Plan
     """Plan that a person goes on with what they are doing, and a robot comes to see it."""
     plan, person = Plan(state), state.person(agent)
     motion = ground.motions[person.motion]
-    pose = _first_pose(ground, person, motion)
-    watch(plan, Placed(*person.place, person.yaw, pose), person.spot)
+    watch(plan, _deeds(ground, person, motion), person.spot)
     plan.steps.append(Play(agent, person, motion))
     plan.at, plan.in_hand = [person.at] if person.at is not None else [], person.thing
     return plan
 
 
-def _first_pose(ground: Ground, person: PersonState, motion: Motion) -> Array:
-    """The pose in which a person begins a motion, with nothing in hand."""
-    return pose_at(motion, 0.0, at_work(ground.scene, person, motion)[0])
+def _pose(ground: Ground, person: PersonState, motion: Motion, share: float = 0.0) -> Array:
+    """The pose in which a person begins a motion, or is after a share of its period, with nothing in hand."""
+    return pose_at(motion, share * motion.keys.period, at_work(ground.scene, person, motion)[0])
+
+
+def _deeds(ground: Ground, person: PersonState, motion: Motion) -> list[Placed]:
+    """The person at some moments of a motion: at one of them a hand may be where nobody sees it."""
+    return [Placed(*person.place, person.yaw, _pose(ground, person, motion, share)) for share in _MOMENTS]
 
 
 def _hands(person: PersonState, pose: Array) -> Point:

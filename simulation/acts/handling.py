@@ -114,7 +114,7 @@ def go_to_reach(
         try:
             if agent in ground.people:
                 deed = Placed(stand.x, stand.y, stand.yaw, posture)
-                walk_to_deed(ground, plan, agent, deed, (stand.x, stand.y), watch, errand.carries)
+                walk_to_deed(ground, plan, agent, [deed], (stand.x, stand.y), watch, errand.carries)
             else:
                 walk(ground, plan, agent, (stand.x, stand.y), carries=errand.carries)
         except UnableError:

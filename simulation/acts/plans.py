@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from textwrap import shorten
 from typing import NamedTuple, Protocol
@@ -124,8 +124,8 @@ class Watch(Protocol):
         """Who watches."""
         ...
 
-    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
-        """Add the robot's drive to the plan; `deed` is the person in the middle of the act."""
+    def __call__(self, plan: Plan, deeds: Sequence[Placed], spot: Point) -> None:
+        """Add the robot's drive to the plan; `deeds` is the person at some moments of the act, at least one."""
         ...
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from coopera.core.household import AgentId
@@ -64,7 +64,13 @@ def walk(
 
 
 def walk_to_deed(
-    ground: Ground, plan: Plan, agent: AgentId, deed: Placed, goal: Point, watch: Watch | None, carries: str | None
+    ground: Ground,
+    plan: Plan,
+    agent: AgentId,
+    deeds: Sequence[Placed],
+    goal: Point,
+    watch: Watch | None,
+    carries: str | None,
 ) -> None:
     """Add a person's walk to an act; a robot that is to see it goes ahead, and comes back if it had to step aside.
 
@@ -74,11 +80,11 @@ def walk_to_deed(
     if watch is None:
         walk(ground, plan, agent, goal, carries)
         return
-    watch(plan, deed, goal)
+    watch(plan, deeds, goal)
     place = plan.state.agents[watch.robot].spot
     walk(ground, plan, agent, goal, carries)
     if plan.state.agents[watch.robot].spot != place:
-        watch(plan, deed, goal)
+        watch(plan, deeds, goal)
 
 
 def _arrived(ground: Ground, state: HomeState, agent: AgentId, spot: Point) -> HomeState:

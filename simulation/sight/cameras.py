@@ -8,30 +8,40 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Placed, all_clear_of
-from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene
-from coopera.simulation.shapes.rotations import Array, about_z, wrapped
+from coopera.simulation.shapes.rotations import Array, about_z
+from coopera.simulation.sight.hiding import Body, angle_from_front, behind_balls, behind_boxes, boxes_of
+from coopera.simulation.sight.recording import eye_level
 from coopera.simulation.sight.stage import Camera, Stage
 from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, to_segment
 
 ROBOT_FOV = 60.0
 VIEW_FOV = 50.0
-_SEEN = ("head", "chest", "right_hand", "left_hand", "pelvis", "right_knee", "left_knee")
-_WEIGHTS = np.array((3.0, 2.0, 2.0, 2.0, 1.0, 0.5, 0.5))
-_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
-_WATCH = (1.4, 3.6)
-_COMFORT = 2.3
-_KEEP_OFF = 0.9
+_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.2))  # PAPER says no camera; radii (m), angles, heights (m) are ours
+_CORNER = (0.25, 2.2)
+"""How far from a room's walls, and how high, the cameras in its corners are (metres)."""
+_WATCH = (1.1, 4.5)
+_COMFORT = 2.1
+_KEEP_OFF = (0.65, 0.9)
+"""How far from the person's way the robot stands at least, and what it would like (metres)."""
+_CROWDED = 1.2
+"""What each metre costs that it stands nearer to the way than it would like."""
+_MANY = 400
 _GLANCES = 3
 _AT_ONCE = 48
-_LOOKS = 8
-_SMALL, _LARGE = (48, 36), 0.04
-"""Small pictures by which cameras are compared, and the share of one that is as much of a person as is wanted."""
+_SIGHT = 6.0
+"""What it counts to see all of a body; the rest of a score is fractions of 1."""
+_LEAST = 0.15
+"""Who sees a smaller share of a body does not see it."""
+_SIDE, _BACK = 0.3, (1.75, 0.8)
+"""What each radian from the front costs, and what it costs besides from where on."""
 _OVERHEAD = 4.5
+_IN = 0.03  # metres
+_WELL = 0.95
+"""How much of half a picture counts as within it."""
 _CLOSE = 0.9  # metres
 _FRONT = 0.5  # square metres that a standing body shows
 _APART = 0.8
@@ -39,12 +49,36 @@ _APART = 0.8
 
 
 class Focus(NamedTuple):
-    """The subject of a picture: a person in the act, the furniture under or around the body, and the room."""
+    """The subject of a picture: a body in the act, its room, and who else hides it.
 
-    who: AgentId
-    person: Placed
+    `ignore` is the furniture that it is on or in, or has a hand in, and `held` what is in a hand: their hulls would
+    stop all rays.
+    """
+
+    placed: Placed
+    body: Body
     ignore: tuple[str, ...]
     room: str
+    others: tuple[Body, ...] = ()
+    held: tuple[str, ...] = ()
+
+
+class Lens(NamedTuple):
+    """What pictures are taken with: the point in their middle, and the vertical field of view in degrees."""
+
+    target: tuple[float, float, float]
+    fov: float
+
+    def shows(self, eyes: Array, points: Array) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Whether a 4:3 picture from each eye has a point well within it; shapes (n, 3) to (n,)."""
+        ahead = np.array(self.target) - eyes
+        ahead = ahead / np.linalg.norm(ahead, axis=1)[:, None]
+        right = np.stack((ahead[:, 1], -ahead[:, 0], 0 * ahead[:, 0]), axis=1)
+        right = right / np.maximum(np.linalg.norm(right, axis=1), 1e-9)[:, None]
+        lines, tall = points - eyes, math.tan(math.radians(self.fov) / 2) * _WELL
+        depth, across = (lines * ahead).sum(axis=1), (lines * right).sum(axis=1)
+        high = (lines * np.cross(right, ahead)).sum(axis=1)
+        return np.asarray((depth > 0) & (np.abs(high) <= tall * depth) & (np.abs(across) <= tall * 4 / 3 * depth))
 
 
 class Eyes(NamedTuple):
@@ -54,17 +88,18 @@ class Eyes(NamedTuple):
     start: Point
 
 
-def body_points(person: Placed) -> Array:
-    """Points of the body that should be seen, in the world; shape (7, 3)."""
-    frames = forward(person.pose)
-    points = np.array([frames.place[part] for part in _SEEN])
-    turned: Array = points @ about_z(person.yaw).T + np.array((person.x, person.y, 0.0))
-    return turned
-
-
 def around(scene: Scene, person: Placed) -> tuple[str, ...]:
     """Furniture that a body is on or in: its hull would stop all rays to them."""
     return tuple(thing.name for thing in scene.fixed if thing.bounds.distance(person.x, person.y) < 0.05)
+
+
+def within(scene: Scene, points: Array) -> tuple[str, ...]:
+    """Furniture in whose hull a point is, such as a hand over a bed; points of shape (n, 3)."""
+    return tuple(
+        thing.name
+        for thing in scene.fixed
+        if any(thing.bounds.distance(x, y) < _IN and z < thing.top + _IN for x, y, z in points.tolist())
+    )
 
 
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
@@ -80,12 +115,24 @@ def _point(place: Array) -> tuple[float, float, float]:
     return float(place[0]), float(place[1]), float(place[2])
 
 
-def seen_share(stage: Stage, eyes: Array, points: Array) -> Array:
-    """Weighted share of the body's points that each eye sees; shapes (n, 3) and (7, 3) to (n,)."""
-    starts = np.repeat(eyes, len(points), axis=0)
-    ends = np.tile(points, (len(eyes), 1))
-    free = (stage.rays(starts, ends) < 0).reshape(len(eyes), len(points))
-    share: Array = (free * _WEIGHTS).sum(axis=1) / _WEIGHTS.sum()
+def seen_share(stage: Stage, scene: Scene, eyes: Array, focus: Focus, aim: Lens) -> Array:
+    """Weighted share of the body's points that each eye sees through a lens; eyes of shape (n, 3) to (n,).
+
+    Furniture hides what is behind the box around it, but for what the body is on or in: that hides by its parts. The
+    body hides itself, and other bodies hide it.
+    """
+    points, weights = focus.body.points, focus.body.weights
+    starts, ends = np.repeat(eyes, len(points), axis=0), np.tile(points, (len(eyes), 1))
+    stage.hide(focus.ignore)
+    hits = stage.rays(starts, ends)
+    stage.unhide(focus.ignore)
+    free = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
+    bodies = (focus.body, *focus.others)
+    balls, radii = (np.concatenate([getattr(body, name) for body in bodies]) for name in ("balls", "radii"))
+    free &= ~behind_balls(starts, ends, balls, radii)
+    free &= aim.shows(starts, ends)
+    free &= ~behind_boxes(starts, ends, boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore]))
+    share: Array = free.reshape(len(eyes), len(points)) @ weights
     return share
 
 
@@ -113,7 +160,7 @@ def watching_place(
     Returns:
         The place, or None if the person is seen from nowhere; the robot then stays where it is.
     """
-    person = focus.person
+    person = focus.placed
     cells = np.concatenate([navigator.cells_in(focus.room), *_doorways(navigator, focus)])
     if not len(cells):
         return None
@@ -121,33 +168,39 @@ def watching_place(
     off = np.full(len(cells), np.inf)
     for a, b in zip(keep_clear, keep_clear[1:], strict=False):
         off = np.minimum(off, to_segment(cells, a, b))
-    apart = (away >= _WATCH[0]) & (away <= _WATCH[1]) & (off >= _KEEP_OFF)
-    if apart.sum() < 20:
-        apart = (away >= 0.9) & (away <= 5.0) & (off >= 0.65)
-    place = _best_sight(stage, eyes, focus, cells[apart], taken, _anywhere)
+    near = (away >= _WATCH[0]) & (away <= _WATCH[1])
+    free = off >= _KEEP_OFF[0]
+    close = _CROWDED * np.maximum(_KEEP_OFF[1] - off, 0.0)
+    place = _best_sight(stage, navigator.scene, eyes, focus, cells[near & free], close[near & free], taken, _anywhere)
     if place is not None:
         return place
-    beside = (away >= 0.9) & (away <= 5.0) & (off < 0.65)
+    beside = near & ~free
 
     def can_pass(place: Point) -> bool:
         past = Disc(*place, RADIUS)
         return navigator.route(keep_clear[0], keep_clear[-1], avoid=(past,)).points is not None
 
-    return _best_sight(stage, eyes, focus, cells[beside], taken, can_pass)
+    return _best_sight(stage, navigator.scene, eyes, focus, cells[beside], close[beside], taken, can_pass)
 
 
-def _best_sight(
+def _best_sight(  # noqa: PLR0913 - what is looked for, by whom, and where
     stage: Stage,
+    scene: Scene,
     robot: Eyes,
     focus: Focus,
     cells: Array,
+    close: Array,
     taken: list[Disc],
     allowed: Callable[[Point], bool],
 ) -> Point | None:
-    """The allowed cell, of shape (n, 2), from which the person is seen best; None if they are seen from none."""
-    person = focus.person
-    cells = cells[::4] if len(cells) > 400 else cells
-    cells = cells[all_clear_of(cells, taken)]
+    """The allowed cell, of shape (n, 2), from which the person is seen best; None if they are seen from none.
+
+    `close` is what each costs for being in the way, shape (n,).
+    """
+    person = focus.placed
+    step = 4 if len(cells) > _MANY else 1
+    clear = all_clear_of(cells[::step], taken)
+    cells, close = cells[::step][clear], close[::step][clear]
     if not len(cells):
         return None
     away = np.hypot(cells[:, 0] - person.x, cells[:, 1] - person.y)
@@ -156,27 +209,34 @@ def _best_sight(
     eyes = np.stack(
         (cells[:, 0] + ahead * np.cos(towards), cells[:, 1] + ahead * np.sin(towards), high + 0 * away), axis=1
     )
-    side = np.abs(np.array([wrapped(float(t) + math.pi - person.yaw) for t in towards]))
     drive = np.hypot(cells[:, 0] - robot.start[0], cells[:, 1] - robot.start[1])
-    convenience = -0.25 * np.abs(away - _COMFORT) - 0.25 * side - 0.02 * drive
-    points, share, score = body_points(person), np.zeros(len(cells)), convenience
+    side = angle_from_front(person, cells[:, 0], cells[:, 1])
+    convenience = -0.25 * np.abs(away - _COMFORT) - _from_behind(side) - 0.02 * drive - close
+    lens = Lens((person.x, person.y, eye_level(person)), ROBOT_FOV)
+    share, score = np.zeros(len(cells)), convenience
     best: list[int] = []
     left = np.argsort(-convenience, kind="stable")
-    stage.hide(focus.ignore)
     while len(left):  # rays cost most: none for what cannot be better than the best, however much is seen from there
         some, left = left[:_AT_ONCE], left[_AT_ONCE:]
-        share[some] = seen_share(stage, eyes[some], points)
-        score = 3 * share + convenience
-        seeing = np.flatnonzero(share > 0.2)
+        share[some] = seen_share(stage, scene, eyes[some], focus, lens)
+        score = _SIGHT * share + convenience
+        seeing = np.flatnonzero(share > _LEAST)
         best = [int(seeing[i]) for i in _best_apart(cells[seeing], score[seeing], allowed)]
-        if len(best) == _GLANCES and len(left) and score[best[-1]] > 3 + convenience[left[0]] + 1e-5:
+        if len(best) == _GLANCES and len(left) and score[best[-1]] > _SIGHT + convenience[left[0]] + 1e-5:
             break
-    stage.unhide(focus.ignore)
     if not best:
         return None
-    aim = points[1]
-    cameras = [Camera(_point(eyes[i]), _point(aim), ROBOT_FOV) for i in best]
-    return _floor(cells[best[_clearest(stage, cameras, score[best])]])
+    stage.hide(focus.ignore)
+    cameras = [Camera(_point(eyes[i]), lens.target, ROBOT_FOV) for i in best]
+    clearest = _clearest(stage, cameras, score[best])
+    stage.unhide(focus.ignore)
+    return _floor(cells[best[clearest]])
+
+
+def _from_behind(side: Array) -> Array:
+    """What it costs to look at a body from an angle from its front, in radians."""
+    cost: Array = _SIDE * side + _BACK[1] * np.maximum(side - _BACK[0], 0.0)
+    return cost
 
 
 def _anywhere(place: Point) -> bool:
@@ -231,48 +291,39 @@ def _doorways(navigator: Navigator, focus: Focus) -> list[Array]:
     scene = navigator.scene
     names = sorted({name for door in scene.doors if focus.room in door.between for name in door.between})
     rooms = [navigator.cells_in(name) for name in names if name != focus.room]
-    return [c[np.hypot(c[:, 0] - focus.person.x, c[:, 1] - focus.person.y) <= _WATCH[1]] for c in rooms]
+    return [c[np.hypot(c[:, 0] - focus.placed.x, c[:, 1] - focus.placed.y) <= _WATCH[1]] for c in rooms]
 
 
 def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
-    """The third-person camera: of a ring of places in the room, the one that sees the body best and from the front."""
-    person = focus.person
-    points = body_points(person)
+    """The third-person camera: of places around the body and in the room's corners, the one that sees it best."""
+    placed, points = focus.placed, focus.body.points
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     room = scene.room(focus.room) or scene.rooms[0]
     radii, count, heights = _RING
-    eyes = np.array(
-        [
-            (person.x + r * math.cos(k * math.tau / count), person.y + r * math.sin(k * math.tau / count), z)
-            for r in radii
-            for z in heights
-            for k in range(count)
-        ]
-    )
+    inset, high = _CORNER
+    bounds = room.bounds.grown(-inset)
+    ring = [
+        (placed.x + r * math.cos(k * math.tau / count), placed.y + r * math.sin(k * math.tau / count), z)
+        for r in radii
+        for z in heights
+        for k in range(count)
+    ]
+    corners = [(x, y, high) for x in (bounds[0], bounds[2]) for y in (bounds[1], bounds[3])]
+    eyes = np.array([*ring, *corners])
     inside = np.array([_in_the_open(scene, room.bounds.grown(-0.12), eye) for eye in eyes])
     target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
     if not inside.any():
         corner = room.centre
         return Camera((corner[0], corner[1], _OVERHEAD), target, VIEW_FOV)
     eyes = eyes[inside]
-    stage.hide(focus.ignore)
-    share = seen_share(stage, eyes, points)
-    stage.unhide(focus.ignore)
-    angle = np.arctan2(eyes[:, 1] - person.y, eyes[:, 0] - person.x)
-    side = np.array([abs(wrapped(float(a) - person.yaw)) for a in angle])
-    away = np.hypot(eyes[:, 0] - person.x, eyes[:, 1] - person.y)
-    score = 3 * share - 0.3 * np.abs(side - 0.7) - 0.2 * np.abs(away - 2.5) - 0.1 * np.abs(eyes[:, 2] - 1.9)
-    best = _best_apart(eyes, score, _anywhere, _LOOKS if focus.ignore else _GLANCES)
+    share = seen_share(stage, scene, eyes, focus, Lens(target, VIEW_FOV))
+    side = angle_from_front(placed, eyes[:, 0], eyes[:, 1])
+    away = np.hypot(eyes[:, 0] - placed.x, eyes[:, 1] - placed.y)
+    cost = _from_behind(np.maximum(side, 0.7)) + 0.2 * np.abs(away - 2.3) + 0.1 * np.abs(eyes[:, 2] - 1.9)
+    score = _SIGHT * share - cost
+    best = _best_apart(eyes, score, _anywhere)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
-    if not focus.ignore:
-        return cameras[_clearest(stage, cameras, score[best])]
-    cameras.append(Camera((target[0] + 0.3, target[1] + 0.3, _OVERHEAD), target, VIEW_FOV))
-    return max(cameras, key=lambda camera: _shown(stage, camera, focus.who))
-
-
-def _shown(stage: Stage, camera: Camera, who: AgentId) -> float:
-    """How much of a small picture the person fills, up to `_LARGE`: what they are in may hide them, unlike its hull."""
-    return min(round(float((stage.picture(camera, _SMALL)[1] == stage.bodies[who]).mean()), 4), _LARGE)
+    return cameras[_clearest(stage, cameras, score[best])]
 
 
 def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:

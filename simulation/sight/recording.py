@@ -64,24 +64,29 @@ class Moment(NamedTuple):
 
 @dataclass(slots=True)
 class Shot:
-    """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the act is best seen."""
+    """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the act is best seen.
+
+    The first `came` ticks are the end of a walk.
+    """
 
     ticks: int
     at: Callable[[int], Moment]
     deed: int
+    came: int = 0
 
 
 @dataclass(slots=True)
 class Recording:
     """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
 
-    `robot` is who sees it, `person` who is looked at. `states` is {object: its states in words} of what could be seen
-    after the act not to be as at first.
+    `actor` is who acts, `robot` who sees it, `person` who is looked at. `states` is {object: its states in words} of
+    what could be seen after the act not to be as at first.
     """
 
     state: HomeState
     robot: AgentId
     person: AgentId
+    actor: AgentId
     shots: list[Shot] = field(default_factory=list)
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
@@ -132,14 +137,14 @@ class Filming:
         self.moved: Mapping[str, ThingState] = {}
         self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
         self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
-        self.recording = Recording(start, robot, person)
+        self.recording = Recording(start, robot, person, person)
         self._outfits = {agent: _outfit(body) for agent, body in start.agents.items() if isinstance(body, PersonState)}
         self._walk: Walk | None = None
         self._actor = person
 
     def film(self, steps: list[Step], actor: AgentId) -> Recording:
         """Film all steps; walks of those who are not acting happen between the shots."""
-        self._actor = actor
+        self._actor = self.recording.actor = actor
         for step in steps:
             if isinstance(step, Walk):
                 self._go(step)
@@ -232,7 +237,7 @@ class Filming:
             held, places, doors = then if tick >= reached + _HOLD // 2 else first
             return others(body, held, places)._replace(opened=doors)
 
-        self.recording.shots.append(Shot(done + _BACK, at, reached + _HOLD // 2 - 1))
+        self.recording.shots.append(Shot(done + _BACK, at, reached + _HOLD // 2 - 1, walk_ticks))
         self.opened = opened
         self._finish(agent, away, after, moved)
 
@@ -262,7 +267,7 @@ class Filming:
                 return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
             return dressed(others(body, held, moved))
 
-        self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
+        self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
@@ -278,7 +283,7 @@ class Filming:
             moment = last.at(tick)
             return moment if tick < last.ticks - _BACK else moment._replace(worn=worn, held=held)
 
-        self.recording.shots[-1] = Shot(last.ticks, at, last.deed)
+        self.recording.shots[-1] = Shot(last.ticks, at, last.deed, last.came)
 
     def _give(self, step: Give) -> None:
         """Drive up, hold out the thing, and let the person take it; or take from the person what they hold out."""
@@ -313,7 +318,7 @@ class Filming:
             held = _with(moment.held, step.receiver, persons[given])
             return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
-        self.recording.shots.append(Shot(done + _BACK, at, reached))
+        self.recording.shots.append(Shot(done + _BACK, at, reached, walk_ticks))
         self._finish(step.agent, after, robots[1], moved)
         self.held = _with(self.held, step.receiver, persons[1])
 
@@ -374,9 +379,13 @@ def _receiving(person: Placed, step: Give) -> Placed:
 
 def watching(body: RobotBody, robot: Placed, person: Placed) -> Placed:
     """The robot with its head turned to the person's body."""
-    height = min(max(float(person.pose[2]) + 0.15, 0.3), 1.1)
     stand = Stand(robot.x, robot.y, robot.yaw, 0.0, 0.0)
-    return robot._replace(pose=body.look_at(robot.pose, to_body(stand, (person.x, person.y, height))))
+    return robot._replace(pose=body.look_at(robot.pose, to_body(stand, (person.x, person.y, eye_level(person)))))
+
+
+def eye_level(person: Placed) -> float:
+    """At which height of a person a robot looks (metres)."""
+    return min(max(float(person.pose[2]) + 0.15, 0.3), 1.1)
 
 
 def _mixed(first: Array, second: Array, share: float) -> Array:

@@ -3,20 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal, TypeAlias
 
 import numpy as np
 
-from coopera.core.household import AgentId
+from coopera.core.household import AgentId, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.people.appearance import Appearance
-from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
-from coopera.simulation.sight.recording import Moment, Recording, still
+from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
+from coopera.simulation.sight.hiding import person_body, robot_body
+from coopera.simulation.sight.labels import Name, labelled
+from coopera.simulation.sight.recording import Held, Moment, Recording, Shot, still
+from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
+
+View: TypeAlias = Literal["robot", "human"]
+"""The robot's own, or a third person's of who acts."""
+_AWAY = -100.0
+_NOTHING: Mapping[AgentId, Held] = MappingProxyType({})
+_MOMENTS = (0.5, 0.65, 0.8)
+"""When, as shares of a shot, the third person looks for the hands besides."""
+_NEAR = 0.7
+"""Furniture this near to who acts has its name written, where names are asked for (metres)."""
 
 
 class Watcher:
@@ -45,26 +59,26 @@ class Watcher:
             self._drawn = Stage(ground.scene, ground.people, ground.robots, self._renderer, self._looks)
         return self._drawn
 
-    def watch(self, plan: Plan, robot: AgentId, who: AgentId, deed: Placed, spot: Point) -> None:
+    def watch(self, plan: Plan, robot: AgentId, who: AgentId, deeds: Sequence[Placed], spot: Point) -> None:
         """Add to a plan: a robot drives to where it will see an act of a person, out of their way.
 
         Args:
             plan: The plan so far; the robot's drive is added.
             robot: Who is to see it.
             who: The person.
-            deed: The person in the middle of the act.
+            deeds: The person at some moments of the act.
             spot: The floor from which they do it.
         """
-        person = plan.state.person(who)
+        person, deed = plan.state.person(who), deeds[0]
         route = self.ground.navigator.route(person.spot, spot)
         bodies = {agent: still(self.ground, plan.state, agent) for agent in plan.state.agents if agent != who}
-        elsewhere = bodies[robot]._replace(x=-100.0, y=-100.0)  # it must not see itself in the way
+        elsewhere = bodies[robot]._replace(x=_AWAY, y=_AWAY)  # it must not see itself in the way
         self.stage.show(plan.state, Moment({**bodies, who: deed, robot: elsewhere}, {}, {}))
         place = watching_place(
             self.stage,
             self.ground.navigator,
             Eyes(self.ground.robots[robot], plan.state.agents[robot].spot),
-            self._focus(who, deed),
+            self._focus({**bodies, who: deed}, who, later=deeds[1:]),
             [*(route.points or []), spot, (deed.x, deed.y)],
             taken_by_others(plan.state, robot),
         )
@@ -82,46 +96,90 @@ class Watcher:
         plan.steps.append(Turn(robot, yaw))
         plan.state = plan.state.with_agent(robot, yaw=yaw)
 
-    def film(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, list[Image]]:
-        """Render uniformly sampled moments: pictures by view, "robot" and "human", in order of time."""
-        views: dict[int, Camera] = {}
-        pictures: dict[str, list[Image]] = {"robot": [], "human": []}
-        for tick in np.linspace(0, recording.ticks - 1, count).round().astype(int):
-            index, within = recording.find(int(tick))
-            shot = recording.shots[index]
-            if index not in views:
-                views[index] = self._view(recording, shot.at(shot.deed))
-            moment = shot.at(within)
-            self.drawn.show(recording.state, moment)
-            pictures["robot"].append(self.drawn.picture(self._eyes(recording, moment), size)[0])
-            pictures["human"].append(self.drawn.picture(views[index], size)[0])
+    def film(
+        self,
+        recording: Recording,
+        count: int,
+        size: tuple[int, int],
+        *,
+        views: Sequence[View] = ("robot", "human"),
+        labels: bool = False,
+    ) -> dict[View, list[Image]]:
+        """Render the moments that tell a recording: pictures by view, in order of time."""
+        pictures: dict[View, list[Image]] = {view: [] for view in views}
+        for moment, cameras in self._moments(recording, telling_ticks(recording, self.ground.robots, count), views):
+            names = self._names(recording, moment) if labels else []
+            for view, camera in cameras.items():
+                image, mask = self.drawn.picture(camera, size)
+                pictures[view].append(labelled(image, mask, names) if names else image)
         return pictures
 
     def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
         """Yield each n-th tick with both views side by side, the robot's on the left."""
-        views: dict[int, Camera] = {}
-        for tick in range(0, recording.ticks, every):
+        for _, cameras in self._moments(recording, range(0, recording.ticks, every), ("robot", "human")):
+            yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in cameras.values()], axis=1)
+
+    def _moments(
+        self, recording: Recording, ticks: Iterable[int], views: Sequence[View]
+    ) -> Iterator[tuple[Moment, dict[View, Camera]]]:
+        """Each moment, while it is shown, and its cameras: the third person keeps its place during a shot."""
+        across: dict[int, Camera] = {}
+        for tick in ticks:
             index, within = recording.find(tick)
             shot = recording.shots[index]
-            if index not in views:
-                views[index] = self._view(recording, shot.at(shot.deed))
+            if "human" in views and index not in across:
+                across[index] = self._view(recording, shot)
             moment = shot.at(within)
             self.drawn.show(recording.state, moment)
-            eyes = (self._eyes(recording, moment), views[index])
-            yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in eyes], axis=1)
+            yield moment, {v: self._eyes(recording, moment) if v == "robot" else across[index] for v in views}
 
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
 
-    def _view(self, recording: Recording, moment: Moment) -> Camera:
-        self.drawn.show(recording.state, moment)
-        focus = self._focus(recording.person, moment.bodies[recording.person])
-        return view_camera(self.drawn, self.ground.scene, focus)
+    def _view(self, recording: Recording, shot: Shot) -> Camera:
+        """The third-person camera of who acts."""
+        who = recording.actor
+        moment = shot.at(shot.deed)
+        body = moment.bodies[who]
+        away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
+        self.stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
+        later = [shot.at(round(shot.came + share * (shot.ticks - shot.came))).bodies[who] for share in _MOMENTS]
+        return view_camera(self.stage, self.ground.scene, self._focus(moment.bodies, who, moment.held, later))
 
-    def _focus(self, who: AgentId, person: Placed) -> Focus:
-        """A person, and the furniture whose rectangle they are in: its hull would stop all rays to them."""
-        scene = self.ground.scene
-        return Focus(who, person, around(scene, person), scene.room_at(person.x, person.y).name)
+    def _focus(
+        self,
+        bodies: Mapping[AgentId, Placed],
+        who: AgentId,
+        held: Mapping[AgentId, Held] = _NOTHING,
+        later: Iterable[Placed] = (),
+    ) -> Focus:
+        """A body, and the people before it; other robots stop rays themselves."""
+        scene, placed = self.ground.scene, bodies[who]
+        robot = self.ground.robots.get(who)
+        body = person_body(placed, *later) if robot is None else robot_body(robot, placed)
+        others = tuple(person_body(bodies[one]) for one in self.ground.people if one != who)
+        ignore = dict.fromkeys((*around(scene, placed), *within(scene, body.points)))
+        things = tuple(thing.name for thing in held.values() if thing.name in self.stage.home.bodies)
+        return Focus(placed, body, tuple(ignore), scene.room_at(placed.x, placed.y).name, others, things)
+
+    def _names(self, recording: Recording, moment: Moment) -> list[Name]:
+        """What may be written into a picture: who is there, what they hold or put down, and the furniture near them."""
+        scene, drawn = self.ground.scene, self.drawn
+        handled = dict.fromkeys((*(held.name for held in moment.held.values()), *moment.moved))
+        names = [
+            Name(drawn.home.bodies[name], plain(self._class_of(recording, name)), small=True)
+            for name in handled
+            if name in drawn.home.bodies
+        ]
+        names += [Name(drawn.bodies[one], "person", small=True) for one in self.ground.people]
+        names += [Name(drawn.bodies[one], "robot", small=True) for one in self.ground.robots]
+        x, y, *_ = moment.bodies[recording.actor]
+        near = sorted((thing.bounds.distance(x, y), thing.name, thing.cls) for thing in scene.fixed)
+        return names + [Name(drawn.home.bodies[name], plain(cls)) for away, name, cls in near if away < _NEAR]
+
+    def _class_of(self, recording: Recording, name: str) -> str:
+        known, thing = recording.state.box.get(name), self.ground.scene.object(name)
+        return known.text if known is not None else thing.cls if thing is not None else name
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +190,6 @@ class Onlooker:
     robot: AgentId
     person: AgentId
 
-    def __call__(self, plan: Plan, deed: Placed, spot: Point) -> None:
+    def __call__(self, plan: Plan, deeds: Sequence[Placed], spot: Point) -> None:
         """Add to a plan the robot's drive to where it sees the person's act."""
-        self.watcher.watch(plan, self.robot, self.person, deed, spot)
+        self.watcher.watch(plan, self.robot, self.person, deeds, spot)

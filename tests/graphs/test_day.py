@@ -119,6 +119,35 @@ def test_the_robot_watches_only_the_first_task_and_the_person_does_the_rest(make
     assert "frames/day-00/hour-09/robot-0.webp" in robot
 
 
+def test_each_act_of_the_robot_is_kept_in_pictures_that_it_is_never_shown(
+    make_services: MakeServices, tmp_path: Path
+) -> None:
+    seen = []
+    for count in (0, 2):
+        home, answers = FakeHome(), type2_answers()
+        answers["human/tasks_type1"] = lambda v: {"tasks": [placing("book_1", "desk_1", 4, 1)]}
+        for node in ("profile", "scene"):
+            answers[f"human/reflect_{node}_type1"] = lambda v: reviewed()
+        answers["robot/tasks_type1"] = lambda v: {"tasks": [placing("mug_1", "desk_1", 5, 1)]}
+        ask, folder = ScriptedAsk(answers), tmp_path / str(count)
+        services = make_services(home=home, ask=ask, folder=folder, frames=2, help_frames=count)
+        plan = days(1, hours=1)[0].model_copy(update={"collab": 1})
+        build_day_graph().invoke(first_day(plan), context=services)
+        hours = services.recorder.read_day(0)
+        seen.append([hour.model_copy(update={"calls": []}) for hour in hours])
+        by_robot = [record for agent, _, record in home.performed if agent == "robot"]
+        assert by_robot
+        assert set(by_robot) == {count > 0}
+        for hour in hours:
+            assert hour.robot is not None
+            folder = services.recorder.frames_folder(0, hour.hour)
+            done = [n for n, one in enumerate(hour.robot.outcomes) if one.ok]
+            kept = {path.name for path in folder.glob("help-*")}
+            assert kept == {f"help-{n}-{k}.webp" for n in done for k in range(count)}
+            assert not any("help" in name for name in hour.robot.observation.frames)
+    assert seen[0] == seen[1]
+
+
 @pytest.mark.parametrize(("relation", "left"), [("inside", 0), ("on", 1)])
 def test_a_task_is_left_to_the_person_unless_the_robot_has_put_the_thing_in_or_on_as_they_want(
     make_services: MakeServices, relation: str, left: int

@@ -37,7 +37,7 @@ class Side(NamedTuple):
 
 
 class Row(NamedTuple):
-    """An hour of both runs; `same` says whether the person did the same, `gap` by how much the second's F1 is higher."""
+    """An hour of both runs."""
 
     day: int
     hour: int
@@ -103,7 +103,9 @@ def page(desk: Desk, left: Shelved, right: Shelved) -> dict[str, Any]:
         "days": days,
         "rows": rows,
         "differing": _differing(desk, left, right),
-        "need_by_day": {day: [need_of([one for one in of if one]).f1 for of in _columns(some)] for day, some in days.items()},
+        "need_by_day": {
+            day: [need_of([one for one in of if one]).f1 for of in _columns(some)] for day, some in days.items()
+        },
         "counts": Counter(name for row in rows for name in row.flags.split()),
     }
 
@@ -127,6 +129,7 @@ def hour_page(desk: Desk, left: Shelved, right: Shelved, day: int, hour: int) ->
     at = order.index((day, hour))
     return {
         "entries": (left, right),
+        "there": [one is not None for one in found],
         "day": day,
         "hour": hour,
         "line": found[0] or found[1],
@@ -219,7 +222,11 @@ def _asked(records: Sequence[HourRecord | None]) -> list[Asked]:
         one, other = (side.get(key) for side in sides)
         texts = [_text(call) for call in (one, other) if call]
         prompt = marked(*texts) if len(texts) == 2 and texts[0] != texts[1] else None
-        reply = marked(one.reply[:MOST_MARKED], other.reply[:MOST_MARKED]) if one and other and one.reply != other.reply else None
+        reply = (
+            marked(one.reply[:MOST_MARKED], other.reply[:MOST_MARKED])
+            if one and other and one.reply != other.reply
+            else None
+        )
         found.append(Asked(key[0], one, other, prompt, reply))
     return found
 

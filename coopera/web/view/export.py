@@ -28,9 +28,9 @@ MARK = "coopera-view.txt"
 class Exported(NamedTuple):
     """What was written."""
 
-    index: Path
+    start: Path
     pages: int
-    bytes: int
+    size: int
 
 
 def export(root: Path, out: Path) -> Exported:

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 from coopera.web.view.desk import Desk
 from coopera.web.view.shelf import Shelved
 
-
 MOST_PAIRS = 40
 """Pairs of runs that are written side by side; each is a page for every hour."""
 

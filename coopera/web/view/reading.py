@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, TypeVar
 
 from coopera.core.errors import CooperaError
 from coopera.core.hour import Evening, HourRecord
-from coopera.report.pictures import TYPES, is_of_the_run, pictures_of
+from coopera.report.pictures import TYPES, is_of_the_run, pictures_of, view_of
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import read_json, read_record
 from coopera.web.view.lines import trace_files
@@ -42,9 +42,9 @@ def read_all(run: RunDir) -> Readable:
             found.hours.append(hour)
     for day in dict.fromkeys(days):
         path = run.evening_file(day)
-        if path.is_file() and not path.is_symlink():
-            if (evening := try_read(path, Evening, run.root, found.problems)) is not None:
-                found.evenings.append(evening)
+        there = path.is_file() and not path.is_symlink()
+        if there and (evening := try_read(path, Evening, run.root, found.problems)) is not None:
+            found.evenings.append(evening)
     return found
 
 
@@ -71,18 +71,16 @@ def poses_of(path: Path) -> Mapping[str, Any] | None:
     return found if isinstance(found, dict) else None
 
 
-def picture_views(
-    root: Path, record: HourRecord, link: Callable[[str], str]
-) -> tuple[dict[str, list[str]], list[str]]:
+def picture_views(root: Path, record: HourRecord, link: Callable[[str], str]) -> tuple[dict[str, list[str]], list[str]]:
     """The addresses of an hour's pictures by view, and a sentence where files of pictures are missing."""
     views: dict[str, list[str]] = {}
     missing = []
     for name in pictures_of(root, record):
-        path = Path(name)
+        path = PurePosixPath(name)
         if path.suffix not in TYPES or not is_of_the_run(root / path, root):
             missing.append(path.name)
             continue
-        views.setdefault(path.stem.partition("-")[0], []).append(link(name))
+        views.setdefault(view_of(path), []).append(link(name))
     if not missing:
         return views, []
     some = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")

@@ -125,9 +125,8 @@ class Shelf:
 
     def _places(self) -> Iterator[tuple[Path, str]]:
         """Folders that are a run or a benchmark, with what they are, in order of their names."""
-        looked = found = 0
-        for here, folders, _ in os.walk(self.root):
-            looked += 1
+        found = 0
+        for looked, (here, folders, _) in enumerate(os.walk(self.root), 1):
             path = Path(here)
             kind = _kind(path)
             deep = len(path.relative_to(self.root).parts)
@@ -289,4 +288,3 @@ def _planned(config: Config) -> int | None:
 def _short(err: CooperaError, root: Path) -> str:
     """An error's sentence without the path, which the reader sees anyway."""
     return str(err).replace(f"{root}{os.sep}", "")[:500]
-

@@ -78,7 +78,9 @@ class Site:
             case ("run", key, *rest) if (entry := self.desk.shelf.find(key, "run")) is not None:
                 return self._run(entry, tuple(rest))
             case ("benchmark", key, "index.html") if (entry := self.desk.shelf.find(key, "benchmark")) is not None:
-                return self._page(f"benchmark/{key}/{INDEX}", "benchmark_view.html.j2", benchmark.page(self.desk, entry))
+                return self._page(
+                    f"benchmark/{key}/{INDEX}", "benchmark_view.html.j2", benchmark.page(self.desk, entry)
+                )
             case ("compare", one, other, *rest):
                 return self._compare(one, other, tuple(rest))
             case _:
@@ -103,7 +105,7 @@ class Site:
                 return self._page(here, "hour.html.j2", hour.page(self.desk, entry, *place))
             case ("trace", day, name) if name.endswith(".json"):
                 return _file(entry.root, ("trace", day, name), "application/json")
-            case ("frames", *names) if (kind := TYPES.get(PurePosixPath(names[-1]).suffix if names else "")):
+            case ("frames", *names) if kind := TYPES.get(PurePosixPath(names[-1]).suffix if names else ""):
                 return _file(entry.root, rest, kind)
             case _:
                 return None
@@ -124,7 +126,13 @@ class Site:
             return None
         links = Links(here, self.pages.static)
         text = self.pages.environment.get_template(template).render(
-            **{"link": links, "static": links.static, "files": self.desk.files, "form_token": "", "root": self.desk.shelf.root.name},
+            **{
+                "link": links,
+                "static": links.static,
+                "files": self.desk.files,
+                "form_token": "",
+                "root": self.desk.shelf.root.name,
+            },
             **{name: value(links) if isinstance(value, Late) else value for name, value in made.items()},
         )
         return Answer("text/html", text.encode())

@@ -165,6 +165,20 @@ def test_a_page_with_more_text_than_expected_carries_fewer_pictures(
     assert "pictures per view 3 are shown here" in (run.root / "report.html").read_text()
 
 
+def test_the_page_shows_the_robot_at_work_beside_the_words_of_its_act(tmp_path: Path) -> None:
+    run = fake_run(tmp_path / "run", days=1, hours=3, frames=1)
+    hour = next(one for one in run.hours() if one.robot and one.robot.outcomes)
+    folder = run.root / f"frames/day-00/hour-{hour.hour:02d}"
+    assert "the robot at work" not in write_report(run).read_text()
+    for name in ("help-0-0.webp", "help-0-1.webp", "help-x-1.webp"):
+        (folder / name).write_bytes((folder / "human-0.webp").read_bytes())
+    page = write_report(run).read_text()
+    assert page.count("the robot at work, moment") == 2
+    assert hour.robot is not None
+    before = page[: page.index("the robot at work, moment 1")]
+    assert hour.robot.outcomes[0].act.describe() in before[before.rindex("<li>") :]
+
+
 def test_curves_leave_out_what_has_no_figure() -> None:
     curve = charts.lines([charts.Series("predicate", "predicate", [0.25, None, 1.0], True)], ["a", "b", "<c>"])
     assert curve.count("<circle") == 2

@@ -124,7 +124,13 @@ def test_an_hour_is_complete(client: TestClient, folder: Path) -> None:
     for candidate in record.robot.tasks:
         wanted += [candidate.act.describe(), f"{candidate.probability:.2f}"]
     for call in record.calls:
-        wanted += [call.messages[0]["content"], call.reply, call.node, call.prompt, f"{call.tokens_in} + {call.tokens_out} tokens"]
+        wanted += [
+            call.messages[0]["content"],
+            call.reply,
+            call.node,
+            call.prompt,
+            f"{call.tokens_in} + {call.tokens_out} tokens",
+        ]
     assert [one for one in wanted if one not in page.text] == []
     assert {"del", "ins"} <= set(page.tags)  # what the reflection changed
     assert sum(link.endswith(".webp") for link in page.links) == 4
@@ -219,7 +225,13 @@ def test_a_trace_cut_in_the_middle_is_told_and_the_rest_is_shown(one: Path) -> N
 
 def test_values_that_no_trace_has_make_a_line_that_says_so(one: Path) -> None:
     path = one / "trace" / "day-00" / "hour-10.json"
-    for text in ("[]", '{"status": 3}', "null", "[" * 100_000, '{"status":"ok","person":1,"success":{"predicate":[1]}}'):
+    for text in (
+        "[]",
+        '{"status": 3}',
+        "null",
+        "[" * 100_000,
+        '{"status":"ok","person":1,"success":{"predicate":[1]}}',
+    ):
         path.write_text(text)
         assert "1 of 3 hours cannot be read" in shown(one.parent, "run/one/index.html")
         assert "hour-10.json" in shown(one.parent, "run/one/day-00/hour-10.html")
@@ -241,12 +253,14 @@ def test_a_missing_frame_is_told_and_the_others_are_shown(one: Path) -> None:
     assert "frames/day-00/hour-10/human-0.webp" in text
 
 
-def test_pictures_of_the_robots_help_are_shown_where_there_are_any(one: Path) -> None:
-    frames = one / "frames" / "day-00" / "hour-10"
-    shutil.copy(frames / "robot-0.webp", frames / "help-0.webp")
-    text = shown(one.parent, "run/one/day-00/hour-10.html")
-    assert "frames/day-00/hour-10/help-0.webp" in text
-    assert "the robot’s help" in text
+def test_pictures_of_the_robots_help_stand_beside_its_acts(one: Path) -> None:
+    hour = next(record for record in RunDir.open(one).hours() if record.robot and len(record.robot.outcomes) > 1)
+    frames = one / "frames" / "day-00" / f"hour-{hour.hour:02d}"
+    shutil.copy(frames / "robot-0.webp", frames / "help-1-0.webp")
+    text = shown(one.parent, f"run/one/day-00/hour-{hour.hour:02d}.html")
+    assert hour.robot is not None
+    act = hour.robot.outcomes[1].act.describe()
+    assert re.search(rf"<b>{act}</b>(?:(?!<b>).)*help-1-0.webp", text, re.DOTALL)
 
 
 @pytest.mark.parametrize(
@@ -279,7 +293,7 @@ def test_nothing_outside_a_run_is_handed_out(one: Path, address: str) -> None:
 
 
 def test_others_on_the_network_need_the_token_and_a_foreign_name_is_refused(folder: Path) -> None:
-    door = Door.opened("0.0.0.0", 8765)  # noqa: S104
+    door = Door.opened("0.0.0.0", 8765)
     client = TestClient(viewer(folder, door), base_url="http://127.0.0.1:8765")
     assert client.get("/index.html").status_code == 403
     assert client.get("/run/first/index.html", headers={"cookie": f"{door.cookie}={door.token}"}).status_code == 200
@@ -305,7 +319,7 @@ def test_written_as_files_every_link_leads_to_a_file(one: Path, tmp_path: Path) 
     folder = one.parent
     made = export(folder, tmp_path / "out")
     assert (tmp_path / "out" / "compare" / "one" / "other" / "day-00" / "hour-09.html").is_file()
-    assert made.index == tmp_path / "out" / "index.html"
+    assert made.start == tmp_path / "out" / "index.html"
     pages = sorted((tmp_path / "out").rglob("*.html"))
     assert len(pages) == made.pages
     for path in pages:

@@ -1,4 +1,4 @@
-"""The viewer in a real browser: walking by keys, two runs side by side, a run that grows, prompts, and a page from a file."""
+"""The viewer in a real browser: keys, two runs side by side, a run that grows, prompts, and pages from files."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from coopera.rundir.directory import RunDir
 from coopera.web.common import Door, served
 from coopera.web.view.app import viewer
 from coopera.web.view.export import export
-from tests.browser import browsing, needs_browser
+from tests.coopera.web.browser import browsing, needs_browser
 from tests.coopera.fake_run import fake_run
 
 pytestmark = [needs_browser, pytest.mark.slow]
@@ -129,7 +129,7 @@ def test_the_report_of_a_run_and_the_written_pages_open_from_files(tmp_path: Pat
     root = tmp_path / "runs" / "one"
     fake_run(root, days=1, hours=3, frames=2)
     report = write_report(RunDir.open(root))
-    index = export(root.parent, tmp_path / "out").index
+    index = export(root.parent, tmp_path / "out").start
     with browsing() as seen:
         page = seen.page
         page.goto(report.as_uri())

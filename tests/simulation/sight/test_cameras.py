@@ -33,7 +33,7 @@ def persons_share(world: World, tick: int) -> tuple[float, float]:
     """Share of the pixels of the robot's and of the third-person picture that show the person."""
     watcher, recording = world._watcher, world._recording
     index, within = recording.find(tick)
-    camera = watcher._view(recording, recording.shots[index].at(recording.shots[index].deed))
+    camera = watcher._view(recording, recording.shots[index])
     moment = recording.shots[index].at(within)
     stage = watcher.drawn
     stage.show(recording.state, moment)

@@ -31,7 +31,7 @@ class Watched:
 @contextmanager
 def browsing(**how: Any) -> Iterator[Watched]:
     """A page of a browser; after the test it must have had no error and asked nothing of another machine."""
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - it may not be there
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
