@@ -42,8 +42,9 @@ def _context() -> tuple[Any, str]:
     try:
         import moderngl  # noqa: PLC0415 - it is looked for here only
 
+        os.environ.setdefault("EGL_LOG_LEVEL", "fatal")  # what is wrong is said in a sentence
         make: Any = moderngl.create_context
-        context = make(standalone=True, backend="egl", require=_LEAST)
+        context: Any = make(standalone=True, backend="egl", require=_LEAST)
     except ImportError as err:
         return None, f"moderngl cannot be imported ({err}): pip install moderngl"
     except Exception as err:  # noqa: BLE001 - moderngl raises bare Exception

@@ -63,7 +63,9 @@ def shell(scene: Scene, room: Room, walls: Sequence[Wall]) -> Shell:
         for x, y, along in faces_of(room, wall):
             half = (along / 2, WALL_THICKNESS / 4) if wall.axis == "x" else (WALL_THICKNESS / 4, along / 2)
             middle = WALL_HEIGHT / 2
-            low.append(("wall", _slab((x, y, middle), (*half, middle), paint, side, 2 if side == Material.PAINT else 0)))
+            low.append(
+                ("wall", _slab((x, y, middle), (*half, middle), paint, side, 2 if side == Material.PAINT else 0))
+            )
             if room.kind not in _TILED:
                 board = (half[0] + 0.006, half[1] + 0.006, _SKIRTING / 2)
                 low.append(("wall", _slab((x, y, _SKIRTING / 2), board, shade(WHITE, 0.97), Material.PLAIN, 0)))

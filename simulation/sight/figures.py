@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.bodies.appearance import Appearance, Outfit
+from coopera.simulation.bodies.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.bodies.skin import MATERIALS, Skin, posed, skinned
@@ -33,18 +34,19 @@ _MADE_OF = {
 class Person:
     """One person in a scenery."""
 
-    def __init__(self, scenery: Scenery, agent: AgentId, body: int, looks: Appearance) -> None:
-        """Bring a person in, out of sight."""
+    def __init__(self, scenery: Scenery, agent: AgentId, body: int, looks: Mapping[AgentId, Appearance]) -> None:
+        """Bring a person in, out of sight; who is not in `looks` looks as the id has it."""
         self._scenery, self._agent, self._body, self._looks = scenery, agent, body, looks
         self._skin: Skin | None = None
         self._placed: tuple[Any, ...] = ()
 
     def put(self, person: Placed, outfit: Outfit = "day") -> None:
         """Show the person in a posture and clothes."""
-        placed = (person.x, person.y, person.yaw, person.pose.tobytes(), outfit)
+        looks = self._looks.get(self._agent) or appearance_of("", self._agent)
+        placed = (person.x, person.y, person.yaw, person.pose.tobytes(), outfit, id(looks))
         if placed == self._placed:
             return
-        skin = skinned(self._looks, outfit)
+        skin = skinned(looks, outfit)
         if skin is not self._skin:
             self._scenery.remove(self._agent)
             self._scenery.add(self._agent, _mesh(skin), self._body, "person")

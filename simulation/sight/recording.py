@@ -19,6 +19,7 @@ from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
 from coopera.simulation.acts.workplace import working
+from coopera.simulation.bodies.appearance import Outfit, outfit_for
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
@@ -48,7 +49,8 @@ class Held(NamedTuple):
 class Moment(NamedTuple):
     """One tick: everybody's body, what those hold who hold something, and the things that were moved by then.
 
-    `worn` is what people wear, `opened` which furniture is open.
+    `worn` is what people wear of the home's things, `opened` which furniture is open, `outfits` the clothes of those
+    who are not dressed as by day.
     """
 
     bodies: Mapping[AgentId, Placed]
@@ -56,6 +58,7 @@ class Moment(NamedTuple):
     moved: Mapping[str, ThingState]
     worn: Mapping[AgentId, tuple[str, ...]] = MappingProxyType({})
     opened: frozenset[str] = frozenset()
+    outfits: Mapping[AgentId, Outfit] = MappingProxyType({})
 
 
 @dataclass(slots=True)
@@ -119,6 +122,8 @@ class Filming:
         self.moved: Mapping[str, ThingState] = {}
         self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
         self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
+        people = {agent: body for agent, body in start.agents.items() if isinstance(body, PersonState)}
+        self.outfits = {agent: outfit_for(body.motion, body.at) for agent, body in people.items()}
         self.recording = Recording(start, robot, person)
         self._walk: Walk | None = None
         self._actor = person
@@ -148,6 +153,7 @@ class Filming:
         before = self.bodies[step.agent]
         pose = self._idle(step.agent, holds=False)
         self.bodies[step.agent] = Placed(*step.points[-1], before.yaw if yaw is None else yaw, pose)
+        self.outfits.pop(step.agent, None)
         if step.agent == self._actor:
             self._walk = step
             if step.carries:
@@ -231,6 +237,7 @@ class Filming:
         setting, grip = working(self.ground.scene, self.recording.state, person, motion, self.moved)
         held = Held(person.thing, grip) if person.thing else None
         carried = Held(person.thing) if person.thing else None
+        self.outfits = {**self.outfits, agent: outfit_for(motion.caption, person.at)}
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
@@ -303,13 +310,14 @@ class Filming:
     def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
         bodies, all_held, worn, opened = dict(self.bodies), dict(self.held), dict(self.worn), self.opened
+        outfits = dict(self.outfits)
         robot, person = self.recording.robot, self.recording.person
 
         def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
             now = {**bodies, agent: body}
             if agent != robot:
                 now[robot] = watching(self.robots[robot], now[robot], now[person])
-            return Moment(now, _with(all_held, agent, held), moved, worn, opened)
+            return Moment(now, _with(all_held, agent, held), moved, worn, opened, outfits)
 
         return moment
 

@@ -13,24 +13,29 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
 from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_renderer  # isort: split
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.bodies.appearance import Appearance, appearance_of
+from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.renderer import Renderer as Drawer
 from coopera.simulation.drawing.renderer import bodies_of
+from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
-from coopera.simulation.sight.build import build, staged  # after the engine: whoever imports pybullet first makes it print
+from coopera.simulation.sight.build import (
+    build,
+    staged,
+)  # after the engine: whoever imports pybullet first makes it print
 from coopera.simulation.sight.figures import Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
@@ -39,6 +44,7 @@ BODIES = Path(__file__).parents[1] / "bodies"
 _AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
 _NEAR, _FAR = 0.05, 30.0
+_OPEN = ":open"
 Image = NDArray[np.uint8]
 __all__ = ["Camera", "Image", "Stage"]
 
@@ -56,7 +62,7 @@ class Stage:
     ) -> None:
         """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone.
 
-        `looks` says how each of the people looks; who is not in it looks as the id has it.
+        `looks` says how each of the people now looks; who is not in it looks as the id has it.
         """
         self.scene, self.robots = scene, robots
         name = None if renderer is None else chosen(renderer)
@@ -75,11 +81,8 @@ class Stage:
         self._figures: dict[AgentId, Robot] = {}
         if name == "gl":
             scenery = staged(self.home, scene)
-            looks = looks or {}
-            self._people = {
-                agent: Person(scenery, agent, self.bodies[agent], looks.get(agent) or appearance_of("", agent))
-                for agent in people
-            }
+            looks = {} if looks is None else looks
+            self._people = {agent: Person(scenery, agent, self.bodies[agent], looks) for agent in people}
             self._figures = {
                 agent: Robot(scenery, agent, self.bodies[agent], self.client, body) for agent, body in robots.items()
             }
@@ -115,7 +118,7 @@ class Stage:
             else:
                 self._put_person(agent, placed)
             if agent in self._people:
-                self._people[agent].put(placed)
+                self._people[agent].put(placed, moment.outfits.get(agent, "day"))
             elif agent in self._figures:
                 self._figures[agent].put(placed)
         self._unused, self._carried = self._carried, set()
@@ -269,6 +272,19 @@ class Stage:
             hits += [hit[0] for hit in found]
         return np.array(hits, dtype=np.int64)
 
+    def view(self, camera: Camera, size: tuple[int, int]) -> View:
+        """All that a camera sees, as data.
+
+        Raises:
+            ConfigError: If this stage has another renderer than our own.
+        """
+        if self.drawer is None:
+            raise ConfigError("renderer: depth and segmentation are drawn by gl alone.")
+        names = {body: name for name, body in self.home.rooms.items()}
+        names |= {body: name.removesuffix(_OPEN) for name, body in self.home.bodies.items()}
+        names |= {body: str(agent) for agent, body in self.bodies.items()}
+        return self.drawer.view(camera, size, names)
+
     def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
         """The colours of a picture alone, (height, width, 3)."""
         return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
@@ -301,7 +317,7 @@ class Stage:
 
 
 def _door(name: str) -> str:
-    return f"{name}:open"
+    return name + _OPEN
 
 
 def _looks(state: HomeState, thing: SceneObject) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
+from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
@@ -21,11 +22,13 @@ from coopera.simulation.sight.stage import Camera, Image, Stage
 class Watcher:
     """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
 
-    def __init__(self, ground: Ground, renderer: Renderer = "auto") -> None:
+    def __init__(
+        self, ground: Ground, renderer: Renderer = "auto", looks: Mapping[AgentId, Appearance] | None = None
+    ) -> None:
         """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
         self.ground = ground
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
-        self._renderer = renderer
+        self._renderer, self._looks = renderer, looks
         self._drawn: Stage | None = None
 
     def close(self) -> None:
@@ -38,7 +41,7 @@ class Watcher:
     def drawn(self) -> Stage:
         """The stage that pictures are taken of."""
         if self._drawn is None:
-            self._drawn = Stage(self.ground.scene, self.ground.people, self.ground.robots, self._renderer)
+            self._drawn = Stage(self.ground.scene, self.ground.people, self.ground.robots, self._renderer, self._looks)
         return self._drawn
 
     def watch(self, plan: Plan, robot: AgentId, who: AgentId, deed: Placed, spot: Point) -> None:
