@@ -66,7 +66,7 @@ HairStyle: TypeAlias = Literal["bald", "ring", "cropped", "short", "parted", "bo
 HairColour: TypeAlias = Literal["black", "dark brown", "brown", "light brown", "blond", "red", "grey", "white"]
 SkinTone: TypeAlias = Literal["pale", "fair", "light", "tan", "olive", "brown", "dark", "deep"]
 Build: TypeAlias = Literal["slim", "medium", "broad"]
-Beard: TypeAlias = Literal["none", "moustache", "goatee", "full"]
+Beard: TypeAlias = Literal["shaven", "moustache", "goatee", "full"]
 
 
 class Looks(Frozen):

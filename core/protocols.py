@@ -10,7 +10,7 @@ import numpy as np
 
 from coopera.core.hour import Evening, Example, HourRecord, ModelCall
 from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, SceneId
-from coopera.core.people import Frozen
+from coopera.core.people import Frozen, Persona
 from coopera.core.randomness import Address
 
 Reply = TypeVar("Reply", bound=Frozen)
@@ -145,6 +145,10 @@ class Home(Protocol):
 
     def film(self, path: Path) -> Path:
         """Write the recording as a video file."""
+        ...
+
+    def inhabit(self, agent: AgentId, person: Persona) -> None:
+        """Draw a person of the home as somebody from now on; nothing but pictures changes."""
         ...
 
     def snapshot(self) -> dict[str, Any]:

@@ -107,6 +107,7 @@ def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     forget_ahead(services, plan, [plan.person])
     services.pupil.be_at(state["learned"])
     services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
+    services.home(plan.scene).inhabit(services.human_agent, services.people[plan.person])
     services.ask.take_calls()
     runtime.stream_writer({"day": plan.day, "hour": plan.hours[position], "node": "hour", "success": None})
     belief = state["beliefs"].get(plan.person, Belief())

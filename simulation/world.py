@@ -13,6 +13,7 @@ from PIL import Image
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
 from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.people import Persona
 from coopera.simulation.acts import primitives
 from coopera.simulation.acts.activity import free_motion, stay
 from coopera.simulation.acts.first_places import first_states
@@ -21,7 +22,6 @@ from coopera.simulation.acts.meaning import misfit
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
 from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
@@ -30,13 +30,14 @@ from coopera.simulation.drawing.view import View
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
+from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
 from coopera.simulation.sight.video import FPS, WEBP, write_video
 from coopera.simulation.sight.views import view
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
-from coopera.simulation.state.home_state import HomeState, room_of_thing
+from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
@@ -85,8 +86,6 @@ class World:
         self.scene = scene.id
         self.frame_size = frame_size
         self.renderer = renderer
-        self.looks: dict[AgentId, Appearance] = {}
-        """How people look; who is not in it looks as the id has it."""
         self.errors = errors or PerceptErrors()
         self.layout = scene
         self._library: Library = motions or load_library()
@@ -95,6 +94,8 @@ class World:
         room = Elbowroom(scene)
         self._ground = Ground(scene, Navigator(scene), self._library, people, robots, room, match)
         self.state = self._start = HomeState(scene=self.scene, agents=first_states(self._ground, agents))
+        self.looks = {one.id: one.looks for one in agents if isinstance(one, PersonAgent) and one.looks is not None}
+        """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
 
@@ -134,14 +135,7 @@ class World:
 
         What somebody holds or wears, and what is inside something, is not in it.
         """
-        things = list(self.layout.fixed)
-        for thing in self.state.objects(self.layout):
-            where = self.state.thing(thing)
-            if self.state.bearer(thing.name) is None and where.inside is None:
-                room = room_of_thing(self.layout, self.state, thing)
-                change = {"position": where.position, "yaw": where.yaw, "on": where.on, "room": room}
-                things.append(thing.model_copy(update=change))
-        return self.layout.model_copy(update={"objects": sorted(things, key=lambda thing: thing.id)})
+        return standing_now(self.layout, self.state)
 
     def class_of(self, name: str) -> str:
         """The object's class, such as "mug" for "mug_2"; a name not in the scene is its own class."""
@@ -361,6 +355,10 @@ class World:
         if self._recording is None or not self._recording.shots:
             raise SimulationError("Nothing has been recorded: call perform with record=True first, and see it succeed.")
         return self._recording
+
+    def inhabit(self, agent: AgentId, person: Persona) -> None:
+        """Draw a person of the home as somebody from now on; nothing but pictures changes."""
+        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""

@@ -58,6 +58,7 @@ class FakeHome:
         self._built = dict(self.movable)
         self.performed: list[tuple[AgentId, Act, bool]] = []
         self.broken: set[str] = set()
+        self.inhabitants: list[tuple[AgentId, PersonId]] = []
         self.said: dict[str, str] = {}
         self.unfit: set[tuple[str, str]] = set()
 
@@ -113,6 +114,9 @@ class FakeHome:
         for path in paths:
             path.write_bytes(b"picture")
         return paths
+
+    def inhabit(self, agent: AgentId, person: Persona) -> None:
+        self.inhabitants.append((agent, person.id))
 
     def snapshot(self) -> dict[str, Any]:
         return {"movable": {name: list(place) for name, place in self.movable.items()}}

@@ -13,7 +13,7 @@ from typing import NamedTuple, TypeAlias
 
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.hour import HourRecord
-from coopera.core.household import Outcome, SceneId
+from coopera.core.household import HUMAN, Outcome, SceneId
 from coopera.rundir.directory import RunDir
 from coopera.rundir.trace_files import human_outcomes
 from coopera.simulation import World
@@ -61,7 +61,7 @@ def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> I
     if not records:
         raise RunError(f"{run.root}: there are no hours to replay yet.")
     homes: dict[SceneId, World] = {}
-    episode = None
+    episode, people = None, run.people()
     with open_embeddings(run.config) as embeddings, ExitStack() as stack:
         for record in records:
             if record.episode != episode:
@@ -71,6 +71,8 @@ def replay(run: RunDir, look: Look | None = None, each: Each | None = None) -> I
             if record.scene not in homes:
                 home = open_home(run.config, record.scene, embeddings, run.root)
                 homes[record.scene] = stack.enter_context(home)
+            if record.person in people:
+                homes[record.scene].inhabit(HUMAN, people[record.person])
             yield _hour(homes[record.scene], record, look, each)
 
 

@@ -31,7 +31,8 @@ class _Drawer:
     def __init__(self, *, forked: bool) -> None:
         self.process = os.getpid()
         self.pool = ThreadPoolExecutor(1, thread_name_prefix="drawing")
-        self.context, self.problem = (None, _FORKED) if forked else self.pool.submit(_context).result()
+        found: tuple[Any, str] = (None, _FORKED) if forked else self.pool.submit(_context).result()
+        self.context, self.problem = found
 
 
 _drawers: list[_Drawer] = []

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Placed
-from coopera.simulation.bodies.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.bodies.humanoid import forward
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.bodies.skin import MATERIALS, Skin, posed, skinned
 from coopera.simulation.drawing.geometry import Mesh
 from coopera.simulation.drawing.materials import Material
 from coopera.simulation.drawing.robots import links_of
 from coopera.simulation.drawing.scenery import Scenery
+from coopera.simulation.people.appearance import Appearance, Outfit
+from coopera.simulation.people.paints import PAINTS, painted
+from coopera.simulation.people.palettes import Colour
+from coopera.simulation.people.skin import MATERIALS, Skin, posed, skinned
 from coopera.simulation.shapes.rotations import about_z, matrix
 from coopera.simulation.sight.engine import pybullet
 
@@ -34,19 +35,18 @@ _MADE_OF = {
 class Person:
     """One person in a scenery."""
 
-    def __init__(self, scenery: Scenery, agent: AgentId, body: int, looks: Mapping[AgentId, Appearance]) -> None:
-        """Bring a person in, out of sight; who is not in `looks` looks as the id has it."""
-        self._scenery, self._agent, self._body, self._looks = scenery, agent, body, looks
+    def __init__(self, scenery: Scenery, agent: AgentId, body: int) -> None:
+        """Bring a person in, out of sight."""
+        self._scenery, self._agent, self._body = scenery, agent, body
         self._skin: Skin | None = None
         self._placed: tuple[Any, ...] = ()
 
-    def put(self, person: Placed, outfit: Outfit = "day") -> None:
-        """Show the person in a posture and clothes."""
-        looks = self._looks.get(self._agent) or appearance_of("", self._agent)
-        placed = (person.x, person.y, person.yaw, person.pose.tobytes(), outfit, id(looks))
+    def put(self, person: Placed, looks: Appearance, outfit: Outfit = "day") -> None:
+        """Show the person in a posture, as somebody, and in clothes."""
+        skin = skinned(looks, outfit)
+        placed = (person.x, person.y, person.yaw, person.pose.tobytes(), id(skin))
         if placed == self._placed:
             return
-        skin = skinned(looks, outfit)
         if skin is not self._skin:
             self._scenery.remove(self._agent)
             self._scenery.add(self._agent, _mesh(skin), self._body, "person")
@@ -62,6 +62,32 @@ def _mesh(skin: Skin) -> Mesh:
     made = np.array([_MADE_OF[name] for name in MATERIALS], dtype=np.uint8)
     uv = np.stack((skin.vertices[:, 2], skin.vertices[:, 0] + skin.vertices[:, 1]), axis=1)
     return Mesh(skin.vertices, skin.normals, uv, skin.colours, made[skin.material], skin.faces)
+
+
+class Balls:
+    """One person as pybullet draws people: of balls and rods, in their own colours."""
+
+    def __init__(self, body: int, client: int) -> None:
+        """Take a person's body."""
+        self._body, self._client = body, client
+        materials = {colour: name for name, colour in PAINTS.items()}
+        shapes: dict[int, int] = {}
+        self._paints: list[tuple[int, int, str]] = []
+        for shape in pybullet.getVisualShapeData(body, physicsClientId=client):
+            link, colour = shape[1], tuple(round(value, 2) for value in shape[7][:3])
+            number = shapes[link] = shapes.get(link, -1) + 1
+            self._paints.append((link, number, materials[colour]))
+        self._painted: dict[str, Colour] = {}
+
+    def put(self, looks: Appearance, outfit: Outfit = "day") -> None:
+        """Show the person as somebody and in clothes; pybullet has their posture."""
+        paints = painted(looks, outfit)
+        if paints == self._painted:
+            return
+        for link, number, material in self._paints:
+            colour = [*paints[material], 1.0]
+            pybullet.changeVisualShape(self._body, link, number, rgbaColor=colour, physicsClientId=self._client)
+        self._painted = paints
 
 
 class Robot:

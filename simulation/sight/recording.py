@@ -19,12 +19,12 @@ from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
 from coopera.simulation.acts.workplace import working
-from coopera.simulation.bodies.appearance import Outfit, outfit_for
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
+from coopera.simulation.people.appearance import Outfit, outfit_for
 from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 from coopera.simulation.sight.walks import Track, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
@@ -49,8 +49,8 @@ class Held(NamedTuple):
 class Moment(NamedTuple):
     """One tick: everybody's body, what those hold who hold something, and the things that were moved by then.
 
-    `worn` is what people wear of the home's things, `opened` which furniture is open, `outfits` the clothes of those
-    who are not dressed as by day.
+    `worn` is what people have put on, `opened` which furniture is open. `outfits` is how those are dressed who are not
+    dressed for the day; it is drawn, and nothing else knows of it.
     """
 
     bodies: Mapping[AgentId, Placed]
@@ -122,9 +122,8 @@ class Filming:
         self.moved: Mapping[str, ThingState] = {}
         self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
         self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
-        people = {agent: body for agent, body in start.agents.items() if isinstance(body, PersonState)}
-        self.outfits = {agent: outfit_for(body.motion, body.at) for agent, body in people.items()}
         self.recording = Recording(start, robot, person)
+        self._outfits = {agent: _outfit(body) for agent, body in start.agents.items() if isinstance(body, PersonState)}
         self._walk: Walk | None = None
         self._actor = person
 
@@ -148,12 +147,15 @@ class Filming:
                 self._give(step)
         return self.recording
 
+    def now(self) -> Moment:
+        """Everybody and everything as they are after what was filmed so far."""
+        return Moment(dict(self.bodies), dict(self.held), self.moved, dict(self.worn), self.opened, dict(self._outfits))
+
     def _go(self, step: Walk) -> None:
         yaw = Track.along(step.points).heading(math.inf)
         before = self.bodies[step.agent]
         pose = self._idle(step.agent, holds=False)
         self.bodies[step.agent] = Placed(*step.points[-1], before.yaw if yaw is None else yaw, pose)
-        self.outfits.pop(step.agent, None)
         if step.agent == self._actor:
             self._walk = step
             if step.carries:
@@ -237,11 +239,13 @@ class Filming:
         setting, grip = working(self.ground.scene, self.recording.state, person, motion, self.moved)
         held = Held(person.thing, grip) if person.thing else None
         carried = Held(person.thing) if person.thing else None
-        self.outfits = {**self.outfits, agent: outfit_for(motion.caption, person.at)}
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
-        moved = self.moved
+        moved, outfit = self.moved, _outfit(person)
+
+        def dressed(moment: Moment) -> Moment:
+            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -250,10 +254,10 @@ class Filming:
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
                 return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
-            return others(body, held, moved)
+            return dressed(others(body, held, moved))
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2))
-        self.worn = {**self.worn, agent: person.worn}
+        self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
 
     def _dress(self, step: Dress) -> None:
@@ -310,7 +314,7 @@ class Filming:
     def _frozen(self, agent: AgentId) -> Callable[[Placed, Held | None, Mapping[str, ThingState]], Moment]:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
         bodies, all_held, worn, opened = dict(self.bodies), dict(self.held), dict(self.worn), self.opened
-        outfits = dict(self.outfits)
+        outfits = {one: outfit for one, outfit in self._outfits.items() if one != agent}
         robot, person = self.recording.robot, self.recording.person
 
         def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
@@ -335,6 +339,11 @@ class Filming:
         self.moved = moved
         self.bodies[agent] = body
         self.held = _with(self.held, agent, held)
+
+
+def _outfit(body: PersonState) -> Outfit:
+    """How a person is dressed for what they do."""
+    return outfit_for(body.motion, body.at)
 
 
 def _holds(ground: Ground, state: HomeState, body: PersonState | RobotState) -> Held:

@@ -19,7 +19,6 @@ from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_re
 
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import Renderer, chosen
@@ -31,12 +30,10 @@ from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
+from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
-from coopera.simulation.sight.build import (
-    build,
-    staged,
-)  # after the engine: whoever imports pybullet first makes it print
-from coopera.simulation.sight.figures import Person, Robot
+from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print
+from coopera.simulation.sight.figures import Balls, Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
 
@@ -62,7 +59,7 @@ class Stage:
     ) -> None:
         """Build the home, its people and its robots: about 0.3 s, or 0.05 s without a renderer, for rays alone.
 
-        `looks` says how each of the people now looks; who is not in it looks as the id has it.
+        `looks` says how people look, and may change; who is not in it looks as the id has it.
         """
         self.scene, self.robots = scene, robots
         name = None if renderer is None else chosen(renderer)
@@ -78,11 +75,14 @@ class Stage:
         self.drawer: Drawer | None = None
         """Our own renderer, where that is the one."""
         self._people: dict[AgentId, Person] = {}
+        self._balls: dict[AgentId, Balls] = {}
         self._figures: dict[AgentId, Robot] = {}
+        self._looks = {} if looks is None else looks
+        if drawn:
+            self._balls = {agent: Balls(self.bodies[agent], self.client) for agent in people}
         if name == "gl":
             scenery = staged(self.home, scene)
-            looks = {} if looks is None else looks
-            self._people = {agent: Person(scenery, agent, self.bodies[agent], looks) for agent in people}
+            self._people = {agent: Person(scenery, agent, self.bodies[agent]) for agent in people}
             self._figures = {
                 agent: Robot(scenery, agent, self.bodies[agent], self.client, body) for agent, body in robots.items()
             }
@@ -118,7 +118,9 @@ class Stage:
             else:
                 self._put_person(agent, placed)
             if agent in self._people:
-                self._people[agent].put(placed, moment.outfits.get(agent, "day"))
+                self._people[agent].put(placed, *self._dressed(moment, agent))
+            elif agent in self._balls:
+                self._balls[agent].put(*self._dressed(moment, agent))
             elif agent in self._figures:
                 self._figures[agent].put(placed)
         self._unused, self._carried = self._carried, set()
@@ -132,6 +134,10 @@ class Stage:
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
         self._open(moment.opened)
+
+    def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
+        """How a person looks, and what they wear."""
+        return self._looks.get(agent) or appearance_of("", agent), moment.outfits.get(agent, "day")
 
     def _things(self, state: HomeState, moment: Moment, with_people: set[str]) -> None:
         """Put down all that nobody has: the things of the scene, and those out of the magic box.
@@ -272,6 +278,10 @@ class Stage:
             hits += [hit[0] for hit in found]
         return np.array(hits, dtype=np.int64)
 
+    def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
+        """The colours of a picture alone, (height, width, 3)."""
+        return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
+
     def view(self, camera: Camera, size: tuple[int, int]) -> View:
         """All that a camera sees, as data.
 
@@ -284,10 +294,6 @@ class Stage:
         names |= {body: name.removesuffix(_OPEN) for name, body in self.home.bodies.items()}
         names |= {body: str(agent) for agent, body in self.bodies.items()}
         return self.drawer.view(camera, size, names)
-
-    def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
-        """The colours of a picture alone, (height, width, 3)."""
-        return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
 
     def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
         """Render; Tiny and EGL draw no shadows.

@@ -7,15 +7,9 @@ from coopera.simulation.acts.plans import Ground
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.view import View
 from coopera.simulation.sight.cameras import robot_camera
-from coopera.simulation.sight.recording import Filming, Moment
+from coopera.simulation.sight.recording import Filming
 from coopera.simulation.sight.stage import Stage
 from coopera.simulation.state.home_state import HomeState
-
-
-def as_it_is(ground: Ground, state: HomeState) -> Moment:
-    """Everybody and everything where they are between two acts."""
-    film = Filming(ground, state, AgentId(""), AgentId(""))
-    return Moment(film.bodies, film.held, film.moved, film.worn, film.opened, film.outfits)
 
 
 def view(stage: Stage, ground: Ground, state: HomeState, through: Camera | AgentId, size: tuple[int, int]) -> View:
@@ -24,7 +18,7 @@ def view(stage: Stage, ground: Ground, state: HomeState, through: Camera | Agent
     Raises:
         ConfigError: If our own renderer is not to be had.
     """
-    moment = as_it_is(ground, state)
+    moment = Filming(ground, state, AgentId(""), AgentId("")).now()
     if not isinstance(through, Camera):
         through = robot_camera(ground.robots[through], moment.bodies[through])
     stage.show(state, moment)

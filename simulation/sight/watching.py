@@ -11,9 +11,9 @@ import numpy as np
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place
 from coopera.simulation.sight.recording import Moment, Recording, still
 from coopera.simulation.sight.stage import Camera, Image, Stage
@@ -26,9 +26,9 @@ class Watcher:
         self, ground: Ground, renderer: Renderer = "auto", looks: Mapping[AgentId, Appearance] | None = None
     ) -> None:
         """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
-        self.ground = ground
+        self.ground, self._looks = ground, looks
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
-        self._renderer, self._looks = renderer, looks
+        self._renderer = renderer
         self._drawn: Stage | None = None
 
     def close(self) -> None:
@@ -41,7 +41,8 @@ class Watcher:
     def drawn(self) -> Stage:
         """The stage that pictures are taken of."""
         if self._drawn is None:
-            self._drawn = Stage(self.ground.scene, self.ground.people, self.ground.robots, self._renderer, self._looks)
+            ground = self.ground
+            self._drawn = Stage(ground.scene, ground.people, ground.robots, self._renderer, self._looks)
         return self._drawn
 
     def watch(self, plan: Plan, robot: AgentId, who: AgentId, deed: Placed, spot: Point) -> None:

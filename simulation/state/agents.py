@@ -10,15 +10,17 @@ from typing import TypeAlias
 
 from coopera.core.errors import ConfigError
 from coopera.core.household import HUMAN, ROBOT, AgentId
+from coopera.simulation.people.appearance import Appearance
 
 _ID = r"[a-z][a-z0-9_]*"
 
 
 @dataclass(frozen=True, slots=True)
 class PersonAgent:
-    """A person, with the one body that people have here."""
+    """A person, with the one body that people have here, and looks of their own; by default those of the id."""
 
     id: AgentId = HUMAN
+    looks: Appearance | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -333,3 +333,15 @@ def room_of_thing(scene: Scene, state: HomeState, initial: SceneObject) -> str:
     """The room in which a movable thing now is."""
     x, y, _ = state.thing(initial).position
     return scene.room_at(x, y).name
+
+
+def standing_now(scene: Scene, state: HomeState) -> Scene:
+    """A home as its things now stand; what somebody holds or wears, and what is inside something, is not in it."""
+    things = list(scene.fixed)
+    for thing in state.objects(scene):
+        where = state.thing(thing)
+        if state.bearer(thing.name) is None and where.inside is None:
+            room = room_of_thing(scene, state, thing)
+            change = {"position": where.position, "yaw": where.yaw, "on": where.on, "room": room}
+            things.append(thing.model_copy(update=change))
+    return scene.model_copy(update={"objects": sorted(things, key=lambda thing: thing.id)})

@@ -11,11 +11,11 @@ import pytest
 
 from coopera.core.errors import ConfigError
 from coopera.simulation import PersonAgent, RobotAgent, World
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.drawing import context
 from coopera.simulation.drawing.context import chosen, problem
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.view import NOTHING
+from coopera.simulation.people.appearance import Appearance
 from tests.simulation.drawing.rays import agreement
 from tests.simulation.flat import flat, put
 

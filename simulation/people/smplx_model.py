@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.arrays import read_arrays
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.bodies.humanoid import CHEST, FOREARM, NECK, SIDES, SIZE, SLICES, Frames, forward
-from coopera.simulation.bodies.shaping.assembly import Parts
-from coopera.simulation.bodies.shaping.clothes import Clothes
-from coopera.simulation.bodies.shaping.figure import Measures
-from coopera.simulation.bodies.shaping.weights import PARTS, strongest
+from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.assembly import Parts
+from coopera.simulation.people.clothes import Clothes
+from coopera.simulation.people.figure import Measures
+from coopera.simulation.people.weights import PARTS, strongest
 from coopera.simulation.shapes.rotations import about_x, quaternion
 
 Array = NDArray[np.float64]
@@ -199,11 +199,11 @@ def painted(vertices: Array, shares: Array, rest: Frames, clothes: Clothes) -> N
     found = np.zeros(len(vertices), dtype=np.int64)
     head = vertices - rest.place["head"]
     found[(own == "head") & ((head[:, 2] > 0.075) | ((head[:, 0] < -0.01) & (head[:, 2] > -0.05)))] = 1
-    sleeves = {"none": (), "tank": (), "swimsuit": (), "towel": (), "tee": ("shoulder",), "polo": ("shoulder",)}
+    sleeves = {"nothing": (), "tank": (), "swimsuit": (), "towel": (), "tee": ("shoulder",), "polo": ("shoulder",)}
     sleeved = sleeves.get(clothes.top, ("shoulder", "elbow"))
-    if clothes.top != "none":
+    if clothes.top != "nothing":
         found[np.isin(own, ("chest", "pelvis", *sleeved)) & (z < rest.place["neck"][2] + 0.01)] = 2
-    if clothes.bottom != "none":
+    if clothes.bottom != "nothing":
         low = {"trunks": -0.20, "shorts": -0.32, "skirt": -0.36}.get(clothes.bottom, -2.0)
         found[np.isin(own, ("hip", "knee")) & (z > low) | (own == "pelvis") & (z < 0.02)] = 3
     if clothes.top in ("dress", "towel"):

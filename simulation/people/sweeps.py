@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.simulation.bodies.shaping.fields import Array, Field, slopes
-from coopera.simulation.bodies.shaping.nets import Index
+from coopera.simulation.people.fields import Array, Field, slopes
+from coopera.simulation.people.nets import Index
 
 
 class Piece(NamedTuple):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from coopera.core.people import Beard, HairStyle
-from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, carve, cone, join, loft, within
+from coopera.simulation.people.fields import Array, Loft, ball, carve, cone, join, loft, within
 
 EYE = (0.0680, 0.0315, 0.013)
 """The middle of the left eye."""
@@ -180,7 +180,7 @@ def _falling(style: HairStyle, recede: float, skin: Array, points: Array) -> Arr
 
 def beard(kind: Beard, skin: Array, points: Array) -> Array | None:
     """A beard, None where there is none that stands out."""
-    if kind == "none":
+    if kind == "shaven":
         return None
     x, _, z = points.T
     half = mirrored(points)

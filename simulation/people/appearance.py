@@ -7,9 +7,11 @@ miss something than make it up. Names are not read. Looks are for pictures alone
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal, TypeVar
 
@@ -18,15 +20,18 @@ import numpy as np
 from coopera.core.errors import ConfigError
 from coopera.core.people import Beard, Build, HairColour, HairStyle, Looks, SkinTone
 from coopera.core.randomness import rng_at
-from coopera.simulation.bodies.shaping import palettes
-from coopera.simulation.bodies.shaping.clothes import Bottom, Clothes, Top
-from coopera.simulation.bodies.shaping.figure import Measures
-from coopera.simulation.bodies.shaping.head import Face
-from coopera.simulation.bodies.shaping.palettes import Colour
+from coopera.simulation.people import palettes
+from coopera.simulation.people.clothes import Bottom, Clothes, Top
+from coopera.simulation.people.figure import Measures
+from coopera.simulation.people.head import Face
+from coopera.simulation.people.palettes import Colour
 
 Outfit = Literal["day", "bath", "sleep", "sport"]
+BODIES = "COOPERA_BODIES"
+"""The environment variable that names a folder of body models, whose bodies then take the place of ours."""
 
 T = TypeVar("T")
+_FRAMES: tuple[Literal["round", "square"], ...] = ("round", "square")
 
 _I_AM = r"\bI(?:'m| am)\b(?:(?!\b(?:my|to|with|for|the|his|her|not)\b)[^.;:!?]){0,70}?\b"
 _AGES = (
@@ -70,8 +75,8 @@ class Appearance:
     hair: Colour = palettes.HAIRS["dark brown"]
     recede: float = 0.0
     """How far the hair has left the forehead, 0 to 1."""
-    beard: Beard = "none"
-    glasses: Literal["none", "round", "square"] = "none"
+    beard: Beard = "shaven"
+    glasses: Literal["round", "square"] | None = None
     lined: bool = False
     """Whether age has drawn lines in the face."""
     day: Clothes = field(default_factory=lambda: Clothes("jumper", "trousers", "shoes"))
@@ -119,22 +124,24 @@ def stated_looks(profile: str) -> Looks:
     )
 
 
-def appearance_of(
-    profile: str, person: str, stated: Looks | None = None, bodies: Mapping[str, Path] | None = None
-) -> Appearance:
+@lru_cache(maxsize=64)
+def appearance_of(profile: str, person: str, stated: Looks | None = None) -> Appearance:
     """How a person looks: the same for the same profile, id and stated looks, in every process.
 
     Args:
         profile: What the person says of themselves; may be empty.
         person: Their id.
         stated: What their file states of their looks.
-        bodies: Files of body models by figure, `woman`, `man` and `any`, as `body_models` finds them.
+
+    Raises:
+        ConfigError: If COOPERA_BODIES names no folder of body models.
     """
     said = stated_looks(profile).model_dump(exclude_none=True)
     said |= stated.model_dump(exclude_none=True) if stated is not None else {}
     draw = _Draw(person, Looks.model_validate(said))
-    figure, bodies = "woman" if draw.woman else "man", bodies or {}
-    return replace(draw.appearance(), model=bodies.get(figure, bodies.get("any")))
+    folder = os.environ.get(BODIES)
+    models = body_models(Path(folder).expanduser()) if folder else {}
+    return replace(draw.appearance(), model=models.get("woman" if draw.woman else "man", models.get("any")))
 
 
 def body_models(folder: Path) -> dict[str, Path]:
@@ -146,7 +153,7 @@ def body_models(folder: Path) -> dict[str, Path]:
     names = {"woman": "SMPLX_FEMALE.npz", "man": "SMPLX_MALE.npz", "any": "SMPLX_NEUTRAL.npz"}
     found = {figure: folder / name for figure, name in names.items() if (folder / name).is_file()}
     if not found:
-        raise ConfigError(f"bodies: {folder} must be a folder with {', '.join(names.values())}, or one of them.")
+        raise ConfigError(f"{BODIES}: {folder} must be a folder with {', '.join(names.values())}, or one of them.")
     return {"any": next(iter(found.values())), **found}
 
 
@@ -181,7 +188,7 @@ class _Draw:
         """All of it."""
         said = self._stated
         tones: Sequence[SkinTone] = tuple(palettes.SKINS)
-        skin = said.skin or self._one("skin", tones)
+        skin = self._one("skin", tones) if said.skin is None else said.skin
         style, beard = said.hair or self._style(), said.beard or self._beard()
         glasses = self._chance("glasses", 0.22 + 0.38 * self.old) if said.glasses is None else said.glasses
         receding = not self.woman and style not in ("bald", "ring", "curly")
@@ -194,7 +201,7 @@ class _Draw:
             hair=self._hair(skin),
             recede=self._between("recede", 0.0, 0.15 + 0.75 * self.old) if receding else 0.0,
             beard=beard,
-            glasses=self._one("frames", ("round", "square")) if glasses else "none",
+            glasses=self._one("frames", _FRAMES) if glasses else None,
             lined=self.age >= 58,
             day=self._day(),
             bath=self._bath(),
@@ -204,7 +211,7 @@ class _Draw:
 
     def _measures(self) -> Measures:
         builds: dict[Build, float] = {"slim": 1.0, "medium": 1.4, "broad": 0.8}
-        build = self._stated.build or self._likely("build", builds)
+        build = self._likely("build", builds) if self._stated.build is None else self._stated.build
         low, high = {"slim": (0.88, 0.95), "medium": (0.95, 1.05), "broad": (1.08, 1.20)}[build]
         girth = self._between("girth", low, high) + 0.03 * self.old
         round_ = 0.45 * (girth - 0.95) / 0.25 + 0.35 * self.old + self._between("belly", -0.25, 0.25)
@@ -245,8 +252,8 @@ class _Draw:
 
     def _beard(self) -> Beard:
         if self.woman or self.age < 20:
-            return "none"
-        return self._likely("beard", {"none": 1.6, "full": 0.7, "moustache": 0.3, "goatee": 0.25})
+            return "shaven"
+        return self._likely("beard", {"shaven": 1.6, "full": 0.7, "moustache": 0.3, "goatee": 0.25})
 
     def _hair(self, skin: SkinTone) -> Colour:
         if self._stated.hair_colour:
@@ -276,7 +283,7 @@ class _Draw:
             }
             bottoms = {"trousers": 1.3, "slim": 0.8 * (1 - self.old) + 0.1}
         top = self._likely("top", tops)
-        bottom: Bottom = "none" if top == "dress" else self._likely("bottom", bottoms)
+        bottom: Bottom = "nothing" if top == "dress" else self._likely("bottom", bottoms)
         over = self._one("top colour", palettes.SHIRTS if top in ("shirt", "blouse") else palettes.TOPS)
         under = self._apart(over, self._one("bottom colour", palettes.BOTTOMS))
         casual = self._chance("trainers", 0.45 * (1 - 0.6 * self.old)) and bottom != "skirt"
@@ -307,7 +314,7 @@ class _Draw:
 
     def _sleep(self) -> Clothes:
         colour = self._one("night", palettes.NIGHT)
-        trim = (0.62 * colour[0], 0.62 * colour[1], 0.66 * colour[2])
+        trim = (0.80 * colour[0], 0.80 * colour[1], 0.84 * colour[2])
         return Clothes("pyjamas", "trousers", "bare", colour, colour, accent=trim)
 
     def _sport(self) -> Clothes:

@@ -9,13 +9,13 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import SHIN, SIDES, THIGH
-from coopera.simulation.bodies.shaping.ends import Footwear
-from coopera.simulation.bodies.shaping.fields import Array, ball, carve, cone, join, loft
-from coopera.simulation.bodies.shaping.figure import Figure, Near
+from coopera.simulation.people.ends import Footwear
+from coopera.simulation.people.fields import Array, ball, carve, cone, join, loft
+from coopera.simulation.people.figure import Figure, Near
 
 Colour = tuple[float, float, float]
 Top: TypeAlias = Literal[
-    "none",
+    "nothing",
     "tee",
     "polo",
     "jumper",
@@ -29,15 +29,15 @@ Top: TypeAlias = Literal[
     "swimsuit",
     "towel",
 ]
-Bottom: TypeAlias = Literal["none", "trousers", "slim", "shorts", "skirt", "trunks"]
+Bottom: TypeAlias = Literal["nothing", "trousers", "slim", "shorts", "skirt", "trunks"]
 
 
 @dataclass(frozen=True, slots=True)
 class Clothes:
     """What somebody wears, and its colours; `accent` is that of a band, an undershirt or a collar."""
 
-    top: Top = "none"
-    bottom: Bottom = "none"
+    top: Top = "nothing"
+    bottom: Bottom = "nothing"
     footwear: Footwear = "bare"
     top_colour: Colour = (0.5, 0.5, 0.5)
     bottom_colour: Colour = (0.2, 0.2, 0.3)
@@ -59,7 +59,7 @@ class _Cut(NamedTuple):
     """How a top is cut: looseness (metres), sleeves, where it ends below, and its neckline."""
 
     ease: float
-    sleeves: Literal["long", "short", "none"]
+    sleeves: Literal["long", "short", "bare"]
     hem: float = -0.055
     neck: Literal["crew", "vee", "scoop", "strapless"] = "crew"
     fill: float = 0.6
@@ -74,11 +74,11 @@ _CUTS: dict[str, _Cut] = {
     "blouse": _Cut(0.011, "long", -0.03, "vee", 0.3),
     "cardigan": _Cut(0.018, "long", -0.07, fill=0.7),
     "hoodie": _Cut(0.019, "long", -0.05, fill=0.9),
-    "tank": _Cut(0.010, "none", -0.03, "scoop", 0.1),
+    "tank": _Cut(0.010, "bare", -0.03, "scoop", 0.1),
     "dress": _Cut(0.010, "short", -0.03, "scoop", 0.15),
     "pyjamas": _Cut(0.020, "long", -0.065, "vee", 0.9),
-    "swimsuit": _Cut(0.006, "none", -0.20, "scoop", 0.0),
-    "towel": _Cut(0.012, "none", -0.10, "strapless", 0.7),
+    "swimsuit": _Cut(0.006, "bare", -0.20, "scoop", 0.0),
+    "towel": _Cut(0.012, "bare", -0.10, "strapless", 0.7),
 }
 _COLLARED = ("polo", "shirt", "pyjamas")
 
@@ -86,15 +86,15 @@ _COLLARED = ("polo", "shirt", "pyjamas")
 def layers(clothes: Clothes, figure: Figure) -> list[Layer]:
     """Everything worn but shoes."""
     found: list[Layer] = []
-    if clothes.bottom != "none":
+    if clothes.bottom != "nothing":
         found.append(Layer(clothes.bottom_colour, _bottom(clothes.bottom)))
-    if clothes.top == "none":
+    if clothes.top == "nothing":
         return found
     cut = _CUTS[clothes.top]
-    body = Torso(figure, cut, _skirt(0.34, 0.010) if clothes.bottom == "skirt" else None)
-    shade = (0.86 * clothes.top_colour[0], 0.86 * clothes.top_colour[1], 0.86 * clothes.top_colour[2])
+    body = Torso(figure, cut, None if clothes.bottom == "nothing" else _bottom(clothes.bottom))
+    shade = (0.90 * clothes.top_colour[0], 0.90 * clothes.top_colour[1], 0.90 * clothes.top_colour[2])
     if clothes.top == "cardigan":
-        under = Torso(figure, _Cut(0.007, "none", -0.02))
+        under = Torso(figure, _Cut(0.007, "bare", -0.02))
         found.append(Layer(clothes.accent, under.at))
         found.append(Layer(clothes.top_colour, lambda near: near.cut(body.at(near), -_opening(near))))
     elif clothes.top in _COLLARED:
@@ -116,7 +116,7 @@ class Torso:
     """A top over a figure's trunk and arms."""
 
     def __init__(self, figure: Figure, cut: _Cut, over: Callable[[Near], Array] | None = None) -> None:
-        """Widen the figure's cross-sections, and let the cloth hang over waist and belly, and `over` a skirt."""
+        """Widen the figure's cross-sections, and let the cloth hang over waist and belly, and over trousers."""
         self.figure, self.cut, self._over = figure, cut, over
         rows = np.array(figure.trunk_rows)
         z = rows[:, 0]
@@ -136,11 +136,11 @@ class Torso:
             wider = tuple(radius + ease for radius in radii)
             found = join(found, ball(near.points, centre, wider), 0.07)
         z = near.points[:, 2]
-        if cut.sleeves == "none":
+        if cut.sleeves == "bare":
             found = near.cut(found, self._armholes(near))
         else:
             found = join(found, self._sleeves(near), 0.05)
-        below = near.legs - ease - 0.003 if self._over is None else self._over(near) - 0.006
+        below = near.legs - ease - 0.003 if self._over is None else self._over(near) - 0.005
         found = join(found, below, 0.04)
         found = near.cut(found, cut.hem - z if cut.hem > -0.15 else _legholes(near))
         open_ = _neckline(cut.neck, near)
@@ -206,7 +206,7 @@ def _collar(near: Near) -> Array:
 
 def _placket(near: Near) -> Array:
     """The strip of the buttons."""
-    return np.maximum(np.abs(near.points[:, 1]) - 0.014, -near.points[:, 0])
+    return np.maximum(np.abs(near.points[:, 1]) - 0.011, -near.points[:, 0])
 
 
 def _band(near: Near) -> Array:
@@ -219,7 +219,7 @@ def _pocket(near: Near) -> Array:
     """A hoodie's pocket."""
     y, z = np.abs(near.points[:, 1]), near.points[:, 2]
     return np.maximum(
-        np.maximum(np.abs(z - 0.07) - 0.055, y - 0.095 + 0.5 * np.maximum(z - 0.06, 0)), -near.points[:, 0]
+        np.maximum(np.abs(z - 0.065) - 0.060, y - 0.115 + 0.6 * np.maximum(z - 0.04, 0)), -near.points[:, 0]
     )
 
 

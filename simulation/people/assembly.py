@@ -9,17 +9,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.appearance import Appearance
 from coopera.simulation.bodies.humanoid import ANKLE, SIDES, Frames, Side
-from coopera.simulation.bodies.shaping import face as faces_
-from coopera.simulation.bodies.shaping.clothes import Clothes, Layer, layers
-from coopera.simulation.bodies.shaping.ends import Footwear, fingers, foot, palm, toes
-from coopera.simulation.bodies.shaping.fields import Array, Field, slopes
-from coopera.simulation.bodies.shaping.figure import Figure, Near, rest_frames
-from coopera.simulation.bodies.shaping.head import bare, beard, hair, jaw
-from coopera.simulation.bodies.shaping.nets import Box, Index, Mesh, clip, surface
-from coopera.simulation.bodies.shaping.sweeps import Piece
-from coopera.simulation.bodies.shaping.weights import PARTS, shares, strongest
+from coopera.simulation.people import face as faces_
+from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.clothes import Clothes, Layer, layers
+from coopera.simulation.people.ends import Footwear, fingers, foot, palm, toes
+from coopera.simulation.people.fields import Array, Field, slopes
+from coopera.simulation.people.figure import Figure, Near, rest_frames
+from coopera.simulation.people.head import bare, beard, hair, jaw
+from coopera.simulation.people.nets import Box, Index, Mesh, clip, surface
+from coopera.simulation.people.sweeps import Piece
+from coopera.simulation.people.weights import PARTS, shares, strongest
 
 Colour = tuple[float, float, float]
 
@@ -32,7 +32,7 @@ _PALE_SOLE = (0.88, 0.87, 0.85)
 
 
 class Parts(NamedTuple):
-    """A mesh as `coopera.simulation.bodies.skin.Skin` has it; `material` counts in `materials`."""
+    """A mesh as `coopera.simulation.people.skin.Skin` has it; `material` counts in `materials`."""
 
     vertices: Array
     normals: Array
@@ -174,7 +174,7 @@ def _features(looks: Appearance, skin_at: Field) -> Iterator[Piece]:
     yield from faces_.lips(skin_at, looks.skin, looks.face)
     if looks.lined:
         yield from faces_.folds(skin_at, looks.skin)
-    if looks.glasses != "none":
+    if looks.glasses is not None:
         yield from faces_.spectacles(skin_at, (0.10, 0.09, 0.10), looks.glasses == "round")
 
 

@@ -12,11 +12,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.appearance import Appearance, Outfit
 from coopera.simulation.bodies.humanoid import Frames
-from coopera.simulation.bodies.shaping.assembly import Parts, dressed
-from coopera.simulation.bodies.shaping.smplx_model import modelled
-from coopera.simulation.bodies.shaping.weights import PARTS
+from coopera.simulation.people.appearance import Appearance, Outfit
+from coopera.simulation.people.assembly import Parts, dressed
+from coopera.simulation.people.smplx_model import modelled
+from coopera.simulation.people.weights import PARTS
 
 Floats = NDArray[np.float32]
 

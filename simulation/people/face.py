@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from coopera.simulation.bodies.shaping.fields import Array, Field
-from coopera.simulation.bodies.shaping.head import EYE, EYE_SIZE, Face
-from coopera.simulation.bodies.shaping.sweeps import Piece, grid_faces, ordered, patch, tube
+from coopera.simulation.people.fields import Array, Field
+from coopera.simulation.people.head import EYE, EYE_SIZE, Face
+from coopera.simulation.people.sweeps import Piece, grid_faces, ordered, patch, tube
 
 Colour = tuple[float, float, float]
 

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coopera.simulation.bodies.humanoid import SHIN, SIDES, THIGH, UPPER_ARM
-from coopera.simulation.bodies.shaping.fields import Array
-from coopera.simulation.bodies.shaping.figure import Near
+from coopera.simulation.people.fields import Array
+from coopera.simulation.people.figure import Near
 
 PARTS: tuple[str, ...] = (
     "pelvis",

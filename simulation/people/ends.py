@@ -9,9 +9,9 @@ from typing import Literal
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import ANKLE
-from coopera.simulation.bodies.shaping.fields import Array, ball, join, loft
-from coopera.simulation.bodies.shaping.nets import Index
-from coopera.simulation.bodies.shaping.sweeps import finger, ordered
+from coopera.simulation.people.fields import Array, ball, join, loft
+from coopera.simulation.people.nets import Index
+from coopera.simulation.people.sweeps import finger, ordered
 
 Footwear = Literal["bare", "shoes", "trainers", "slippers"]
 

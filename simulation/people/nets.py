@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.bodies.shaping.fields import Array, Field, slopes
+from coopera.simulation.people.fields import Array, Field, slopes
 
 Index = NDArray[np.int64]
 

@@ -14,7 +14,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from coopera.simulation.bodies.humanoid import ANKLE, SIDES, SIZE, SLICES, Frames, Side, forward
-from coopera.simulation.bodies.shaping.fields import Array, Loft, ball, cone, join, join_all, loft
+from coopera.simulation.people.fields import Array, Loft, ball, cone, join, join_all, loft
 from coopera.simulation.shapes.rotations import about_x, about_y, quaternion
 
 _ARM_OUT, _ARM_AHEAD, _ELBOW = 32.0, 16.0, 32.0

@@ -1,0 +1,99 @@
+"""A contact sheet of the people that ship: `python -m benchmarks.people_sheet [--count 8] [--out docs/people.webp]`.
+
+Each is seen from before, from behind and near, and doing four things, dressed for each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from benchmarks.motion_sheet import HEIGHTS, studio
+from coopera.core.household import HUMAN
+from coopera.core.people import Persona
+from coopera.people.shipped import SHIPPED, read_persona
+from coopera.simulation.acts.plans import Placed
+from coopera.simulation.bodies.humanoid_reach import standing
+from coopera.simulation.motions.library import load_library
+from coopera.simulation.motions.poses import Setting, pose_at
+from coopera.simulation.people.appearance import appearance_of, outfit_for
+from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.sight.recording import Moment
+from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.sight.walks import walking
+from coopera.simulation.state.home_state import HomeState, PersonState
+
+TILE = (120, 216)
+FINER = 3
+SHOWN = ("do yoga", "sit and listen", "take a shower", "lie down")
+
+
+def view(stage: Stage, shown: tuple[Array, str], camera: Camera) -> Image.Image:
+    """One picture of the person in a pose and a motion's clothes."""
+    pose, motion = shown
+    moment = Moment({HUMAN: Placed(0.0, 0.0, 0.0, pose)}, {}, {}, outfits={HUMAN: outfit_for(motion)})
+    state = HomeState(scene="studio", agents={HUMAN: PersonState(spot=(0.0, 0.0), place=(0.0, 0.0))})
+    stage.show(state, moment)
+    image, _ = stage.picture(camera, (TILE[0] * FINER, TILE[1] * FINER))
+    return Image.fromarray(image).resize(TILE, Image.Resampling.LANCZOS)
+
+
+def around(degrees: float, height: float, distance: float, target: tuple[float, float, float]) -> Camera:
+    """A camera that looks at a point from a side; 0 is before the person."""
+    angle = math.radians(degrees)
+    return Camera((distance * math.cos(angle), distance * math.sin(angle), height), target, 40.0)
+
+
+def pictures(persona: Persona) -> list[Image.Image]:
+    """A person from before, from behind, near, walking, and at each of `SHOWN`."""
+    looks = {HUMAN: appearance_of(persona.profile, persona.id, persona.appearance)}
+    library = load_library()
+    stand = library["stand and wait"]
+    stage = Stage(studio(stand), [HUMAN], {}, looks=looks)
+    upright = (0.0, 0.0, 0.83)
+    found = [
+        view(stage, (standing(), ""), around(18, 1.3, 2.5, upright)),
+        view(stage, (standing(), ""), around(200, 1.3, 2.5, upright)),
+        view(stage, (standing(), ""), around(22, 1.5, 1.0, (0.0, 0.0, 1.44))),
+        view(stage, (walking(0.42, carries=False), ""), around(60, 1.3, 2.5, upright)),
+    ]
+    stage.close()
+    for caption in SHOWN:
+        motion = library[caption]
+        setting = Setting(*HEIGHTS[motion.posture], motion.posture)
+        stage = Stage(studio(motion), [HUMAN], {}, looks=looks)
+        low = motion.posture == "lie"
+        camera = around(50, 1.7, 2.9, (0.0, 0.0, 0.5)) if low else around(40, 1.3, 2.6, (0.1, 0.0, 0.8))
+        pose = pose_at(motion, 0.4 * motion.keys.period, setting)
+        found.append(view(stage, (pose, caption), camera))
+        stage.close()
+    return found
+
+
+def main() -> None:
+    """Draw the sheet."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=8, help="how many of the people that ship")
+    parser.add_argument("--out", type=Path, default=Path("docs/people.webp"))
+    args = parser.parse_args()
+    people = [read_persona(path) for path in sorted(SHIPPED.glob("*.yaml"))[: args.count]]
+    columns, font = 2, ImageFont.load_default(size=13)
+    wide, high = TILE[0] * (4 + len(SHOWN)) + 8, TILE[1] + 20
+    sheet = Image.new("RGB", (columns * wide, math.ceil(len(people) / columns) * high), "white")
+    draw = ImageDraw.Draw(sheet)
+    for number, persona in enumerate(people):
+        x, y = number % columns * wide, number // columns * high
+        for k, picture in enumerate(pictures(persona)):
+            sheet.paste(picture, (x + k * TILE[0], y))
+        draw.text((x + 3, y + TILE[1] + 1), persona.name, fill="black", font=font)
+    sheet.save(args.out, "WEBP", quality=78, method=6)
+    size = np.prod(sheet.size)
+    print(f"{args.out}: {len(people)} people, {args.out.stat().st_size / 1e3:.0f} kB, {size / 1e6:.1f} megapixels")
+
+
+if __name__ == "__main__":
+    main()
