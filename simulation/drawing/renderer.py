@@ -208,25 +208,25 @@ class Renderer:
             frame.depth_attachment.release()
             frame.release()
 
-    def draw(self, camera: Camera, size: tuple[int, int], *, colour: bool = True, more: bool = False) -> Drawn:
-        """Draw a picture; with `more`, its depth and its tags, too."""
-        return on_context(lambda context: self._draw(context, camera, size, colour, more))
+    def draw(self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False) -> Drawn:
+        """Draw a picture, with what else is asked for."""
+        return on_context(lambda context: self._draw(context, camera, size, tags, depth))
 
     def view(self, camera: Camera, size: tuple[int, int], names: Mapping[int, str]) -> View:
         """Draw a picture with all that is known of it; `names` are those of the bodies, by number."""
-        drawn = self.draw(camera, size, more=True)
+        drawn = self.draw(camera, size, tags=True, depth=True)
         classes = (drawn.tags >> BODY_BITS).astype(np.int64)
         return View(
             camera, drawn.colour, drawn.depth, bodies_of(drawn.tags), classes, dict(names), [*self.scenery.classes]
         )
 
-    def _draw(self, context: Any, camera: Camera, size: tuple[int, int], colour: bool, more: bool) -> Drawn:
+    def _draw(self, context: Any, camera: Camera, size: tuple[int, int], tags: bool, depth: bool) -> Drawn:
         self._update(context)
         width, height = size
         found = Drawn(
-            np.zeros((height, width, 3) if colour else (0, 0, 3), dtype=np.uint8),
-            np.zeros((height, width) if more else (0, 0), dtype=np.int32),
-            np.zeros((height, width) if more else (0, 0), dtype=np.float32),
+            np.zeros((height, width, 3), dtype=np.uint8),
+            np.zeros((height, width) if tags else (0, 0), dtype=np.int32),
+            np.zeros((height, width) if depth else (0, 0), dtype=np.float32),
         )
         for top in range(0, height, _TILE):
             for left in range(0, width, _TILE):
@@ -310,16 +310,16 @@ class Renderer:
                 store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store))
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
-        if found.colour.size:
-            target.smooth.use()
-            context.enable_only(context.NOTHING)
-            target.colour.use(0)
-            self._kit.smoothing.render(vertices=3)
-            raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
-            found.colour[part] = raw.reshape(height, width, 3)[::-1]
+        target.smooth.use()
+        context.enable_only(context.NOTHING)
+        target.colour.use(0)
+        self._kit.smoothing.render(vertices=3)
+        raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
+        found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:
             tags = np.frombuffer(target.tags.read(alignment=1), dtype=np.int32).reshape(height, width)
             found.tags[part] = tags[::-1]
+        if found.depth.size:
             depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
             near, far = reach
             metres = 2 * near * far / (far + near - (2.0 * depth.astype(np.float64) - 1.0) * (far - near))

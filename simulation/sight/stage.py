@@ -302,7 +302,7 @@ class Stage:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
         """
         if self.drawer is not None:
-            drawn = self.drawer.draw(camera, size, more=True)
+            drawn = self.drawer.draw(camera, size, tags=True)
             return drawn.colour, bodies_of(drawn.tags)
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
