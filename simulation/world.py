@@ -25,22 +25,22 @@ from coopera.simulation.acts.skills import hand_over, pick_place, set_open, swit
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
+from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.view import View
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
-from coopera.simulation.sight.video import FPS, write_video
+from coopera.simulation.sight.video import FPS, WEBP, write_video
+from coopera.simulation.sight.views import view
 from coopera.simulation.sight.watching import Onlooker, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
-
-WEBP = {"quality": 82, "method": 2}
-"""How pictures are encoded: method 4 takes twice the time for the same size."""
 
 
 class World:
@@ -70,8 +70,8 @@ class World:
                 "robot".
             robot: That one robot's body, as `coopera.simulation.bodies.robot.load_robot` takes it.
             frame_size: Width and height of the pictures in pixels.
-            renderer: What draws the pictures: "auto" is "gl" where that is to be had, else "tiny". The first world of a process
-                that draws with "egl" decides for all that draw with "tiny".
+            renderer: What draws the pictures; "auto" is "gl" where that is to be had, else "tiny". The first world of a
+                process that draws with "egl" decides for all that draw with "tiny".
             motions: What the person's body can do; the shipped library without it.
             match: Ranks the captions of `motions` by how near in meaning they are to a free-form text; without it
                 words are compared.
@@ -340,6 +340,16 @@ class World:
         """
         recording, every = self._recorded(), TICKS // FPS
         return write_video(Path(path), self._watching().video(recording, self.frame_size, every))
+
+    def view(self, through: Camera | AgentId, size: tuple[int, int] | None = None) -> View:
+        """What a camera, or a robot by its head, sees of the home now: colours, depth, and what each pixel is of.
+
+        Raises:
+            SimulationError: If there is no such robot.
+            ConfigError: If the renderer gl is not to be had.
+        """
+        through = through if isinstance(through, Camera) else self.state.the("robot", through)
+        return view(self._watching().drawn, self._ground, self.state, through, size or self.frame_size)
 
     def _recorded(self) -> Recording:
         if self._recording is None or not self._recording.shots:
