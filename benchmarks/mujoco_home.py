@@ -24,9 +24,9 @@ def _geoms(scene: Scene) -> Iterator[str]:
         yield f'<geom type="box" pos="{x} {y} -0.025" size="{w / 2} {d / 2} 0.025" rgba="0.7 0.6 0.45 1"/>'
     for wall in scene.walls():
         b = wall.bounds
-        size = f"{(b.x1 - b.x0) / 2} {(b.y1 - b.y0) / 2} {WALL_HEIGHT / 2}"
+        walls = f"{(b.x1 - b.x0) / 2} {(b.y1 - b.y0) / 2} {WALL_HEIGHT / 2}"
         middle = f"{(b.x0 + b.x1) / 2} {(b.y0 + b.y1) / 2} {WALL_HEIGHT / 2}"
-        yield f'<geom type="box" pos="{middle}" size="{size}" rgba="0.9 0.88 0.82 1"/>'
+        yield f'<geom type="box" pos="{middle}" size="{walls}" rgba="0.9 0.88 0.82 1"/>'
     for thing in scene.objects:
         turn = about_z(thing.yaw)
         for part in parts_of(thing.cls, thing.size, thing.rgb):

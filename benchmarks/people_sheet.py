@@ -29,13 +29,13 @@ from coopera.simulation.state.home_state import HomeState, PersonState
 
 TILE = (120, 216)
 FINER = 3
-SHOWN = ("do yoga", "sit and listen", "take a shower", "lie down")
+SHOWN = ("do yoga", "meditate", "take a shower", "lie down")
 
 
-def view(stage: Stage, shown: tuple[Array, str], camera: Camera) -> Image.Image:
+def view(stage: Stage, shown: tuple[Array, str], camera: Camera, yaw: float = 0.0) -> Image.Image:
     """One picture of the person in a pose and a motion's clothes."""
     pose, motion = shown
-    moment = Moment({HUMAN: Placed(0.0, 0.0, 0.0, pose)}, {}, {}, outfits={HUMAN: outfit_for(motion)})
+    moment = Moment({HUMAN: Placed(0.0, 0.0, yaw, pose)}, {}, {}, outfits={HUMAN: outfit_for(motion)})
     state = HomeState(scene="studio", agents={HUMAN: PersonState(spot=(0.0, 0.0), place=(0.0, 0.0))})
     stage.show(state, moment)
     image, _ = stage.picture(camera, (TILE[0] * FINER, TILE[1] * FINER))
@@ -57,7 +57,7 @@ def pictures(persona: Persona) -> list[Image.Image]:
     upright = (0.0, 0.0, 0.83)
     found = [
         view(stage, (standing(), ""), around(18, 1.3, 2.5, upright)),
-        view(stage, (standing(), ""), around(200, 1.3, 2.5, upright)),
+        view(stage, (standing(), ""), around(20, 1.3, 2.5, upright), math.pi),
         view(stage, (standing(), ""), around(22, 1.5, 1.0, (0.0, 0.0, 1.44))),
         view(stage, (walking(0.42, carries=False), ""), around(60, 1.3, 2.5, upright)),
     ]
@@ -66,7 +66,7 @@ def pictures(persona: Persona) -> list[Image.Image]:
         motion = library[caption]
         setting = Setting(*HEIGHTS[motion.posture], motion.posture)
         stage = Stage(studio(motion), [HUMAN], {}, looks=looks)
-        low = motion.posture == "lie"
+        low = motion.posture in ("lie", "floor")
         camera = around(50, 1.7, 2.9, (0.0, 0.0, 0.5)) if low else around(40, 1.3, 2.6, (0.1, 0.0, 0.8))
         pose = pose_at(motion, 0.4 * motion.keys.period, setting)
         found.append(view(stage, (pose, caption), camera))

@@ -4,6 +4,8 @@ In each home a person does something that a robot watches; its pictures are take
 act, by turns from the robot's head and from the third-person camera. A picture counts whole: the scene is set to the
 moment, the picture is drawn, read back and encoded as WebP as a run does it. Medians, in milliseconds of processor
 time of all threads, and of wall time. Every renderer has a process of its own.
+
+`--rays N` compares depth, classes and bodies with so many rays a home, cast at the triangles that are drawn.
 """
 
 from __future__ import annotations
@@ -27,8 +29,10 @@ from coopera.simulation.homes.scene import list_scenes, load_scene
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.recording import Moment, Recording
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.sight.video import WEBP
 from coopera.simulation.sight.watching import Watcher
-from coopera.simulation.world import WEBP, World
+from coopera.simulation.world import World
+from tests.simulation.drawing.rays import agreement
 
 SIZES = ((320, 240), (1024, 768))
 WAYS = ("tiny", "egl", "mujoco", "mujoco, shadow", "gl, no shadow", "gl")
@@ -94,13 +98,34 @@ def measure(way: str, home: str, count: int) -> list[tuple[float, float]]:
     return found
 
 
+def agree(home: str, rays: int) -> None:
+    """Print how well what a robot sees, and a camera in each of two rooms, agrees with rays."""
+    with World(load_scene(home), renderer="gl") as world:
+        first, second = (room.centre for room in world.layout.rooms[:2])
+        cameras = (world.robots[0], Camera((*first, 1.6), (*second, 0.9)), Camera((*second, 1.9), (*first, 0.3)))
+        views = [world.view(camera, (640, 480)) for camera in cameras]
+        drawer = world._watching().drawn.drawer
+        assert drawer is not None
+        each = [agreement(view, drawer.scenery, rays // len(cameras) + 1) for view in views]
+    off, classes, bodies = (np.concatenate(values) for values in zip(*each, strict=True))
+    print(
+        f"{home:10}{len(off)} rays: depth within 1 cm {(off < 0.01).mean():.2%} (99.9 % within "
+        f"{1e3 * np.quantile(off, 0.999):.3f} mm), classes {classes.mean():.2%}, bodies {bodies.mean():.2%}"
+    )
+
+
 def main() -> None:
     """Print a table for each way to draw."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--homes", nargs="+", default=list_scenes())
     parser.add_argument("--pictures", type=int, default=20)
     parser.add_argument("--only", nargs="+", choices=WAYS, default=WAYS)
+    parser.add_argument("--rays", type=int, default=0)
     args = parser.parse_args()
+    if args.rays:
+        for home in args.homes:
+            agree(home, args.rays)
+        return
     print(f"milliseconds a picture, CPU (wall): medians of {args.pictures}; scene update and WebP included")
     print(f"{'':16}{'':10}" + "".join(f"{f'{w}x{h}':>18}" for w, h in SIZES))
     for way in args.only:

@@ -26,22 +26,22 @@ from coopera.simulation.acts.skills import hand_over, pick_place, set_open, swit
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
+from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.view import View
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import TICKS, Filming, Recording
-from coopera.simulation.sight.video import FPS, write_video
-from coopera.simulation.sight.watching import Onlooker, View, Watcher
+from coopera.simulation.sight.video import FPS, WEBP, write_video
+from coopera.simulation.sight.views import view
+from coopera.simulation.sight.watching import Onlooker, Viewpoint, Watcher
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
 from coopera.simulation.state.snapshots import read_snapshot
 from coopera.simulation.ways.navigation import Navigator
-
-WEBP = {"quality": 82, "method": 2}
-"""How pictures are encoded: method 4 takes twice the time for the same size."""
 
 
 class World:
@@ -338,7 +338,7 @@ class World:
         """
         recording = self.recording
         folder = Path(folder)
-        views: dict[View, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
+        views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         watcher = self._watching()
         pictures = watcher.film(recording, count, self.frame_size, views=tuple(views), labels=self.labels)
         paths = []
@@ -365,6 +365,16 @@ class World:
     def filmed(self) -> Iterator[NDArray[np.uint8]]:
         """The pictures of such a video, `FPS` of them a second."""
         return self._watching().video(self.recording, self.frame_size, TICKS // FPS)
+
+    def view(self, through: Camera | AgentId, size: tuple[int, int] | None = None) -> View:
+        """What a camera, or a robot by its head, sees of the home now: colours, depth, and what each pixel is of.
+
+        Raises:
+            SimulationError: If there is no such robot.
+            ConfigError: If the renderer gl is not to be had.
+        """
+        through = through if isinstance(through, Camera) else self.state.the("robot", through)
+        return view(self._watching().drawn, self._ground, self.state, through, size or self.frame_size)
 
     @property
     def recording(self) -> Recording:

@@ -261,11 +261,7 @@ class Config(Frozen):
     frame_size: FrameSize = SMALL
     renderer: Annotated[
         Literal["auto", "gl", "tiny", "egl"],
-        Setting(
-            "What draws the pictures: gl with daylight and shadows (it needs libEGL), tiny without, egl as tiny.",
-            flag="--renderer",
-            unset="gl where it is to be had, else tiny",
-        ),
+        Setting("What draws the pictures; auto is gl where OpenGL is to be had, else tiny.", flag="--renderer"),
     ] = "auto"
     perception: Annotated[
         PerceptErrors,

@@ -31,7 +31,8 @@ class _Drawer:
     def __init__(self, *, forked: bool) -> None:
         self.process = os.getpid()
         self.pool = ThreadPoolExecutor(1, thread_name_prefix="drawing")
-        self.context, self.problem = (None, _FORKED) if forked else self.pool.submit(_context).result()
+        found: tuple[Any, str] = (None, _FORKED) if forked else self.pool.submit(_context).result()
+        self.context, self.problem = found
 
 
 _drawers: list[_Drawer] = []
@@ -42,8 +43,9 @@ def _context() -> tuple[Any, str]:
     try:
         import moderngl  # noqa: PLC0415 - it is looked for here only
 
+        os.environ.setdefault("EGL_LOG_LEVEL", "fatal")  # what is wrong is said in a sentence
         make: Any = moderngl.create_context
-        context = make(standalone=True, backend="egl", require=_LEAST)
+        context: Any = make(standalone=True, backend="egl", require=_LEAST)
     except ImportError as err:
         return None, f"moderngl cannot be imported ({err}): pip install moderngl"
     except Exception as err:  # noqa: BLE001 - moderngl raises bare Exception

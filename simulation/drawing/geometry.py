@@ -123,7 +123,9 @@ def flat_uv(at: Floats, normal: Floats, grain: int) -> Floats:
 
 @lru_cache(maxsize=1)
 def _unit_box() -> tuple[Floats, Floats, Faces]:
-    corners, normals, faces = [], [], []
+    corners: list[list[float]] = []
+    normals: list[list[float]] = []
+    faces: list[list[int]] = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
             a, b = (axis + 1) % 3, (axis + 2) % 3
@@ -189,7 +191,11 @@ def _unit_ball(count: int) -> tuple[Floats, Floats, Faces]:
     tilt = np.concatenate((np.linspace(-math.pi / 2, 0, half + 1), np.linspace(0, math.pi / 2, half + 1)))
     angle = np.linspace(0.0, 2 * math.pi, count + 1)
     normal = np.stack(
-        (np.outer(np.cos(tilt), np.cos(angle)), np.outer(np.cos(tilt), np.sin(angle)), np.outer(np.sin(tilt), angle**0)),
+        (
+            np.outer(np.cos(tilt), np.cos(angle)),
+            np.outer(np.cos(tilt), np.sin(angle)),
+            np.outer(np.sin(tilt), angle**0),
+        ),
         axis=2,
     ).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(len(tilt) - 1), np.arange(count), indexing="ij")

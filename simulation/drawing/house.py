@@ -55,7 +55,8 @@ def shell(scene: Scene, room: Room, walls: Sequence[Wall]) -> Shell:
     w, d = room.x1 - room.x0, room.y1 - room.y0
     cx, cy = room.centre
     grain = 0 if w >= d else 1
-    material = Material.TILES if room.kind in _TILED else Material.PLANKS if wooden(ground) else Material.CARPET
+    bare = Material.PLAIN if kind is None else Material.CARPET
+    material = Material.TILES if room.kind in _TILED else Material.PLANKS if wooden(ground) else bare
     low = [("floor", _slab((cx, cy, -0.025), (w / 2, d / 2, 0.025), ground, material, grain))]
     above = [("ceiling", _slab((cx, cy, WALL_HEIGHT + 0.02), (w / 2, d / 2, 0.02), _CEILING, Material.PAINT, 0))]
     side = Material.WALL_TILES if room.kind == "bathroom" else Material.PAINT
@@ -63,7 +64,9 @@ def shell(scene: Scene, room: Room, walls: Sequence[Wall]) -> Shell:
         for x, y, along in faces_of(room, wall):
             half = (along / 2, WALL_THICKNESS / 4) if wall.axis == "x" else (WALL_THICKNESS / 4, along / 2)
             middle = WALL_HEIGHT / 2
-            low.append(("wall", _slab((x, y, middle), (*half, middle), paint, side, 2 if side == Material.PAINT else 0)))
+            low.append(
+                ("wall", _slab((x, y, middle), (*half, middle), paint, side, 2 if side == Material.PAINT else 0))
+            )
             if room.kind not in _TILED:
                 board = (half[0] + 0.006, half[1] + 0.006, _SKIRTING / 2)
                 low.append(("wall", _slab((x, y, _SKIRTING / 2), board, shade(WHITE, 0.97), Material.PLAIN, 0)))

@@ -37,7 +37,9 @@ def view_matrix(camera: Camera) -> Array:
     return found
 
 
-def projection(camera: Camera, size: tuple[int, int], tile: tuple[int, int, int, int], reach: tuple[float, float]) -> Array:
+def projection(
+    camera: Camera, size: tuple[int, int], tile: tuple[int, int, int, int], reach: tuple[float, float]
+) -> Array:
     """Camera to clip space for a part of a picture: its left, top, width and height in pixels, of `size`; (4, 4)."""
     near, far = reach
     tall = near * math.tan(math.radians(camera.fov) / 2)

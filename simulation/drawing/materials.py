@@ -45,13 +45,41 @@ METRES = (1.0, 1.6, 0.5, 1.44, 1.2, 0.16, 1.0, 1.0, 1.0, 1.0, 1.0, 0.1, 0.7, 0.6
 """How much of a surface one picture of each material covers."""
 
 _SOFT = frozenset(
-    "sofa armchair office_chair bed curtain rug towel cushion blanket teddy_bear handbag backpack hat scarf slippers "
-    "yoga_mat pillow jacket shirt sweater coat socks gloves apron bathrobe laundry_basket sewing_kit bench".split()
+    [
+        "sofa",
+        "armchair",
+        "office_chair",
+        "bed",
+        "curtain",
+        "rug",
+        "towel",
+        "cushion",
+        "blanket",
+        "teddy_bear",
+        "handbag",
+        "backpack",
+        "hat",
+        "scarf",
+        "slippers",
+        "yoga_mat",
+        "pillow",
+        "jacket",
+        "shirt",
+        "sweater",
+        "coat",
+        "socks",
+        "gloves",
+        "apron",
+        "bathrobe",
+        "laundry_basket",
+        "sewing_kit",
+        "bench",
+    ]
 )
-_TURNED = frozenset("floor_lamp table_lamp lamp desk_lamp".split())
+_TURNED = frozenset(["floor_lamp", "table_lamp", "lamp", "desk_lamp"])
 
 
-def of_thing(cls: str, main: Colour, colour: Colour) -> Material:  # noqa: PLR0911 - one line for each material
+def of_thing(cls: str, main: Colour, colour: Colour) -> Material:
     """What a part of a thing is made of, by its colour, the thing's class and its main colour."""
     if colour == PANE:
         return Material.WINDOW
@@ -128,7 +156,7 @@ def _stretched(values: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     low = place.astype(int)
     share = place - low
     share = (share * share * (3 - 2 * share)).reshape((-1, 1) if axis == 0 else (1, -1))
-    return values.take(low % count, axis) * (1 - share) + values.take((low + 1) % count, axis) * share
+    return np.asarray(values.take(low % count, axis) * (1 - share) + values.take((low + 1) % count, axis) * share)
 
 
 def _grain(rng: np.random.Generator, x: NDArray[np.float64], y: NDArray[np.float64], rings: float) -> Floats:
@@ -176,4 +204,4 @@ def _outdoors(rng: np.random.Generator, y: NDArray[np.float64]) -> Floats:
     blend = np.clip((edge - y) / 0.04 + 0.5, 0, 1)[..., None]
     ground = np.clip((0.16 - y) / 0.05 + 0.5, 0, 1)[..., None]
     below = hedge * (1 - ground) + lawn * ground
-    return (sky * (1 - blend) + below * blend).astype(np.float32)
+    return np.asarray(sky * (1 - blend) + below * blend, dtype=np.float32)

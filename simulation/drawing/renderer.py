@@ -6,6 +6,7 @@ Nothing but the state decides a picture: the same scenery and camera give the sa
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
@@ -20,6 +21,7 @@ from coopera.simulation.drawing.lens import Camera, projection, reach_of, view_m
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
 from coopera.simulation.drawing.sight import in_view
+from coopera.simulation.drawing.view import View
 from coopera.simulation.shapes.rotations import Array
 
 Image = NDArray[np.uint8]
@@ -33,7 +35,7 @@ _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
 _WINDOWS = 3
 _CONTACT = 0.05
-_SKY = (0.80, 0.86, 0.92)
+_GROUND = (1.0, 1.0, 1.0)
 
 
 class Drawn(NamedTuple):
@@ -77,7 +79,7 @@ class _Store:
         """Know which stretches there are."""
         self.pieces = pieces
         self.first = np.array([piece.first for piece in pieces], dtype=np.uint32)
-        self.count = np.array([piece.count for piece in pieces], dtype=np.uint32)
+        self.count = np.array([piece.length for piece in pieces], dtype=np.uint32)
         self.low = np.array([piece.low for piece in pieces], dtype=np.float64).reshape(-1, 3)
         self.high = np.array([piece.high for piece in pieces], dtype=np.float64).reshape(-1, 3)
         self.room = np.array([piece.room for piece in pieces], dtype=np.int64)
@@ -134,7 +136,13 @@ class _Kit:
             frame = self.context.framebuffer([colour, tags], depth)
             plain = self.context.framebuffer([colour], depth)
             self.targets[size] = _Target(
-                frame, plain, smooth, colour, depth, tags, (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth)
+                frame,
+                plain,
+                smooth,
+                colour,
+                depth,
+                tags,
+                (*smooth.color_attachments, smooth, frame, plain, colour, tags, depth),
             )
         return self.targets[size]
 
@@ -200,17 +208,25 @@ class Renderer:
             frame.depth_attachment.release()
             frame.release()
 
-    def draw(self, camera: Camera, size: tuple[int, int], *, colour: bool = True, more: bool = False) -> Drawn:
-        """Draw a picture; with `more`, its depth and its tags, too."""
-        return on_context(lambda context: self._draw(context, camera, size, colour, more))
+    def draw(self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False) -> Drawn:
+        """Draw a picture, with what else is asked for."""
+        return on_context(lambda context: self._draw(context, camera, size, tags, depth))
 
-    def _draw(self, context: Any, camera: Camera, size: tuple[int, int], colour: bool, more: bool) -> Drawn:
+    def view(self, camera: Camera, size: tuple[int, int], names: Mapping[int, str]) -> View:
+        """Draw a picture with all that is known of it; `names` are those of the bodies, by number."""
+        drawn = self.draw(camera, size, tags=True, depth=True)
+        classes = (drawn.tags >> BODY_BITS).astype(np.int64)
+        return View(
+            camera, drawn.colour, drawn.depth, bodies_of(drawn.tags), classes, dict(names), [*self.scenery.classes]
+        )
+
+    def _draw(self, context: Any, camera: Camera, size: tuple[int, int], tags: bool, depth: bool) -> Drawn:
         self._update(context)
         width, height = size
         found = Drawn(
-            np.zeros((height, width, 3) if colour else (0, 0, 3), dtype=np.uint8),
-            np.zeros((height, width) if more else (0, 0), dtype=np.int32),
-            np.zeros((height, width) if more else (0, 0), dtype=np.float32),
+            np.zeros((height, width, 3), dtype=np.uint8),
+            np.zeros((height, width) if tags else (0, 0), dtype=np.int32),
+            np.zeros((height, width) if depth else (0, 0), dtype=np.float32),
         )
         for top in range(0, height, _TILE):
             for left in range(0, width, _TILE):
@@ -274,7 +290,7 @@ class Renderer:
         target = self._kit.target(tile[2:])
         frame = target.frame if found.tags.size else target.plain
         frame.use()
-        frame.clear(*_SKY, 1.0, depth=1.0)
+        frame.clear(*_GROUND, 1.0, depth=1.0)
         if found.tags.size:
             target.tags.write(bytes(4 * tile[2] * tile[3]))
         context.enable_only(context.DEPTH_TEST)
@@ -294,16 +310,16 @@ class Renderer:
                 store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store))
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
-        if found.colour.size:
-            target.smooth.use()
-            context.enable_only(context.NOTHING)
-            target.colour.use(0)
-            self._kit.smoothing.render(vertices=3)
-            raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
-            found.colour[part] = raw.reshape(height, width, 3)[::-1]
+        target.smooth.use()
+        context.enable_only(context.NOTHING)
+        target.colour.use(0)
+        self._kit.smoothing.render(vertices=3)
+        raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
+        found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:
             tags = np.frombuffer(target.tags.read(alignment=1), dtype=np.int32).reshape(height, width)
             found.tags[part] = tags[::-1]
+        if found.depth.size:
             depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
             near, far = reach
             metres = 2 * near * far / (far + near - (2.0 * depth.astype(np.float64) - 1.0) * (far - near))
@@ -356,7 +372,7 @@ def _contact(scenery: Scenery) -> NDArray[np.uint8]:
             inside = np.ix_((y + b.y0 > t.y0) & (y + b.y0 < t.y1), (x + b.x0 > t.x0) & (x + b.x0 < t.x1))
             covered[inside] = 1.0
     soft = 0.6 * gaussian_filter(covered, 1.6) + 0.4 * gaussian_filter(covered, 5.0)
-    return np.clip(np.round(soft * 255), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.round(soft * 255), 0, 255), dtype=np.uint8)
 
 
 def _sun_lens(scenery: Scenery) -> tuple[Array, float, tuple[int, int]]:

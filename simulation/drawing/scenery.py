@@ -36,7 +36,7 @@ class Piece(NamedTuple):
     """A stretch of triangles that is drawn, or left out, as one."""
 
     first: int
-    count: int
+    length: int
     """Of indices into `faces`."""
     low: tuple[float, float, float]
     high: tuple[float, float, float]
@@ -105,16 +105,19 @@ class Scenery:
             vertices = packed(mesh, self._tag(bodies.get(thing.name, -1), thing.cls), room_number)
             opaque = not (mesh.material == Material.WINDOW).any()  # daylight comes past the curtains of a window
             packs.append((vertices, mesh.faces, room_number, False, opaque))
-        vertices, faces, pieces, start, first = [], [], [], 0, 0
+        corners: list[NDArray[np.void]] = []
+        faces: list[NDArray[np.uint32]] = []
+        pieces: list[Piece] = []
+        start, first = 0, 0
         for corner, face, room_number, above, casts in packs:
             if not len(face):
                 continue
             low, high = corner["at"].min(axis=0).tolist(), corner["at"].max(axis=0).tolist()
             pieces.append(Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts))
-            vertices.append(corner)
+            corners.append(corner)
             faces.append(face + np.uint32(start))
             start, first = start + len(corner), first + face.size
-        return Batch(np.concatenate(vertices), np.concatenate(faces).astype(np.uint32), pieces)
+        return Batch(np.concatenate(corners), np.concatenate(faces).astype(np.uint32), pieces)
 
     def _tag(self, body: int, cls: str) -> int:
         if cls not in self.classes:

@@ -22,7 +22,6 @@ from coopera.simulation.drawing.context import Renderer
 _QUIET = threading.RLock()
 
 
-
 @contextmanager
 def quiet() -> Iterator[None]:
     """Let the process's standard output and error lead nowhere: the engine and its EGL plugin write to both.

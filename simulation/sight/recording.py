@@ -162,6 +162,10 @@ class Filming:
                 self._give(step)
         return self.recording
 
+    def now(self) -> Moment:
+        """Everybody and everything as they are after what was filmed so far."""
+        return Moment(dict(self.bodies), dict(self.held), self.moved, dict(self.worn), self.opened, dict(self._outfits))
+
     def _go(self, step: Walk) -> None:
         yaw = Track.along(step.points).heading(math.inf)
         before = self.bodies[step.agent]

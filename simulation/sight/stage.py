@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from coopera.core.errors import ConfigError
 from coopera.core.household import AgentId, plain
 from coopera.simulation.sight.engine import load_urdf, pybullet, quiet, start_renderer  # isort: split
 
@@ -24,16 +25,14 @@ from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.renderer import Renderer as Drawer
 from coopera.simulation.drawing.renderer import bodies_of
+from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at, worn_at
 from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
-from coopera.simulation.sight.build import (
-    build,
-    staged,
-)  # after the engine: whoever imports pybullet first makes it print
+from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print
 from coopera.simulation.sight.figures import Balls, Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
@@ -42,6 +41,7 @@ BODIES = Path(__file__).parents[1] / "bodies"
 _AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
 _NEAR, _FAR = 0.05, 30.0
+_OPEN = ":open"
 Image = NDArray[np.uint8]
 __all__ = ["Camera", "Image", "Stage"]
 
@@ -282,6 +282,19 @@ class Stage:
         """The colours of a picture alone, (height, width, 3)."""
         return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
 
+    def view(self, camera: Camera, size: tuple[int, int]) -> View:
+        """All that a camera sees, as data.
+
+        Raises:
+            ConfigError: If this stage has another renderer than our own.
+        """
+        if self.drawer is None:
+            raise ConfigError("renderer: depth and segmentation are drawn by gl alone.")
+        names = {body: name for name, body in self.home.rooms.items()}
+        names |= {body: name.removesuffix(_OPEN) for name, body in self.home.bodies.items()}
+        names |= {body: str(agent) for agent, body in self.bodies.items()}
+        return self.drawer.view(camera, size, names)
+
     def picture(self, camera: Camera, size: tuple[int, int]) -> tuple[Image, NDArray[np.int64]]:
         """Render; Tiny and EGL draw no shadows.
 
@@ -289,7 +302,7 @@ class Stage:
             Colours (height, width, 3) and the body seen in each pixel (height, width), -1 for none.
         """
         if self.drawer is not None:
-            drawn = self.drawer.draw(camera, size, more=True)
+            drawn = self.drawer.draw(camera, size, tags=True)
             return drawn.colour, bodies_of(drawn.tags)
         width, height = size
         view = pybullet.computeViewMatrix(camera.eye, camera.target, (0.0, 0.0, 1.0))
@@ -310,7 +323,7 @@ class Stage:
 
 
 def _door(name: str) -> str:
-    return f"{name}:open"
+    return name + _OPEN
 
 
 def _looks(state: HomeState, thing: SceneObject) -> str:

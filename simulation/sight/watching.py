@@ -23,7 +23,7 @@ from coopera.simulation.sight.recording import Held, Moment, Recording, Shot, st
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
 
-View: TypeAlias = Literal["robot", "human"]
+Viewpoint: TypeAlias = Literal["robot", "human"]
 """The robot's own, or a third person's of who acts."""
 _AWAY = -100.0
 _NOTHING: Mapping[AgentId, Held] = MappingProxyType({})
@@ -102,11 +102,11 @@ class Watcher:
         count: int,
         size: tuple[int, int],
         *,
-        views: Sequence[View] = ("robot", "human"),
+        views: Sequence[Viewpoint] = ("robot", "human"),
         labels: bool = False,
-    ) -> dict[View, list[Image]]:
+    ) -> dict[Viewpoint, list[Image]]:
         """Render the moments that tell a recording: pictures by view, in order of time."""
-        pictures: dict[View, list[Image]] = {view: [] for view in views}
+        pictures: dict[Viewpoint, list[Image]] = {view: [] for view in views}
         for moment, cameras in self._moments(recording, telling_ticks(recording, self.ground.robots, count), views):
             names = self._names(recording, moment) if labels else []
             for view, camera in cameras.items():
@@ -120,8 +120,8 @@ class Watcher:
             yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in cameras.values()], axis=1)
 
     def _moments(
-        self, recording: Recording, ticks: Iterable[int], views: Sequence[View]
-    ) -> Iterator[tuple[Moment, dict[View, Camera]]]:
+        self, recording: Recording, ticks: Iterable[int], views: Sequence[Viewpoint]
+    ) -> Iterator[tuple[Moment, dict[Viewpoint, Camera]]]:
         """Each moment, while it is shown, and its cameras: the third person keeps its place during a shot."""
         across: dict[int, Camera] = {}
         for tick in ticks:

@@ -13,7 +13,7 @@ from langgraph.checkpoint.sqlite import SqliteSaver
 
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Evening, Example
-from coopera.core.household import SceneId
+from coopera.core.household import HUMAN, SceneId
 from coopera.graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
 from tests.fakes import MARA, FakeHome, FolderRecorder, ScriptedAsk, placing, reviewed, type2_answers
 from tests.graphs.conftest import MakeServices
@@ -48,6 +48,12 @@ def files(folder: Path) -> dict[str, bytes]:
 def test_the_nodes_are_those_of_the_design() -> None:
     nodes = [name for name in build_day_graph().get_graph().nodes if not name.startswith("__")]
     assert nodes == ["start_day", "hour", "feedback", "infer_traits", "learn", "end_day"]
+
+
+def test_each_hour_the_home_draws_the_person_who_lives_it(make_services: MakeServices) -> None:
+    home = FakeHome()
+    build_day_graph().invoke(first_day(days(1)[0]), context=make_services(home=home))
+    assert home.inhabitants == [(HUMAN, MARA.id)] * 3
 
 
 def test_a_day_is_lived_hour_by_hour_and_ends_with_an_evening(make_services: MakeServices) -> None:
