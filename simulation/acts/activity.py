@@ -39,6 +39,10 @@ from coopera.simulation.state.agents import named
 from coopera.simulation.state.home_state import HomeState, PersonState
 from coopera.simulation.ways.navigation import Stand, clearance, obstacle_boxes
 
+_SWEPT = np.array([(x, y) for x in (0.45, 0.65, 0.85, 1.05) for y in (-0.45, -0.15, 0.15, 0.45)])
+"""What a broom comes over, in the frame of who sweeps (metres)."""
+_TRIED, _CLEAR = 150, 0.03
+"""At so many places one looks for a heading with free floor for a broom: this much round it (metres)."""
 ROOM_REACH = 1.5
 """Farthest from the furniture at which one does what takes free floor (metres)."""
 _WORKTOP = (0.45, 1.3)
@@ -151,7 +155,7 @@ def _placed(
         spot = _stand(ground, plan, agent, bed, None)
         return _resting(rest, spot, target, None, "lie"), bed
     if motion.posture != "stand":
-        x, y, yaw = _open_floor(ground, plan, agent, target)
+        x, y, yaw = _open_floor(ground, plan, agent, target, motion)
         posture = "lie" if motion.posture == "lie" else "floor"
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, posture=posture, at=target.name), target
     return _upright(ground, plan, agent, target, motion), target
@@ -215,15 +219,20 @@ def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, mo
         support = height if blocks(target) else 0.0
         return PersonState(spot=spot, place=place, yaw=wrapped(yaw), support=support, at=target.name)
     if affordances().of(motion.caption).roomy:
-        x, y, yaw = _open_floor(ground, plan, agent, target)
+        x, y, yaw = _open_floor(ground, plan, agent, target, motion)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, worktop=worktop, at=target.name)
     stand = _stand(ground, plan, agent, target, None)
     spot = (stand.x, stand.y)
     return PersonState(spot=spot, place=spot, yaw=stand.yaw, worktop=worktop, at=target.name)
 
 
-def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject) -> tuple[float, float, float]:
-    """A place near the target with much free floor around it, and the heading with most room ahead and behind."""
+def _open_floor(
+    ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion
+) -> tuple[float, float, float]:
+    """A place near the target with much free floor around it, and the heading with most room ahead and behind.
+
+    Who sweeps has free floor where the broom goes, as far as there is such a place.
+    """
     scene = ground.scene
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
     cells = ground.navigator.cells_in(target.room)
@@ -237,6 +246,9 @@ def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject)
     fits_there = all_clear_of(cells, taken) & (on_it if on_it.any() else gap <= ROOM_REACH)
     if not fits_there.any():
         raise UnableError(f"{named(agent)} finds no free floor at the {plain(target.name)}")
+    if motion.keys.hold == "floor":
+        order = np.flatnonzero(fits_there)[np.argsort(-score[fits_there], kind="stable")]
+        return _to_sweep(cells[order][:: max(len(order) // _TRIED, 1)], boxes)
     best = int(np.where(fits_there, score, -np.inf).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])
     headings = np.arange(16) * math.pi / 8
@@ -244,3 +256,14 @@ def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject)
     ahead, aside = np.outer(np.cos(headings), along), np.outer(np.sin(headings), along)
     strip = clearance(x + ahead, y + aside, boxes).min(axis=1).round(3)
     return x, y, float(headings[int(strip.argmax())])
+
+
+def _to_sweep(cells: Array, boxes: Array) -> tuple[float, float, float]:
+    """The first of some places at which a broom meets nothing in some direction, and the clearest direction there."""
+    headings = np.arange(16) * math.pi / 8
+    ahead, aside = _SWEPT.T
+    x = cells[:, 0, None, None] + np.outer(np.cos(headings), ahead) - np.outer(np.sin(headings), aside)
+    y = cells[:, 1, None, None] + np.outer(np.sin(headings), ahead) + np.outer(np.cos(headings), aside)
+    gaps = clearance(x.ravel(), y.ravel(), boxes).reshape(x.shape).min(axis=2).round(3)
+    best = int(np.minimum(gaps.max(axis=1), _CLEAR).argmax())
+    return float(cells[best, 0]), float(cells[best, 1]), float(headings[int(gaps[best].argmax())])

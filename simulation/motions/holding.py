@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.affordances import affordances
-from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, forward
-from coopera.simulation.motions.library import HandPath, Hold, Motion
+from coopera.simulation.bodies.humanoid import ANKLE, MOUTH, SIDES, Frames, Side, forward
+from coopera.simulation.motions.library import HandPath, Hold, Motion, Triple
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
+from coopera.simulation.motions.vessels import OVER, grasp, lip, tipped
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
@@ -24,6 +25,10 @@ _BIG = 0.17
 _LONG = 0.7
 _FINE = 0.125
 _BULKY = 0.35
+_LOW_THING = 0.1
+"""What is no higher than this can be laid flat under a hand to wipe with."""
+_TOES = 0.05
+"""The middle of a foot is this far ahead of its ankle."""
 _GRASP = 0.16
 """Two hands hold a thing between them that is at most this much narrower than they are apart."""
 _END = 0.07
@@ -93,13 +98,16 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it; raised above it, a tool that is `eaten` with points at the mouth.
+    touches it; raised above it, a tool that is `eaten` with points at the mouth. What `tips` is a vessel that one pours
+    from, tipped by the share `tip` of what empties it.
     """
 
     hold: Hold = "right"
     laid: Laid | None = None
     surface: float | None = None
     eaten: bool = False
+    tips: bool = False
+    tip: float = 0.0
 
 
 CARRIED = Grip()
@@ -138,14 +146,39 @@ def grip(
         laid, hand = _laid(size, hands, top)
         return _reaching(setting, hand - hands), Grip(keys.hold, laid=Laid(*laid, height, _yaw(size)))
     setting = to_tools(motion, setting, top)
-    hold = keys.hold
+    hold = _hold(motion, names, size, laid=top is not None)
     if hold == "both" and size[0] <= _LONG and size[2] <= 0.6 and _span(motion, setting) > size[0] + _GRASP:
         hold = "right"
-    if hold == "floor" and size[0] <= _LONG:
-        hold = "right"
+    tips = bool(keys.tip) and hold == "right" and not _is_tool(size)
+    if tips:
+        setting = setting._replace(right=_pouring(motion, size))
     touches = keys.right is not None and "surface" in keys.right.frames
     eaten = keys.right is not None and "mouth" in keys.right.frames
-    return setting, Grip(hold, surface=height if touches else None, eaten=eaten)
+    return setting, Grip(hold, surface=height if touches else None, eaten=eaten, tips=tips)
+
+
+def _hold(motion: Motion, names: Iterable[str], size: Size, *, laid: bool) -> Hold:
+    """How a thing that does not lie is held: as the motion says, as far as its size permits.
+
+    What would lie on a surface, and has none, is held level in the left hand.
+    """
+    hold = motion.keys.hold
+    if hold == "surface" and not laid and lies(motion, names, size) and motion.keys.left is not None:
+        return "left"
+    if hold == "flat":
+        return "left" if size[2] > _LOW_THING else "right"
+    if (hold == "floor" and size[0] <= _LONG) or (hold == "feet" and max(size[:2]) <= _BIG):
+        return "right"
+    return hold
+
+
+def _pouring(motion: Motion, size: Size) -> Triple:
+    """How much farther than usual the right hand goes so that the lip of what it tips is over the other vessel."""
+    keys = motion.keys
+    assert keys.right is not None
+    usual = np.array(keys.right.points[keys.tip.index(max(keys.tip))])
+    x, y, z = (np.array((*_hands(motion), OVER)) - lip(size) - usual).tolist()
+    return x, y, z
 
 
 def to_tools(motion: Motion, setting: Setting, top: Worktop | None) -> Setting:
@@ -169,7 +202,9 @@ def _at_surface(motion: Motion) -> list[HandPath]:
 
 
 def _hands(motion: Motion) -> Array:
-    """Where hands usually work on the surface: both, if a thing lies there, else the right one."""
+    """Where hands usually work on the surface: where it is said, or both, if a thing lies there, or the right one."""
+    if motion.keys.works_at is not None:
+        return np.array(motion.keys.works_at)
     working = _at_surface(motion)
     if motion.keys.hold != "surface" and motion.keys.right in working:
         return _where(working[0], math.inf)
@@ -248,14 +283,21 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return np.array((0.0, -0.75, 0.0)), _AHEAD
     if grip.hold == "head":
         return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
+    if grip.hold == "feet":
+        ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
+        return ankles + np.array((_TOES, 0.0, -ANKLE)), _AHEAD
     if grip.hold == "both":
         if size[0] > _LONG:
             return _across(right, left, size)
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
     floor = -math.inf if grip.surface is None else grip.surface
-    if grip.hold != "left" and _is_tool(size):
-        return _handled(frames, size, floor, eaten=grip.eaten)
-    hand = left if grip.hold == "left" else right
+    side: Side = "left" if grip.hold == "left" else "right"
+    if _is_tool(size):
+        return _handled(frames, side, size, floor, eaten=grip.eaten)
+    hand = left if side == "left" else right
+    if grip.tips:
+        turn = tipped(size, grip.tip)
+        return hand - turn @ grasp(size), turn @ _AHEAD
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
     place[2] = max(float(place[2]), floor)
@@ -294,13 +336,13 @@ def _across(right: Array, left: Array, size: Size) -> tuple[Array, Array]:
     return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
 
 
-def _handled(frames: Frames, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
+def _handled(frames: Frames, side: Side, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
     """A tool held at its handle (+x): a thin one goes on where the forearm points, or down to the surface.
 
     A pan stays level.
     """
-    hand = frames.place["right_hand"]
-    arm = frames.turn["right_hand"] @ np.array((0.0, 0.0, -1.0))
+    hand = frames.place[f"{side}_hand"]
+    arm = frames.turn[f"{side}_hand"] @ np.array((0.0, 0.0, -1.0))
     if size[1] > _FINE:
         arm = np.array((1.0, 0.0, 0.0))
         hand = np.array((hand[0], hand[1], max(float(hand[2]), floor + 0.5 * size[2])))

@@ -28,7 +28,8 @@ class Setting(NamedTuple):
     The body sits or lies at the height `support` (0: on the floor). The hands work at the height `worktop`; with None
     they work on the lap, or at WORKTOP when the person stands. `posture` replaces the posture of the motion: a person
     without a seat stands. `step` is how far somebody who stands steps up to the surface, and `reach` how much farther
-    ahead and to the left than usual the hands work on it (metres).
+    ahead and to the left than usual the hands work on it; `right` is how much farther than that the right hand goes,
+    for what it holds (metres).
     """
 
     support: float = 0.0
@@ -36,6 +37,7 @@ class Setting(NamedTuple):
     posture: Posture = "stand"
     step: float = 0.0
     reach: tuple[float, float] = (0.0, 0.0)
+    right: Triple = (0.0, 0.0, 0.0)
 
 
 @made_once()
@@ -81,7 +83,8 @@ def pose_at(motion: Motion, seconds: float, setting: Setting) -> Array:
     frames = aim.frames()
     origin = np.array((*setting.reach, working_height(setting)))
     for side, path in hands.items():
-        aim.hands[side] = _hand(path, share, frames, origin)
+        begin = origin + np.array(setting.right) if side == "right" else origin
+        aim.hands[side] = _hand(path, share, frames, begin)
     pose = solve(aim)[0]
     pose[0] += setting.step
     return pose
