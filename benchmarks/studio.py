@@ -27,8 +27,9 @@ from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.sight.stage import Camera, Stage
 from coopera.simulation.state.agents import PersonAgent
 
-VIEWS = (62.0, -38.0)
-"""Where the cameras stand, in degrees from where the person looks, to the left."""
+VIEWS, BESIDE = (62.0, -38.0), (118.0, -100.0)
+"""Where the cameras stand, in degrees from where the person looks, to the left; and where before tall furniture."""
+_TALL = 1.05
 _THINGS = {
     "pour a drink": "wine bottle",
     "set the table": "plate",
@@ -46,6 +47,7 @@ _THINGS = {
     "do a puzzle": "puzzle piece",
     "play the piano": "sheet music",
     "brush teeth": "toothbrush",
+    "carry a box": "cardboard box",
 }
 """What is in hand, where it is not the first thing that people usually have."""
 _PLACES = {
@@ -76,6 +78,12 @@ class Take(NamedTuple):
     motion: Motion
     world: World
     stage: Stage
+
+    @property
+    def views(self) -> tuple[float, float]:
+        """Where the cameras stand."""
+        target = next(piece for piece in self.world.layout.fixed if piece.id == 1)
+        return BESIDE if target.size[2] > _TALL and self.world.state.person().spot != target.xy else VIEWS
 
     def moment(self, share: float) -> Moment:
         """What is seen after a share of the motion's period."""
@@ -155,7 +163,7 @@ def strip(motion: Motion, shares: Sequence[float], size: tuple[int, int]) -> Ima
     """A motion at some shares of its period: a row for each view."""
     sheet = Image.new("RGB", (len(shares) * size[0], len(VIEWS) * size[1]), "white")
     with take(motion) as made:
-        for row, view in enumerate(VIEWS):
+        for row, view in enumerate(made.views):
             for column, share in enumerate(shares):
                 sheet.paste(made.picture(share, view, size), (column * size[0], row * size[1]))
     return sheet

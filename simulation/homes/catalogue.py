@@ -222,7 +222,7 @@ def blocks(thing: SceneObject) -> bool:
 
 
 def parts_of(cls: str, size: Size, colour: Colour) -> list[Part]:
-    """Return the primitives that show a thing of this class and size; a box with its first letter where it is unknown."""
+    """Return the primitives that show a thing of this class and size; a labelled box where it is unknown."""
     kit = Kit(size, colour)
     recipe = SHAPES.get(cls)
     if recipe is not None:

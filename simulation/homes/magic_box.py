@@ -64,7 +64,8 @@ def looks() -> dict[str, Look]:
 def shape_of(text: str) -> Shape:
     """How a thing looks: by the longest words in its text that are known, the last ones where two are as long.
 
-    Of a glass of wine it is the glass. What is not known is a labelled box, with a colour of its own that follows from the text.
+    Of a glass of wine it is the glass. What is not known is a labelled box, with a colour of its own that follows from
+    the text.
     """
     words = text.lower().replace("_", " ").split()
     own = "_".join(words)

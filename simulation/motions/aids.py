@@ -1,4 +1,4 @@
-"""What a motion moves besides the body: what is put down in its course, tipped, or belongs to it as a fork to a meal."""
+"""What a motion moves besides the body: what is put down or tipped in its course, and the fork that a meal takes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from coopera.core.household import plain
 from coopera.simulation.motions.holding import Grip, Laid
 from coopera.simulation.motions.library import Aid, Motion, along
 from coopera.simulation.motions.poses import Setting, working_height
-
 
 _THICK = 0.02
 """What one eats from is this thick."""

@@ -297,7 +297,9 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
     hand = left if side == "left" else right
     if grip.tips:
         turn = tipped(size, grip.tip)
-        return hand - turn @ grasp(size), turn @ _AHEAD
+        base = hand - turn @ grasp(size)
+        lowest = float(base[2]) - abs(float(turn[2, 1])) * size[0] / 2
+        return base + np.array((0.0, 0.0, max(floor - lowest, 0.0))), turn @ _AHEAD
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
     place[2] = max(float(place[2]), floor)

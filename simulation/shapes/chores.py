@@ -146,10 +146,28 @@ def stream_of_water(kit: Kit) -> None:
     kit.tube((0, 0, kit.h * 0.5), kit.w * 0.35, kit.h * 0.5)
 
 
+def shower_of_water(kit: Kit) -> None:
+    """Draw water that falls in thin streams."""
+    w, d, h = kit.w, kit.d, kit.h
+    spots = (
+        (-0.45, 0),
+        (-0.3, 0.4),
+        (-0.3, -0.4),
+        (0, 0.48),
+        (0, -0.48),
+        (0.3, 0.4),
+        (0.3, -0.4),
+        (0.45, 0),
+        (0.15, 0.1),
+    )
+    for i, (x, y) in enumerate(spots):
+        kit.tube((x * w, y * d, h * 0.06 * (i % 3)), 0.004, h * (0.88 - 0.06 * (i % 2)))
+
+
 CHORE_THINGS: dict[str, Recipe] = {
     recipe.__name__: recipe
     for recipe in (
         *(cleaning_cloth, bucket, mop, vacuum_cleaner, dustpan, cardboard_box, crate, drying_rack, lights, flowers),
-        *(bath_bubbles, stream_of_water),
+        *(bath_bubbles, stream_of_water, shower_of_water),
     )
 }

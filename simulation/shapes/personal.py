@@ -231,7 +231,7 @@ def palette(kit: Kit) -> None:
         (0.28, 0.18, GREEN),
         (-0.32, -0.15, WHITE),
     ):
-        kit.ball((x * w, y * d, h * 0.5), d * 0.07, colour)
+        kit.ball((x * w, y * d, h * 0.7), h * 0.6, colour)
 
 
 def canvas(kit: Kit) -> None:

@@ -14,7 +14,6 @@ from PIL import Image
 
 from coopera.core.errors import ConfigError, SimulationError
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import load_scene
 from coopera.simulation.sight.stage import Stage
