@@ -46,6 +46,7 @@ _TRIED, _CLEAR = 150, 0.03
 ROOM_REACH = 1.5
 """Farthest from the furniture at which one does what takes free floor (metres)."""
 _WORKTOP = (0.45, 1.3)
+_LOW_TABLE = 0.36
 _KEYS = 0.61  # a piano's keyboard, as a share of its height
 _STANDS, _ANY = 12, 1000
 """From how many places at a piece of furniture one chooses, and from how many where those are taken."""
@@ -175,15 +176,15 @@ def _resting(rest: Rest, spot: Stand, target: SceneObject, worktop: float | None
     )
 
 
-def _worktop(target: SceneObject) -> float | None:
-    """The height at which hands work at a piece of furniture."""
+def _worktop(target: SceneObject, *, stands: bool = False) -> float | None:
+    """The height at which hands work at a piece of furniture; who stands also bends down to a low table."""
     if target.cls == "piano":
         return target.position[2] + _KEYS * target.size[2]
     if target.position[2] >= _WORKTOP[0]:  # a machine on a counter is worked at on that counter
         return target.position[2] + 0.1
     for surface in surfaces(target):
         height = target.position[2] + surface.z
-        if _WORKTOP[0] <= height <= _WORKTOP[1]:
+        if (_LOW_TABLE if stands else _WORKTOP[0]) <= height <= _WORKTOP[1]:
             return height
     return None
 
@@ -209,8 +210,9 @@ def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near
 
 def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
     """Standing at the target, on it where one steps on it, or near it with elbow room for large motions."""
-    worktop = _worktop(target)
-    if target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
+    worktop = _worktop(target, stands=True)
+    sweeps = motion.keys.hold == "floor"
+    if not sweeps and target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
         stand = _stand(ground, plan, agent, target, target.xy)
         yaw = target.facing + (math.pi if target.cls == "treadmill" else 0.0)
         height = target.position[2] + min(surfaces(target)[0].z, 0.2)
@@ -218,7 +220,7 @@ def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, mo
         place = target.xy if blocks(target) else spot
         support = height if blocks(target) else 0.0
         return PersonState(spot=spot, place=place, yaw=wrapped(yaw), support=support, at=target.name)
-    if affordances().of(motion.caption).roomy:
+    if sweeps or affordances().of(motion.caption).roomy:
         x, y, yaw = _open_floor(ground, plan, agent, target, motion)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, worktop=worktop, at=target.name)
     stand = _stand(ground, plan, agent, target, None)
@@ -247,7 +249,9 @@ def _open_floor(
     if not fits_there.any():
         raise UnableError(f"{named(agent)} finds no free floor at the {plain(target.name)}")
     if motion.keys.hold == "floor":
-        order = np.flatnonzero(fits_there)[np.argsort(-score[fits_there], kind="stable")]
+        fits_there = all_clear_of(cells, taken) & (gap <= ROOM_REACH)
+        score = score - 0.25 * gap
+        order = np.flatnonzero(fits_there)[np.argsort(-score[fits_there].round(3), kind="stable")]
         return _to_sweep(cells[order][:: max(len(order) // _TRIED, 1)], boxes)
     best = int(np.where(fits_there, score, -np.inf).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])

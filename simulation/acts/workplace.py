@@ -54,8 +54,6 @@ def worktop_before(
     if at is None or person.worktop is None:
         return None
     height = person.worktop
-    if at.position[2] >= _LOW:  # a machine on a counter is worked at from before it
-        return None
     tops = [_keys(at, height)] if at.cls == "piano" else surfaces(at)
     levels = sorted(tops, key=lambda surface: round(abs(at.position[2] + surface.z - height), 3) > _LEVEL)
     for surface in levels:

@@ -39,7 +39,7 @@ _STILL = 0.5
 """How much a hand that keeps still counts for where a thing lies."""
 _LOW = 0.15
 """Hands that come this near to the surface work on it."""
-_STRETCH = 0.2
+_STRETCH = 0.28
 """Hands go at most this far from their usual way to where a thing lies."""
 _OFFSETS = [np.array((x, y)) for x in (0.0, 0.04, 0.08) for y in (0.0, 0.05, -0.05, 0.1, -0.1, 0.14, -0.14)]
 """Where else than under the hands a thing may lie, in the body frame."""
@@ -98,7 +98,7 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it; raised above it, a tool that is `eaten` with points at the mouth. What `tips` is a vessel that one pours
+    touches it; raised above it, a tool that is `eaten` with points at the mouth. What is `flat` wipes the surface. What `tips` is a vessel that one pours
     from, tipped by the share `tip` of what empties it.
     """
 
@@ -106,6 +106,7 @@ class Grip(NamedTuple):
     laid: Laid | None = None
     surface: float | None = None
     eaten: bool = False
+    flat: bool = False
     tips: bool = False
     tip: float = 0.0
 
@@ -154,7 +155,7 @@ def grip(
         setting = setting._replace(right=_pouring(motion, size))
     touches = keys.right is not None and "surface" in keys.right.frames
     eaten = keys.right is not None and "mouth" in keys.right.frames
-    return setting, Grip(hold, surface=height if touches else None, eaten=eaten, tips=tips)
+    return setting, Grip(hold, surface=height if touches else None, eaten=eaten, flat=keys.hold == "flat", tips=tips)
 
 
 def _hold(motion: Motion, names: Iterable[str], size: Size, *, laid: bool) -> Hold:
@@ -302,7 +303,7 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return base + np.array((0.0, 0.0, max(floor - lowest, 0.0))), turn @ _AHEAD
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
-    place[2] = max(float(place[2]), floor)
+    place[2] = floor if grip.flat and float(place[2]) < floor + _LOW else max(float(place[2]), floor)
     return place, _AHEAD
 
 
