@@ -1,4 +1,4 @@
-"""Do hand, tool and surface meet? What is drawn of a motion in a home, checked in numbers for the motions that need it."""
+"""Do hand, tool and surface meet? What is drawn of a motion in a home, checked in numbers for those that need it."""
 
 from __future__ import annotations
 

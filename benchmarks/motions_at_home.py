@@ -4,8 +4,8 @@ A person makes every motion at every piece of furniture of each home, with a usu
 built. What is done is looked at as it would be drawn: the body within reach of the furniture, in the motion's posture
 (or standing, where that will do without a seat), what the motion needs in hand or lying there, and a thing that lies
 before one at the height of the surface, with a hand at it; and where it counts, that hand, tool and surface meet (see
-benchmarks/contact.py). `--motions` names only some, separated by commas. Everything else has to be refused, with a reason. Prints how
-often each motion was made, and what was wrong; exit status 1 if anything was.
+benchmarks/contact.py). `--motions` names only some, separated by commas. Everything else has to be refused, with a
+reason. Prints how often each motion was made, and what was wrong; exit status 1 if anything was.
 """
 
 from __future__ import annotations

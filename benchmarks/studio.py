@@ -83,7 +83,7 @@ class Take(NamedTuple):
     def views(self) -> tuple[float, float]:
         """Where the cameras stand."""
         target = next(piece for piece in self.world.layout.fixed if piece.id == 1)
-        return BESIDE if target.size[2] > _TALL and self.world.state.person().spot != target.xy else VIEWS
+        return BESIDE if target.size[2] > _TALL and self.world.state.person().place != target.xy else VIEWS
 
     def moment(self, share: float) -> Moment:
         """What is seen after a share of the motion's period."""
@@ -104,7 +104,7 @@ class Take(NamedTuple):
         low = person.posture in ("lie", "floor")
         angle, away = person.yaw + math.radians(view), 2.2 if low else 2.1
         x, y = person.place[0] + 0.3 * math.cos(person.yaw), person.place[1] + 0.3 * math.sin(person.yaw)
-        eye = (x + away * math.cos(angle), y + away * math.sin(angle), 1.55 if low else 1.75)
+        eye = (x + away * math.cos(angle), y + away * math.sin(angle), 1.9 if low else 1.75)
         target = (x, y, person.support + 0.2 if low else 0.85)
         image, _ = self.stage.picture(Camera(eye, target, 46.0), (2 * size[0], 2 * size[1]))
         return Image.fromarray(image).resize(size, Image.Resampling.LANCZOS)
@@ -118,10 +118,10 @@ def _object(number: int, cls: str, place: tuple[float, float, float], yaw: float
     return SceneObject.model_validate({**what, **where, "size": known.size, "colour": known.colours[0]})
 
 
-def studio(motion: Motion) -> Scene:
+def studio(motion: Motion, furniture: str = "") -> Scene:
     """The room, the furniture at which a motion is made, a seat before it where one sits, and what is around."""
     places = affordances().of(motion.caption).at
-    cls = _PLACES.get(motion.caption) or (places[0] if places else "rug")
+    cls = furniture or _PLACES.get(motion.caption) or (places[0] if places else "rug")
     if motion.posture == "floor":
         cls = "rug"
     first = _object(1, cls, (0.0, 0.0, 0.0), 0.0)
@@ -138,6 +138,13 @@ def studio(motion: Motion) -> Scene:
     return Scene(id=SceneId("studio"), rooms=[room], objects=pieces)
 
 
+def usual_act(motion: Motion, world: World) -> FreeMotion:
+    """A motion at the studio's first furniture, with a usual thing in hand."""
+    target = next(piece for piece in world.layout.fixed if piece.id == 1)
+    thing = _THINGS.get(motion.caption) or usual_things().get(motion.caption, "mug")
+    return FreeMotion(target_id=target.id, target=target.name, in_hand=thing, motion=motion.caption)
+
+
 @contextmanager
 def take(motion: Motion) -> Iterator[Take]:
     """Somebody who makes a motion in the studio, with a usual thing in hand.
@@ -145,11 +152,8 @@ def take(motion: Motion) -> Iterator[Take]:
     Raises:
         RuntimeError: If that is refused.
     """
-    thing = _THINGS.get(motion.caption) or usual_things().get(motion.caption, "mug")
     with World(studio(motion), agents=[PersonAgent()]) as world:
-        target = next(piece for piece in world.layout.fixed if piece.id == 1)
-        act = FreeMotion(target_id=target.id, target=target.name, in_hand=thing, motion=motion.caption)
-        outcome = world.perform(HUMAN, act)
+        outcome = world.perform(HUMAN, usual_act(motion, world))
         if not outcome.ok:
             raise RuntimeError(f"{motion.caption}: {outcome.reason}")
         stage = Stage(world.layout, [HUMAN], {})

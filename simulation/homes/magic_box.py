@@ -41,22 +41,27 @@ class Shape(NamedTuple):
 
 @made_once()
 def looks() -> dict[str, Look]:
-    """The shipped looks.yaml.
+    """What things look like that the catalogue does not know, by words."""
+    return read_looks(FILE)
+
+
+def read_looks(path: Path) -> dict[str, Look]:
+    """Read a file like looks.yaml.
 
     Raises:
-        ConfigError: If it was edited into something unusable; names the words.
+        ConfigError: If it cannot be used; names the file, the words and what was expected.
     """
     try:
-        found = TypeAdapter(dict[str, Look]).validate_python(yaml.load(FILE.read_text(encoding="utf-8"), _Loader))
+        found = TypeAdapter(dict[str, Look]).validate_python(yaml.load(path.read_text(encoding="utf-8"), _Loader))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as err:
-        raise ConfigError(f"The file {FILE} cannot be read: {err}.") from err
+        raise ConfigError(f"The file {path} cannot be read: {err}.") from err
     except ValidationError as err:
         first = err.errors()[0]
-        raise ConfigError(f"The file {FILE}, {first['loc'][0]!r}: {first['msg']}.") from err
-    known = catalogue().movable
+        raise ConfigError(f"The file {path}, {'.'.join(map(str, first['loc'][:1]))}: {first['msg']}.") from err
     for words, look in found.items():
-        if (look if isinstance(look, str) else look[0]) not in (known if isinstance(look, str) else SHAPES):
-            raise ConfigError(f"The file {FILE}, {words!r}: there is no class or recipe {look!r}.")
+        name, known = (look, catalogue().movable) if isinstance(look, str) else (look[0], SHAPES)
+        if name not in known:
+            raise ConfigError(f"The file {path}, {words!r}: there is no class or recipe {name!r}.")
     return found
 
 

@@ -54,6 +54,8 @@ _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
 _AHEAD = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """A thing whose front looks away from the body."""
+_BEHIND = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+"""A flat thing upright behind the head, such as a towel."""
 _WORN = {"hat": 0.05, "headphones": -0.06}
 """What is worn on the head, and its base above the head's middle."""
 
@@ -98,8 +100,8 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it; raised above it, a tool that is `eaten` with points at the mouth. What is `flat` wipes the surface. What `tips` is a vessel that one pours
-    from, tipped by the share `tip` of what empties it.
+    touches it; raised above it, a tool that is `eaten` with points at the mouth. What is `flat` wipes the surface. What
+    `tips` is a vessel that one pours from, tipped by the share `tip` of what empties it.
     """
 
     hold: Hold = "right"
@@ -283,7 +285,7 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
     if grip.hold == "beside" and max(size) > _BULKY:
         return np.array((0.0, -0.75, 0.0)), _AHEAD
     if grip.hold == "head":
-        return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
+        return _at_head(frames, size)
     if grip.hold == "feet":
         ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
         return ankles + np.array((_TOES, 0.0, -ANKLE)), _AHEAD
@@ -291,11 +293,15 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         if size[0] > _LONG:
             return _across(right, left, size)
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
+    return _in_one_hand(frames, "left" if grip.hold == "left" else "right", size, grip)
+
+
+def _in_one_hand(frames: Frames, side: Side, size: Size, grip: Grip) -> tuple[Array, Array]:
+    """A thing in one hand, above the surface and on it where it works there; a vessel as far tipped as it is."""
     floor = -math.inf if grip.surface is None else grip.surface
-    side: Side = "left" if grip.hold == "left" else "right"
     if _is_tool(size):
         return _handled(frames, side, size, floor, eaten=grip.eaten)
-    hand = left if side == "left" else right
+    hand = frames.place[f"{side}_hand"]
     if grip.tips:
         turn = tipped(size, grip.tip)
         base = hand - turn @ grasp(size)
@@ -313,6 +319,13 @@ def worn_at(pose: Array, cls: str, size: Size) -> tuple[Array, Array] | None:
         return None
     frames = forward(pose)
     return frames.point("head", 0.0, 0.0, _WORN[cls]), frames.turn["head"] @ _AHEAD
+
+
+def _at_head(frames: Frames, size: Size) -> tuple[Array, Array]:
+    """Headphones on the head, or a flat thing behind it, such as a towel."""
+    if size[2] < _LOW_THING:
+        return frames.point("head", -0.08, 0.0, 0.05), frames.turn["head"] @ _BEHIND
+    return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
 
 
 def _unit(line: Array) -> Array:

@@ -1,7 +1,7 @@
 """How a vessel is tipped to pour from it: where it is grasped, how far it is tipped, and where its lip then is.
 
-A vessel's own frame is that of its recipe: base at z = 0, handle towards +x and spout towards -x, if it has any. Held in
-the right hand it has the spout to the left. Lengths are metres.
+A vessel's own frame is that of its recipe: base at z = 0, handle towards +x and spout towards -x, if any. Held in the
+right hand it has the spout to the left. Lengths are metres.
 """
 
 from __future__ import annotations

@@ -188,9 +188,8 @@ def chess_board(kit: Kit) -> None:
     w, d, h = kit.w, kit.d, kit.h
     kit.box((0, 0, 0), (w, d, h * 0.3))
     for i in range(8):
-        kit.box(
-            (w * (-0.375 + 0.25 * (i % 4)), d * (0.2 if i < 4 else -0.2), h * 0.3), (w * 0.12, d * 0.4, 0.002), CREAM
-        )
+        x, y = -0.375 + 0.25 * (i % 4), 0.125 + 0.25 * (i % 2) - 0.5 * (i // 4)
+        kit.box((w * x, d * y, h * 0.3), (w * 0.25, d * 0.25, 0.002), CREAM)
     for x, y, colour in ((-0.38, -0.4, BLACK), (-0.1, -0.4, BLACK), (0.2, -0.3, BLACK)):
         kit.tube((x * w, y * d, h * 0.3), w * 0.035, h * 0.7, colour)
     for x, y in ((-0.3, 0.4), (0.12, 0.3), (0.38, 0.4)):
