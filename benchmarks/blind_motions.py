@@ -24,7 +24,7 @@ SHARES = (0.08, 0.33, 0.58, 0.83)
 TILE = (300, 300)
 ONCE_MISSED = {
     "pour a drink": "pour",
-    "set the table": "set the table,lay the table,setting the table,laying the table,table setting",
+    "set the table": "set the table,sets the table,setting the table,lays the table,laying the table",
     "tie the shoes": "shoe,lace",
     "wipe the surface": "wip,clean the table,cleaning the table,polish",
     "type on a keyboard": "typ,laptop,computer",

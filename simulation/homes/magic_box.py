@@ -1,6 +1,7 @@
 """What a thing from the magic box looks like: any text names a thing, and known words lead to known shapes.
 
-The catalogue's classes come first, then what is in looks.yaml. What neither knows is a box with its first letter on it.
+The catalogue's classes come first, then what is in looks.yaml, then words that come near to those in meaning, which
+looks_alike.yaml lists. What none of them knows is a box with its first letter on it.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from coopera.simulation.homes.scene import rgb_of
 Point3: TypeAlias = tuple[float, float, float]
 Look: TypeAlias = str | tuple[str, tuple[Metres, Metres, Metres], Hex]
 """A class of the catalogue, or a recipe, its size and its colour."""
-FILE = Path(__file__).parent / "looks.yaml"
+FILE, ALIKE = (Path(__file__).parent / name for name in ("looks.yaml", "looks_alike.yaml"))
 _SIZE: Point3 = (0.12, 0.10, 0.12)
 _COLOURS = ("#c8503c", "#3c78b4", "#d2a03c", "#5a9650", "#8c5aa0")
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
@@ -43,6 +44,13 @@ class Shape(NamedTuple):
 def looks() -> dict[str, Look]:
     """What things look like that the catalogue does not know, by words."""
     return read_looks(FILE)
+
+
+@made_once()
+def alike() -> dict[str, str]:
+    """Words, and the known words that come nearest to them in meaning; see benchmarks/looks_alike.py."""
+    found: dict[str, str] = yaml.load(ALIKE.read_text(encoding="utf-8"), _Loader) or {}
+    return found
 
 
 def read_looks(path: Path) -> dict[str, Look]:
@@ -81,6 +89,11 @@ def shape_of(text: str) -> Shape:
                 found = _known(part[start : start + size], own)
                 if found is not None:
                     return found
+    for said in (" ".join(words), *reversed(words)):
+        near = alike().get(said) or alike().get(said.removesuffix("s"))
+        found = _known(near.split(), own) if near else None
+        if found is not None:
+            return found._replace(kind=own)
     return Shape(own, _SIZE, rgb_of(_COLOURS[seed_at(0, "magic box", text.lower()) % len(_COLOURS)]), own)
 
 
