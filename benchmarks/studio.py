@@ -44,7 +44,9 @@ _THINGS = {
     "stir a pot": "soup pot",
     "chop vegetables": "cutting board",
     "knead dough": "rolling pin",
-    "do a puzzle": "puzzle piece",
+    "do a puzzle": "jigsaw puzzle",
+    "box and punch": "boxing gloves",
+    "fold clothes": "t-shirt",
     "play the piano": "sheet music",
     "brush teeth": "toothbrush",
     "carry a box": "cardboard box",
@@ -67,6 +69,8 @@ _PLACES = {
     "do a puzzle": "dining_table",
     "water plants": "side_table",
     "feed the pet": "rug",
+    "dust the shelves": "bookshelf",
+    "fold clothes": "dining_table",
 }
 _AROUND: dict[str, list[str]] = {"pour a drink": ["glass"]}
 """What else is there, on the furniture before one."""

@@ -63,7 +63,7 @@ def room(things: tuple[str, ...]) -> Scene:
                 on=None,
             )
         )
-    whole = Room(name="studio", kind="study", x0=-1, y0=-1, x1=14, y1=14)
+    whole = Room(name="studio", kind="laundry room", x0=-1, y0=-1, x1=14, y1=14)
     return Scene(id=SceneId("things"), rooms=[whole], objects=objects)
 
 
