@@ -16,20 +16,19 @@ from benchmarks.motions_at_home import usual_things
 from coopera.core.affordances import affordances
 from coopera.core.household import HUMAN, FreeMotion, SceneId
 from coopera.simulation import World
-from coopera.simulation.acts.plans import Placed
-from coopera.simulation.acts.workplace import thing_of, working
+from coopera.simulation.acts.plans import Play
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
-from coopera.simulation.motions.aids import aids, now
 from coopera.simulation.motions.library import Motion
-from coopera.simulation.motions.poses import pose_at
-from coopera.simulation.sight.recording import Held, Moment
+from coopera.simulation.sight.recording import TICKS, Filming, Moment, Shot
 from coopera.simulation.sight.stage import Camera, Stage
 from coopera.simulation.state.agents import PersonAgent
 
 VIEWS, BESIDE = (62.0, -38.0), (118.0, -100.0)
 """Where the cameras stand, in degrees from where the person looks, to the left; and where before tall furniture."""
 _TALL = 1.05
+_FILMED = 8.0
+"""A motion is filmed for so many seconds at least."""
 _THINGS = {
     "pour a drink": "wine bottle",
     "set the table": "plate",
@@ -82,6 +81,7 @@ class Take(NamedTuple):
     motion: Motion
     world: World
     stage: Stage
+    shot: Shot
 
     @property
     def views(self) -> tuple[float, float]:
@@ -91,15 +91,8 @@ class Take(NamedTuple):
 
     def moment(self, share: float) -> Moment:
         """What is seen after a share of the motion's period."""
-        world, person = self.world, self.world.state.person()
-        setting, grip = working(world.layout, world.state, person, self.motion)
-        seconds = share * self.motion.keys.period
-        body = Placed(*person.place, person.yaw, pose_at(self.motion, seconds, setting))
-        if person.thing is None:
-            return Moment({HUMAN: body}, {}, {})
-        cls = thing_of(world.layout, world.state, person.thing).cls
-        what = tuple(aids(self.motion, setting, grip, seconds, cls))
-        return Moment({HUMAN: body}, {HUMAN: Held(person.thing, now(self.motion, setting, grip, seconds), what)}, {})
+        first = self.shot.ticks - round(max(_FILMED, 2 * self.motion.keys.period) * TICKS)
+        return self.shot.at(first + round(share * self.motion.keys.period * TICKS))
 
     def picture(self, share: float, view: float, size: tuple[int, int]) -> Image.Image:
         """The person after a share of the period, from so many degrees beside where they look."""
@@ -162,7 +155,9 @@ def take(motion: Motion) -> Iterator[Take]:
             raise RuntimeError(f"{motion.caption}: {outcome.reason}")
         stage = Stage(world.layout, [HUMAN], {})
         try:
-            yield Take(motion, world, stage)
+            person = world.state.person()
+            film = Filming(world._ground, world.state, HUMAN, HUMAN).film([Play(HUMAN, person, motion)], HUMAN)
+            yield Take(motion, world, stage, film.shots[-1])
         finally:
             stage.close()
 
