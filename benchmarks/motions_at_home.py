@@ -3,8 +3,9 @@
 A person makes every motion at every piece of furniture of each home, with a usual thing in hand, in a home as it was
 built. What is done is looked at as it would be drawn: the body within reach of the furniture, in the motion's posture
 (or standing, where that will do without a seat), what the motion needs in hand or lying there, and a thing that lies
-before one at the height of the surface, with a hand at it. Everything else has to be refused, with a reason. Prints how
-often each motion was made, and what was wrong; exit status 1 if anything was.
+before one at the height of the surface, with a hand at it; and where it counts, that hand, tool and surface meet (see
+benchmarks/contact.py). `--motions` names only some, separated by commas. Everything else has to be refused, with a
+reason. Prints how often each motion was made, and what was wrong; exit status 1 if anything was.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from benchmarks.contact import contacts
 from benchmarks.truth import reach
 from coopera.core.affordances import affordances
 from coopera.core.household import HUMAN, FreeMotion
@@ -63,6 +65,7 @@ def wrong(world: World, motion: Motion, act: FreeMotion, target: SceneObject) ->
             yield "what it needs is not there"
     if person.thing is not None:
         yield from _held(world, motion)
+        yield from contacts(world, motion)
 
 
 def _held(world: World, motion: Motion) -> Iterator[str]:
@@ -98,12 +101,14 @@ def main() -> None:
     """Try all motions in the homes that the arguments name."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", default=",".join(list_scenes()), help="homes, separated by commas")
-    scenes = parser.parse_args().scenes.split(",")
+    parser.add_argument("--motions", default="", help="only these motions, separated by commas")
+    args = parser.parse_args()
+    scenes, only = args.scenes.split(","), args.motions.split(",") if args.motions else load_library().captions
     things, made, troubles = usual_things(), Counter[tuple[str, str]](), Counter[str]()
     refused, unsaid = Counter[str](), 0
     for scene in scenes:
         with World(load_scene(scene)) as world:
-            for motion in load_library().motions:
+            for motion in (one for one in load_library().motions if one.caption in only):
                 for target in world.layout.fixed:
                     world.restore({})
                     thing = things.get(motion.caption, ANYTHING)
@@ -117,7 +122,7 @@ def main() -> None:
                     for trouble in wrong(world, motion, act, target):
                         troubles[f"{scene}: {motion.caption} at {target.name} with the {thing}: {trouble}"] += 1
     print("| motion |", " | ".join(scenes), "|\n|---|" + "---|" * len(scenes))
-    for motion in load_library().motions:
+    for motion in (one for one in load_library().motions if one.caption in only):
         print(f"| {motion.caption} |", " | ".join(str(made[motion.caption, scene]) for scene in scenes), "|")
     total = sum(made.values())
     print(f"made {total}, of them at the right place {total - len(troubles)}")

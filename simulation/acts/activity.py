@@ -39,9 +39,14 @@ from coopera.simulation.state.agents import named
 from coopera.simulation.state.home_state import HomeState, PersonState
 from coopera.simulation.ways.navigation import Stand, clearance, obstacle_boxes
 
+_SWEPT = np.array([(x, y) for x in (0.45, 0.65, 0.85, 1.05) for y in (-0.45, -0.15, 0.15, 0.45)])
+"""What a broom comes over, in the frame of who sweeps (metres)."""
+_TRIED, _CLEAR = 150, 0.03
+"""At so many places one looks for a heading with free floor for a broom: this much round it (metres)."""
 ROOM_REACH = 1.5
 """Farthest from the furniture at which one does what takes free floor (metres)."""
 _WORKTOP = (0.45, 1.3)
+_LOW_TABLE = 0.36
 _KEYS = 0.61  # a piano's keyboard, as a share of its height
 _MOMENTS = (0.0, 0.25, 0.5, 0.75)
 _STANDS, _ANY = 12, 1000
@@ -156,7 +161,7 @@ def _placed(
         spot = _stand(ground, plan, agent, bed, None)
         return _resting(rest, spot, target, None, "lie"), bed
     if motion.posture != "stand":
-        x, y, yaw = _open_floor(ground, plan, agent, target)
+        x, y, yaw = _open_floor(ground, plan, agent, target, motion)
         posture = "lie" if motion.posture == "lie" else "floor"
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, posture=posture, at=target.name), target
     return _upright(ground, plan, agent, target, motion), target
@@ -176,15 +181,15 @@ def _resting(rest: Rest, spot: Stand, target: SceneObject, worktop: float | None
     )
 
 
-def _worktop(target: SceneObject) -> float | None:
-    """The height at which hands work at a piece of furniture."""
+def _worktop(target: SceneObject, *, stands: bool = False) -> float | None:
+    """The height at which hands work at a piece of furniture; who stands also bends down to a low table."""
     if target.cls == "piano":
         return target.position[2] + _KEYS * target.size[2]
     if target.position[2] >= _WORKTOP[0]:  # a machine on a counter is worked at on that counter
         return target.position[2] + 0.1
     for surface in surfaces(target):
         height = target.position[2] + surface.z
-        if _WORKTOP[0] <= height <= _WORKTOP[1]:
+        if (_LOW_TABLE if stands else _WORKTOP[0]) <= height <= _WORKTOP[1]:
             return height
     return None
 
@@ -210,8 +215,9 @@ def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near
 
 def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
     """Standing at the target, on it where one steps on it, or near it with elbow room for large motions."""
-    worktop = _worktop(target)
-    if target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
+    worktop = _worktop(target, stands=True)
+    sweeps = motion.keys.hold == "floor"
+    if not sweeps and target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
         stand = _stand(ground, plan, agent, target, target.xy)
         yaw = target.facing + (math.pi if target.cls == "treadmill" else 0.0)
         height = target.position[2] + min(surfaces(target)[0].z, 0.2)
@@ -219,16 +225,21 @@ def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, mo
         place = target.xy if blocks(target) else spot
         support = height if blocks(target) else 0.0
         return PersonState(spot=spot, place=place, yaw=wrapped(yaw), support=support, at=target.name)
-    if affordances().of(motion.caption).roomy:
-        x, y, yaw = _open_floor(ground, plan, agent, target)
+    if sweeps or affordances().of(motion.caption).roomy:
+        x, y, yaw = _open_floor(ground, plan, agent, target, motion)
         return PersonState(spot=(x, y), place=(x, y), yaw=yaw, worktop=worktop, at=target.name)
     stand = _stand(ground, plan, agent, target, None)
     spot = (stand.x, stand.y)
     return PersonState(spot=spot, place=spot, yaw=stand.yaw, worktop=worktop, at=target.name)
 
 
-def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject) -> tuple[float, float, float]:
-    """A place near the target with much free floor around it, and the heading with most room ahead and behind."""
+def _open_floor(
+    ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion
+) -> tuple[float, float, float]:
+    """A place near the target with much free floor around it, and the heading with most room ahead and behind.
+
+    Who sweeps has free floor where the broom goes, as far as there is such a place.
+    """
     scene = ground.scene
     boxes = obstacle_boxes((thing for thing in scene.fixed if blocks(thing)), scene.walls())
     cells = ground.navigator.cells_in(target.room)
@@ -242,6 +253,11 @@ def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject)
     fits_there = all_clear_of(cells, taken) & (on_it if on_it.any() else gap <= ROOM_REACH)
     if not fits_there.any():
         raise UnableError(f"{named(agent)} finds no free floor at the {plain(target.name)}")
+    if motion.keys.hold == "floor":
+        fits_there = all_clear_of(cells, taken) & (gap <= ROOM_REACH)
+        score = score - 0.25 * gap
+        order = np.flatnonzero(fits_there)[np.argsort(-score[fits_there].round(3), kind="stable")]
+        return _to_sweep(cells[order][:: max(len(order) // _TRIED, 1)], boxes)
     best = int(np.where(fits_there, score, -np.inf).argmax())
     x, y = float(cells[best, 0]), float(cells[best, 1])
     headings = np.arange(16) * math.pi / 8
@@ -249,3 +265,14 @@ def _open_floor(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject)
     ahead, aside = np.outer(np.cos(headings), along), np.outer(np.sin(headings), along)
     strip = clearance(x + ahead, y + aside, boxes).min(axis=1).round(3)
     return x, y, float(headings[int(strip.argmax())])
+
+
+def _to_sweep(cells: Array, boxes: Array) -> tuple[float, float, float]:
+    """The first of some places at which a broom meets nothing in some direction, and the clearest direction there."""
+    headings = np.arange(16) * math.pi / 8
+    ahead, aside = _SWEPT.T
+    x = cells[:, 0, None, None] + np.outer(np.cos(headings), ahead) - np.outer(np.sin(headings), aside)
+    y = cells[:, 1, None, None] + np.outer(np.sin(headings), ahead) + np.outer(np.cos(headings), aside)
+    gaps = clearance(x.ravel(), y.ravel(), boxes).reshape(x.shape).min(axis=2).round(3)
+    best = int(np.minimum(gaps.max(axis=1), _CLEAR).argmax())
+    return float(cells[best, 0]), float(cells[best, 1]), float(headings[int(gaps[best].argmax())])

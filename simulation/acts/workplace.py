@@ -54,7 +54,8 @@ def worktop_before(
     if at is None or person.worktop is None:
         return None
     height = person.worktop
-    levels = sorted(surfaces(at), key=lambda surface: round(abs(at.position[2] + surface.z - height), 3) > _LEVEL)
+    tops = [_keys(at, height)] if at.cls == "piano" else surfaces(at)
+    levels = sorted(tops, key=lambda surface: round(abs(at.position[2] + surface.z - height), 3) > _LEVEL)
     for surface in levels:
         z = at.position[2] + surface.z
         there = [(thing, where) for thing, where in standing if _stands(where, z)]
@@ -63,6 +64,12 @@ def worktop_before(
         if edge is not None and (abs(z - height) <= _LEVEL or (_LOW <= z <= _HIGH)):
             return Before(top, z, edge)
     return None
+
+
+def _keys(piano: SceneObject, height: float) -> Surface:
+    """The keyboard of a piano, at a height above the floor."""
+    w, d, _ = piano.size
+    return Surface(height - piano.position[2], -0.44 * w, 0.44 * w, 0.13 * d, 0.47 * d, 9.0)
 
 
 def _stands(where: ThingState, height: float) -> bool:

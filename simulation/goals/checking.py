@@ -17,7 +17,7 @@ from coopera.core.household import AgentId, plain
 from coopera.simulation.goals.atoms import room_words, who
 from coopera.simulation.goals.tree import STATES, Atom, Goal, Role, atoms, near
 from coopera.simulation.homes.catalogue import catalogue
-from coopera.simulation.homes.magic_box import LOOKS_LIKE, shape_of
+from coopera.simulation.homes.magic_box import looks, shape_of
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.state.home_state import Kind
 
@@ -109,7 +109,7 @@ def _without_state(atom: Atom, words: Words) -> str:
     word = atom.words[0]
     cls = words.names[word].cls if word in words.names else word
     of = affordances().states[atom.name].of
-    if any(affordances().is_one_of(one, of) for one in (cls, shape_of(cls).cls)):
+    if any(affordances().is_one_of(one, of) for one in (cls, shape_of(cls).kind)):
         return ""
     known = ", ".join(sorted(map(plain, affordances().names(of))))
     return f"{word!r} has no such state; {atom.name} can be said of {known}"
@@ -135,7 +135,7 @@ def _everywhere() -> tuple[frozenset[str], frozenset[str], frozenset[str]]:
     groups = chain.from_iterable(said.groups.values())
     tools = chain.from_iterable(motion.tools for motion in said.motions.values())
     furniture = _plainly(known.fixed)
-    things = _plainly(chain(known.movable, groups, said.names(list(tools)), LOOKS_LIKE)) - furniture
+    things = _plainly(chain(known.movable, groups, said.names(list(tools)), looks())) - furniture
     return furniture, things, frozenset(map(room_words, known.rooms))
 
 

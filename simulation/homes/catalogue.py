@@ -1,7 +1,7 @@
 """The knowledge of each class of thing: its size, its colours, its usual places and its uses.
 
-The knowledge itself is in catalogue.yaml, for a user to read and edit. A class outside it is an unknown thing: a plain
-box with a flat top.
+The knowledge itself is in catalogue.yaml, for a user to read and edit. A class outside it is an unknown thing: a
+box with a flat top and a letter on it.
 """
 
 from __future__ import annotations
@@ -18,16 +18,23 @@ from coopera.core.lazy import made_once
 from coopera.core.people import Frozen
 from coopera.simulation.homes.categories import DYNAMIC, STATIC
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.shapes.chores import CHORE_THINGS
 from coopera.simulation.shapes.fixtures import FIXTURES
 from coopera.simulation.shapes.furniture import FURNITURE
 from coopera.simulation.shapes.household import HOUSEHOLD_THINGS
-from coopera.simulation.shapes.kit import Colour, Kit, Part, Recipe, Size, plain_box
+from coopera.simulation.shapes.kit import Colour, Kit, Part, Recipe, Size
 from coopera.simulation.shapes.kitchen import KITCHEN_THINGS
 from coopera.simulation.shapes.leisure import LEISURE_THINGS
+from coopera.simulation.shapes.lettering import labelled_box
+from coopera.simulation.shapes.pantry import PANTRY_THINGS
+from coopera.simulation.shapes.personal import PERSONAL_THINGS
+from coopera.simulation.shapes.workshop import WORKSHOP_THINGS
 
 FILE = Path(__file__).parent / "catalogue.yaml"
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
 RECIPES: dict[str, Recipe] = {**FURNITURE, **FIXTURES, **KITCHEN_THINGS, **LEISURE_THINGS, **HOUSEHOLD_THINGS}
+SHAPES: dict[str, Recipe] = {**RECIPES, **PANTRY_THINGS, **WORKSHOP_THINGS, **PERSONAL_THINGS, **CHORE_THINGS}
+"""All recipes: those of the classes, and those of what comes out of the magic box."""
 FLAT = 0.05
 """Fixed things lower than this (rugs) are walked over."""
 STANDS = ("wall", "outer", "centre", "floor")
@@ -215,7 +222,11 @@ def blocks(thing: SceneObject) -> bool:
 
 
 def parts_of(cls: str, size: Size, colour: Colour) -> list[Part]:
-    """Return the primitives that show a thing of this class and size; a plain box where it is unknown."""
+    """Return the primitives that show a thing of this class and size; a labelled box where it is unknown."""
     kit = Kit(size, colour)
-    RECIPES.get(cls, plain_box)(kit)
+    recipe = SHAPES.get(cls)
+    if recipe is not None:
+        recipe(kit)
+    else:
+        labelled_box(kit, cls)
     return kit.parts

@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.affordances import affordances
-from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, forward
-from coopera.simulation.motions.library import HandPath, Hold, Motion
+from coopera.simulation.bodies.humanoid import ANKLE, MOUTH, SIDES, Frames, Side, forward
+from coopera.simulation.motions.library import HandPath, Hold, Motion, Triple
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
+from coopera.simulation.motions.vessels import OVER, grasp, lip, tipped
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
@@ -24,6 +25,10 @@ _BIG = 0.17
 _LONG = 0.7
 _FINE = 0.125
 _BULKY = 0.35
+_LOW_THING = 0.1
+"""What is no higher than this can be laid flat under a hand to wipe with."""
+_TOES = 0.05
+"""The middle of a foot is this far ahead of its ankle."""
 _GRASP = 0.16
 """Two hands hold a thing between them that is at most this much narrower than they are apart."""
 _END = 0.07
@@ -34,7 +39,7 @@ _STILL = 0.5
 """How much a hand that keeps still counts for where a thing lies."""
 _LOW = 0.15
 """Hands that come this near to the surface work on it."""
-_STRETCH = 0.2
+_STRETCH = 0.28
 """Hands go at most this far from their usual way to where a thing lies."""
 _OFFSETS = [np.array((x, y)) for x in (0.0, 0.04, 0.08) for y in (0.0, 0.05, -0.05, 0.1, -0.1, 0.14, -0.14)]
 """Where else than under the hands a thing may lie, in the body frame."""
@@ -49,6 +54,8 @@ _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
 _AHEAD = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """A thing whose front looks away from the body."""
+_BEHIND = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+"""A flat thing upright behind the head, such as a towel."""
 _WORN = {"hat": 0.05, "headphones": -0.06}
 """What is worn on the head, and its base above the head's middle."""
 
@@ -93,13 +100,17 @@ class Grip(NamedTuple):
     """How a thing is held.
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
-    touches it; raised above it, a tool that is `eaten` with points at the mouth.
+    touches it; raised above it, a tool that is `eaten` with points at the mouth. What is `flat` wipes the surface. What
+    `tips` is a vessel that one pours from, tipped by the share `tip` of what empties it.
     """
 
     hold: Hold = "right"
     laid: Laid | None = None
     surface: float | None = None
     eaten: bool = False
+    flat: bool = False
+    tips: bool = False
+    tip: float = 0.0
 
 
 CARRIED = Grip()
@@ -138,14 +149,39 @@ def grip(
         laid, hand = _laid(size, hands, top)
         return _reaching(setting, hand - hands), Grip(keys.hold, laid=Laid(*laid, height, _yaw(size)))
     setting = to_tools(motion, setting, top)
-    hold = keys.hold
+    hold = _hold(motion, names, size, laid=top is not None)
     if hold == "both" and size[0] <= _LONG and size[2] <= 0.6 and _span(motion, setting) > size[0] + _GRASP:
         hold = "right"
-    if hold == "floor" and size[0] <= _LONG:
-        hold = "right"
+    tips = bool(keys.tip) and hold == "right" and not _is_tool(size)
+    if tips:
+        setting = setting._replace(right=_pouring(motion, size))
     touches = keys.right is not None and "surface" in keys.right.frames
     eaten = keys.right is not None and "mouth" in keys.right.frames
-    return setting, Grip(hold, surface=height if touches else None, eaten=eaten)
+    return setting, Grip(hold, surface=height if touches else None, eaten=eaten, flat=keys.hold == "flat", tips=tips)
+
+
+def _hold(motion: Motion, names: Iterable[str], size: Size, *, laid: bool) -> Hold:
+    """How a thing that does not lie is held: as the motion says, as far as its size permits.
+
+    What would lie on a surface, and has none, is held level in the left hand.
+    """
+    hold = motion.keys.hold
+    if hold == "surface" and not laid and lies(motion, names, size) and motion.keys.left is not None:
+        return "left"
+    if hold == "flat":
+        return "left" if size[2] > _LOW_THING else "right"
+    if (hold == "floor" and size[0] <= _LONG) or (hold == "feet" and max(size[:2]) <= _BIG):
+        return "right"
+    return hold
+
+
+def _pouring(motion: Motion, size: Size) -> Triple:
+    """How much farther than usual the right hand goes so that the lip of what it tips is over the other vessel."""
+    keys = motion.keys
+    assert keys.right is not None
+    usual = np.array(keys.right.points[keys.tip.index(max(keys.tip))])
+    x, y, z = (np.array((*_hands(motion), OVER)) - lip(size) - usual).tolist()
+    return x, y, z
 
 
 def to_tools(motion: Motion, setting: Setting, top: Worktop | None) -> Setting:
@@ -169,7 +205,9 @@ def _at_surface(motion: Motion) -> list[HandPath]:
 
 
 def _hands(motion: Motion) -> Array:
-    """Where hands usually work on the surface: both, if a thing lies there, else the right one."""
+    """Where hands usually work on the surface: where it is said, or both, if a thing lies there, or the right one."""
+    if motion.keys.works_at is not None:
+        return np.array(motion.keys.works_at)
     working = _at_surface(motion)
     if motion.keys.hold != "surface" and motion.keys.right in working:
         return _where(working[0], math.inf)
@@ -247,18 +285,31 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
     if grip.hold == "beside" and max(size) > _BULKY:
         return np.array((0.0, -0.75, 0.0)), _AHEAD
     if grip.hold == "head":
-        return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
+        return _at_head(frames, size)
+    if grip.hold == "feet":
+        ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
+        return ankles + np.array((_TOES, 0.0, -ANKLE)), _AHEAD
     if grip.hold == "both":
         if size[0] > _LONG:
             return _across(right, left, size)
         return _before_eyes(frames, (right + left) / 2, size) if size[2] < _THIN else _between(right, left, size)
+    return _in_one_hand(frames, "left" if grip.hold == "left" else "right", size, grip)
+
+
+def _in_one_hand(frames: Frames, side: Side, size: Size, grip: Grip) -> tuple[Array, Array]:
+    """A thing in one hand, above the surface and on it where it works there; a vessel as far tipped as it is."""
     floor = -math.inf if grip.surface is None else grip.surface
-    if grip.hold != "left" and _is_tool(size):
-        return _handled(frames, size, floor, eaten=grip.eaten)
-    hand = left if grip.hold == "left" else right
+    if _is_tool(size):
+        return _handled(frames, side, size, floor, eaten=grip.eaten)
+    hand = frames.place[f"{side}_hand"]
+    if grip.tips:
+        turn = tipped(size, grip.tip)
+        base = hand - turn @ grasp(size)
+        lowest = float(base[2]) - abs(float(turn[2, 1])) * size[0] / 2
+        return base + np.array((0.0, 0.0, max(floor - lowest, 0.0))), turn @ _AHEAD
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
-    place[2] = max(float(place[2]), floor)
+    place[2] = floor if grip.flat and float(place[2]) < floor + _LOW else max(float(place[2]), floor)
     return place, _AHEAD
 
 
@@ -268,6 +319,13 @@ def worn_at(pose: Array, cls: str, size: Size) -> tuple[Array, Array] | None:
         return None
     frames = forward(pose)
     return frames.point("head", 0.0, 0.0, _WORN[cls]), frames.turn["head"] @ _AHEAD
+
+
+def _at_head(frames: Frames, size: Size) -> tuple[Array, Array]:
+    """Headphones on the head, or a flat thing behind it, such as a towel."""
+    if size[2] < _LOW_THING:
+        return frames.point("head", -0.08, 0.0, 0.05), frames.turn["head"] @ _BEHIND
+    return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
 
 
 def _unit(line: Array) -> Array:
@@ -294,13 +352,13 @@ def _across(right: Array, left: Array, size: Size) -> tuple[Array, Array]:
     return right + across * (0.5 * size[0] - 0.5 * size[1]) - top * 0.6 * size[2], turn
 
 
-def _handled(frames: Frames, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
+def _handled(frames: Frames, side: Side, size: Size, floor: float, *, eaten: bool) -> tuple[Array, Array]:
     """A tool held at its handle (+x): a thin one goes on where the forearm points, or down to the surface.
 
     A pan stays level.
     """
-    hand = frames.place["right_hand"]
-    arm = frames.turn["right_hand"] @ np.array((0.0, 0.0, -1.0))
+    hand = frames.place[f"{side}_hand"]
+    arm = frames.turn[f"{side}_hand"] @ np.array((0.0, 0.0, -1.0))
     if size[1] > _FINE:
         arm = np.array((1.0, 0.0, 0.0))
         hand = np.array((hand[0], hand[1], max(float(hand[2]), floor + 0.5 * size[2])))

@@ -20,7 +20,7 @@ from coopera.core.people import Frozen
 from coopera.simulation.shapes.rotations import Array
 
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
-Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside"]
+Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside", "feet", "flat"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
 Frame: TypeAlias = Literal["surface", "mouth", "head", "chest", "hips", "body"]
 Triple: TypeAlias = tuple[float, float, float]
@@ -56,6 +56,30 @@ class HandPath(Frozen):
         return {"frames": frames[: max(len(points), 1)], "points": points}
 
 
+class Aid(Frozen):
+    """A small thing that belongs to a motion and is no thing of the home, such as the fork that one eats with.
+
+    Within the shares `when` of the period it is in the `hand`; afterwards it lies `at` a place, which is x, y, z and a
+    turn in degrees in the surface's frame (or, `floor`, in the body's, above what bears it). Without a hand it lies
+    there just then. It is left out where the thing in hand is one of its kind, and where that is not held as `only`
+    says.
+    """
+
+    thing: str = Field(min_length=1, max_length=40)
+    hand: Literal["right", "left"] | None = None
+    when: tuple[float, float] = (0.0, 1.0)
+    at: tuple[float, float, float, float] | None = None
+    floor: bool = False
+    only: Literal["laid", "left", "right"] | None = None
+
+
+class Laying(Frozen):
+    """The thing in hand is put down in the course of a motion: at this share of its period, at x, y and a turn."""
+
+    after: float = Field(gt=0, lt=1)
+    at: Triple
+
+
 class Keys(Frozen):
     """How the body does a motion: see the head of motion_keys.yaml."""
 
@@ -73,6 +97,10 @@ class Keys(Frozen):
     elbows: float = 0.15
     knees: float = 0.1
     hold: Hold = "right"
+    works_at: tuple[float, float] | None = None
+    tip: list[float] = []
+    lays: Laying | None = None
+    aids: list[Aid] = []
 
 
 class Motion(Frozen):

@@ -20,6 +20,9 @@ _SEATED = 0.10  # the pelvis's middle above the seat
 _LYING = 0.12
 _UPRIGHT, _STOOP = 0.8, 0.5
 """Over a surface this high one works standing upright; over one lower by the second, bent as far as goes (metres)."""
+_FARTHER, _HIGHER = 60.0, 220.0
+"""One leans by so many degrees more for each metre that things lie farther off, or one sits higher than usual."""
+_SEAT = 0.42
 
 
 class Setting(NamedTuple):
@@ -28,7 +31,8 @@ class Setting(NamedTuple):
     The body sits or lies at the height `support` (0: on the floor). The hands work at the height `worktop`; with None
     they work on the lap, or at WORKTOP when the person stands. `posture` replaces the posture of the motion: a person
     without a seat stands. `step` is how far somebody who stands steps up to the surface, and `reach` how much farther
-    ahead and to the left than usual the hands work on it (metres).
+    ahead and to the left than usual the hands work on it; `right` is how much farther than that the right hand goes,
+    for what it holds (metres).
     """
 
     support: float = 0.0
@@ -36,6 +40,7 @@ class Setting(NamedTuple):
     posture: Posture = "stand"
     step: float = 0.0
     reach: tuple[float, float] = (0.0, 0.0)
+    right: Triple = (0.0, 0.0, 0.0)
 
 
 @made_once()
@@ -78,10 +83,12 @@ def pose_at(motion: Motion, seconds: float, setting: Setting) -> Array:
     hands = _hands(keys)
     if setting.posture == "stand" and any("surface" in path.frames for path in hands.values()):
         _stoop(aim, working_height(setting))
+    _lean(aim, setting, hands)
     frames = aim.frames()
     origin = np.array((*setting.reach, working_height(setting)))
     for side, path in hands.items():
-        aim.hands[side] = _hand(path, share, frames, origin)
+        begin = origin + np.array(setting.right) if side == "right" else origin
+        aim.hands[side] = _hand(path, share, frames, begin)
     pose = solve(aim)[0]
     pose[0] += setting.step
     return pose
@@ -110,6 +117,14 @@ def _stoop(aim: Aim, worktop: float) -> None:
     aim.pelvis = (aim.pelvis[0] - 0.16 * effort, aim.pelvis[1], aim.pelvis[2] - drop)
     aim.hips = _sum(aim.hips, np.array((52.0 * effort, 0.0, 0.0)))
     aim.knees += 0.3 * effort
+
+
+def _lean(aim: Aim, setting: Setting, hands: dict[Side, HandPath]) -> None:
+    """Bend to what lies farther ahead than usual, and from a high seat down to the feet."""
+    bend = _FARTHER * max(setting.reach[0], 0.0)
+    if setting.posture == "sit" and any(path.frames[0] == "body" for path in hands.values()):
+        bend += _HIGHER * max(setting.support - _SEAT, 0.0)
+    aim.hips = _sum(aim.hips, np.array((bend, 0.0, 0.0)))
 
 
 def working_height(setting: Setting) -> float:

@@ -152,9 +152,3 @@ def shade(colour: Colour, factor: float) -> Colour:
     mix = min(factor - 1, 1.0)
     red, green, blue = (channel + (1 - channel) * mix for channel in colour)
     return red, green, blue
-
-
-def plain_box(kit: Kit) -> None:
-    """Draw a thing of unknown class as a box with a lid line."""
-    kit.box((0, 0, 0), (kit.w, kit.d, kit.h * 0.85))
-    kit.box((0, 0, kit.h * 0.85), (kit.w * 0.96, kit.d * 0.96, kit.h * 0.15), shade(kit.colour, 0.7))

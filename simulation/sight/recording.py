@@ -18,10 +18,11 @@ import numpy as np
 from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.workplace import working
+from coopera.simulation.acts.workplace import thing_of, working
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.motions.aids import Used, aids, now
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.people.appearance import Outfit, outfit_for
@@ -41,10 +42,11 @@ _TURN, _REACH, _HOLD, _BACK, _SETTLE = 8, 22, 8, 16, 26
 
 
 class Held(NamedTuple):
-    """What someone holds, by its name or its text, and how."""
+    """What someone holds, by its name or its text, and how; `aids` is what else belongs to what they do with it."""
 
     name: str
     grip: Grip = CARRIED
+    aids: tuple[Used, ...] = ()
 
 
 class Moment(NamedTuple):
@@ -252,7 +254,12 @@ class Filming:
         came, between = walk_at(walk_ticks), self._blend(agent)
         person, motion = step.person, step.motion
         setting, grip = working(self.ground.scene, self.recording.state, person, motion, self.moved)
-        held = Held(person.thing, grip) if person.thing else None
+        cls = thing_of(self.ground.scene, self.recording.state, person.thing).cls if person.thing else ""
+
+        def held(seconds: float) -> Held | None:
+            how = Held(person.thing, now(motion, setting, grip, seconds)) if person.thing else None
+            return how and how._replace(aids=tuple(aids(motion, setting, grip, seconds, cls)))
+
         carried = Held(person.thing) if person.thing else None
         settled = walk_ticks + _SETTLE
         total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
@@ -265,15 +272,16 @@ class Filming:
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
                 return others(walk_at(tick), carried, moved)
-            pose = pose_at(motion, max(tick - settled, 0) / TICKS, setting)
+            seconds = max(tick - settled, 0) / TICKS
+            pose = pose_at(motion, seconds, setting)
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
                 return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
-            return dressed(others(body, held, moved))
+            return dressed(others(body, held(seconds), moved))
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
-        self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held, moved)
+        self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held(0.0), moved)
 
     def _dress(self, step: Dress) -> None:
         """What is worn and held changes; where a motion did it, that is seen at the motion's end."""

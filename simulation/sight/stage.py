@@ -214,6 +214,9 @@ class Stage:
             self._attach(name, placed, *self._in_gripper(agent, placed, size))
         else:
             self._attach(name, placed, *held_at(placed.pose, size, held.grip))
+            for aid in held.aids:
+                name, size = self._body(state, f"{agent} {aid.thing}")
+                self._attach(name, placed, *held_at(placed.pose, size, aid.grip))
 
     def _attach(self, name: str, placed: Placed, place: Array, turn: Array) -> None:
         heading = about_z(placed.yaw)

@@ -307,9 +307,9 @@ def _label(text: str, most: int | None = None) -> str:
 
 @lru_cache(maxsize=4096)
 def from_box(name: str, known: BoxThing) -> SceneObject:
-    """A thing out of the magic box as an object like any other; its class is what it looks like."""
+    """A thing out of the magic box as an object like any other; its class is what it counts as."""
     shape = shape_of(known.text)
-    cls = _label(shape.cls)
+    cls = _label(shape.kind)
     red, green, blue = (round(255 * channel) for channel in shape.rgb)
     return SceneObject(
         id=known.id,

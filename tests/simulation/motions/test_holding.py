@@ -97,7 +97,7 @@ def test_the_hands_are_at_the_thing_that_they_work_with(caption: str, thing: str
     if scene.grip.hold == "beside" and max(scene.shape.size) > 0.35:
         return  # a mat lies on the floor beside who exercises
     most = OVER_A_POT if caption == "stir a pot" else AT_HAND
-    assert min(scene.gaps("right_hand")) < most
+    assert min(scene.gaps("left_hand" if scene.grip.hold == "left" else "right_hand")) < most
     if scene.grip.hold in ("both", "floor") or (scene.grip.laid and scene.motion.keys.hold == "surface"):
         assert min(scene.gaps("left_hand")) < most
 

@@ -14,8 +14,7 @@ from PIL import Image
 
 from coopera.core.errors import ConfigError, SimulationError
 from coopera.simulation.bodies.robot import load_robot
-from coopera.simulation.homes.catalogue import catalogue
-from coopera.simulation.homes.magic_box import LOOKS_LIKE, shape_of
+from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import load_scene
 from coopera.simulation.sight.stage import Stage
 from coopera.simulation.sight.video import need_video
@@ -181,11 +180,6 @@ def test_a_folder_that_cannot_be_written_is_named(home, tmp_path) -> None:
 )
 def test_a_thing_from_the_magic_box_looks_like_the_class_that_its_text_names(text, cls) -> None:
     assert shape_of(text).cls == cls
-
-
-def test_every_look_alike_is_a_known_class() -> None:
-    assert set(LOOKS_LIKE.values()) <= set(catalogue().movable)
-    assert not set(LOOKS_LIKE) & set(catalogue().movable)
 
 
 def test_a_recording_becomes_a_video_of_both_views_that_is_the_same_each_time(home, tmp_path) -> None:
