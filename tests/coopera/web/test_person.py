@@ -22,6 +22,7 @@ from coopera.web.common import Door
 from coopera.web.person.app import make_person_app
 from coopera.web.person.chair import GONE, Chair
 from coopera.web.person.person import WebPerson
+from tests.coopera.fake_run import fake_run
 
 HOSTILE = '<script>alert(1)</script>"><img src=x onerror=alert(2)>\u202e\x1b[2J'
 ABOUT: dict[str, Any] = {
@@ -334,6 +335,21 @@ def test_only_pictures_of_the_run_are_shown(run: Path) -> None:
         assert client.get("/picture/frames/day-00/hour-09/human-0.webp").content == b"picture"
         for path in ("config.yaml", "frames/../config.yaml", "frames/day-00/hour-09/..%2f..%2fconfig.yaml", "frames"):
             assert client.get(f"/picture/{path}").status_code == 404
+
+
+def test_what_happened_is_shown_with_pictures_and_what_could_not_be_done(tmp_path: Path) -> None:
+    run = fake_run(tmp_path / "run", days=1, hours=2, frames=4, finished=False).root
+    (run / "frames" / "day-00" / "hour-09" / "help-1-0.webp").write_bytes(b"picture")
+    question = INTENTION.model_copy(update={"person": PersonId("amara"), "hour": 11})
+    with asking(run, question) as (client, _):
+        page = Page(client, "one")
+        page.do("sit")
+        html = page.shown["html"]
+        assert "Today so far" in html
+        assert html.count("/picture/frames/day-00/hour-09/human-") == 4
+        assert client.get("/picture/frames/day-00/hour-09/help-1-0.webp").content == b"picture"
+        assert "/picture/frames/day-00/hour-09/help-1-0.webp" in html
+        assert "<b>Robot</b>" in html
 
 
 def test_the_plan_shows_the_home_and_what_may_be_chosen(run: Path) -> None:
