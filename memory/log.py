@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 2  # 1.5 MB of MiniLM's; what is older counts little (`coopera.memory.scan`)
-_TEXTS_IN_RAM = 2048  # a month of thirteen hours a day, each of five tasks
+_BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's
+_TEXTS_IN_RAM = 8 * BLOCK  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
 
 

@@ -367,17 +367,18 @@ def _stream(
     stream = graph.stream(
         given, thread, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
     )
-    now: dict[str, Any] = {"day": 0, "hour": None}
+    now: dict[str, Any] = {"day": 0, "hour": None, "success": pool(scored).f1}
     with closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events, run.stopped_by_failure():
         for _, mode, data in events:
             if mode == "updates" and "__interrupt__" in data:
                 continue
             if mode == "custom":
-                now = {"day": data["day"], "hour": data["hour"]}
+                now |= {"day": data["day"], "hour": data["hour"]}
                 if data["success"]:
                     scored.append(Counts.model_validate(data["success"]["predicate"]))
+                    now["success"] = pool(scored).f1
             if on_event is not None:
                 nodes = [data["node"]] if mode == "custom" else list(data)
                 for node in nodes:
-                    on_event({**now, "node": node, "success": pool(scored).f1})
+                    on_event({**now, "node": node})
     return waiting(graph, THREAD)
