@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -22,6 +23,7 @@ from coopera.web.common import Door
 from coopera.web.person.app import make_person_app
 from coopera.web.person.chair import GONE, Chair
 from coopera.web.person.person import WebPerson
+from tests.coopera.conftest import Said
 from tests.coopera.fake_run import fake_run
 
 HOSTILE = '<script>alert(1)</script>"><img src=x onerror=alert(2)>\u202e\x1b[2J'
@@ -400,3 +402,27 @@ def test_a_chair_is_free_again_once_its_page_is_gone() -> None:
     assert chair.seat("one") == "taken"
     assert chair.sit("one", take=True)
     assert not chair.sit("")
+
+
+@pytest.mark.parametrize(
+    ("args", "sentence"),
+    [
+        (("--played-by", "web", "--consent", "nowhere.txt"), "nowhere.txt: there is no such consent text."),
+        (("--played-by", "web", "--consent", "empty.txt"), "empty.txt: the consent text is empty."),
+        (("--consent", "empty.txt"), "nobody is asked unless played_by is me or web"),
+        (("--participant", "p07"), "nobody is asked unless played_by is me or web"),
+        (("--played-by", "web", "--participant", "Jo Ann"), "--participant must be up to 60 letters"),
+        (("--played-by", "web", "--port", "BUSY"), "is in use; name another with --port"),
+    ],
+)
+def test_wrong_input_is_told_in_one_sentence_and_nothing_is_written(
+    coopera: Callable[..., Said], tmp_path: Path, args: tuple[str, ...], sentence: str
+) -> None:
+    (tmp_path / "empty.txt").write_text(" \n")
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        given = [port if one == "BUSY" else one for one in args]
+        told = coopera("run", "--humans", "amara", "--days", 1, "--hours", 1, "--out", "r", *given)
+    assert told.code == 2
+    assert sentence in told.err
+    assert not (tmp_path / "r").exists()
