@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import time
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.motions.library import Motion, load_library
 from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.people.appearance import appearance_of, outfit_for
+from coopera.simulation.people.skin import skinned
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.recording import Moment
 from coopera.simulation.sight.stage import Camera, Stage
@@ -99,6 +101,19 @@ def pictures(persona: Persona) -> list[Image.Image]:
     return found
 
 
+def made(people: list[Persona]) -> str:
+    """What it takes to make the people's day clothes: medians of vertices, triangles and CPU seconds."""
+    skinned.cache_clear()
+    found = []
+    for persona in people:
+        looks = appearance_of(persona.profile, persona.id, persona.appearance)
+        start = time.process_time()
+        skin = skinned(looks, "day")
+        found.append((len(skin.vertices), len(skin.faces), time.process_time() - start))
+    vertices, triangles, seconds = (float(np.median(column)) for column in zip(*found, strict=True))
+    return f"{vertices:.0f} vertices, {triangles:.0f} triangles, {seconds:.2f} s of CPU for each (medians)"
+
+
 def main() -> None:
     """Draw the sheet."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -118,6 +133,7 @@ def main() -> None:
     sheet.save(args.out, "WEBP", quality=78, method=6)
     size = np.prod(sheet.size)
     print(f"{args.out}: {len(people)} people, {args.out.stat().st_size / 1e3:.0f} kB, {size / 1e6:.1f} megapixels")
+    print(made(people))
 
 
 if __name__ == "__main__":
