@@ -331,8 +331,8 @@ class World:
         paths = []
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            for view, stem in views.items():
-                for i, image in enumerate(pictures[view]):
+            for whose, stem in views.items():
+                for i, image in enumerate(pictures[whose]):
                     path = folder / f"{stem}-{i}.webp"
                     Image.fromarray(image).save(path, "WEBP", quality=_WEBP_QUALITY, method=4)
                     paths.append(path)
