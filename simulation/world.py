@@ -325,7 +325,7 @@ class World:
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         watcher = self._watching()
         pictures = watcher.film(self.recording, count, self.frame_size, views=tuple(views), labels=self.labels)
-        return write_frames(Path(folder), {stem: pictures[view] for view, stem in views.items()})
+        return write_frames(Path(folder), {stem: pictures[whose] for whose, stem in views.items()})
 
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.

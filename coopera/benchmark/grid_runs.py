@@ -128,7 +128,8 @@ def _note_grid(bench: Benchmark) -> None:
             if not isinstance(before.get(key) or {}, dict):
                 raise ConfigError(f"{path}: {key} must be a mapping of settings to values.")
             before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
-        before["shared"] = {**AS_BEFORE, **before["shared"]}
+        was = {name: value for name, value in AS_BEFORE.items() if name in _DECIDES}
+        before["shared"] = {**was, **before["shared"]}
         for one in (before, now):  # what `shared` says of these counts, however it was asked for
             one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
         # methods, seeds and settings may be added to what was run
