@@ -14,8 +14,8 @@ from coopera.rundir.directory import RunDir
 from coopera.web.common import Door, served
 from coopera.web.view.app import viewer
 from coopera.web.view.export import export
-from tests.coopera.web.browser import browsing, needs_browser
 from tests.coopera.fake_run import fake_run
+from tests.coopera.web.browser import browsing, needs_browser
 
 pytestmark = [needs_browser, pytest.mark.slow]
 
