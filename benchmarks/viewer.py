@@ -50,7 +50,9 @@ def _show(folder: str, site: Site, addresses: list[str]) -> None:
             seconds.append(time.process_time() - before)
             size = len(answer.body) if answer else 0
         first, again = seconds
-        print(f"{folder}, {address}: {first:.2f} s, again {again:.2f} s; {size / 1e6:.2f} MB; {_megabytes():.0f} MB held")
+        print(
+            f"{folder}, {address}: {first:.2f} s, again {again:.2f} s; {size / 1e6:.2f} MB; {_megabytes():.0f} MB held"
+        )
 
 
 def _longer(run: Path, copy: Path, *, days: int, pictures: bool, hours: int = 13) -> None:
