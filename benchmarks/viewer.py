@@ -19,6 +19,7 @@ from coopera.web.view.site import Site
 
 
 def main() -> None:
+    """Make the copies, show their pages, and tell how long that took."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("run", type=Path)
     parser.add_argument("--folder", type=Path, help="where the copies are made; they need 1 GB")
