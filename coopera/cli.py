@@ -25,6 +25,7 @@ from coopera.commands import (
     memory,
     models,
     prompts,
+    rate,
     replay,
     reports,
     run,
@@ -80,6 +81,7 @@ app.add_typer(prompts.app, name="prompts")
 app.add_typer(models.app, name="models")
 app.add_typer(memory.app, name="memory")
 app.add_typer(analyse.app, name="analyse")
+app.add_typer(rate.app, name="rate")
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -257,6 +257,10 @@ class FeedbackItem(Frozen):
     reason: str = ""
     grade: int | None = Field(None, ge=1, le=5)
     """How helpful, from 1 to 5, where feedback is graded."""
+    asked: bool = Field(True, exclude_if=bool)
+    """Whether a real person was asked: not about what was left out since there were too many questions."""
+    answered_as: str = Field("", exclude_if=is_empty)
+    """The text of what they were asked in its place, since it says nearly the same."""
     slip: bool = False
     """Whether the person said the opposite of what they meant; for the trace, never for the robot."""
 

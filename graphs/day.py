@@ -23,7 +23,6 @@ from coopera.core.hour import (
     Evening,
     FeedbackItem,
     HourRecord,
-    HumanHour,
     IntentionCandidate,
     ModelCall,
     RobotHour,
@@ -34,7 +33,8 @@ from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
 from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
-from coopera.graphs.players.player import HumanContext
+from coopera.graphs.players.evening import Lived
+from coopera.graphs.players.player import Attending
 from coopera.graphs.players.real_person import Verdict
 from coopera.graphs.players.together import together
 from coopera.graphs.recorded import forget_ahead, remember_day, take_over_hour, told
@@ -140,16 +140,19 @@ def feedback(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
         services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
     heard = [(one.hour, one.human, one.robot) for one in _told(services, plan)]
     answered = [(hour, human, robot) for hour, human, robot in heard if human is not None and robot is not None]
-    questions = [partial(_hour_feedback, ctx, *one) for one in answered]
+    lived = [Lived(plan.clock(plan.hours.index(hour)), human, robot) for hour, human, robot in answered]
+    questions = [partial(ctx.player.verdicts, clock, ctx, human, robot) for clock, human, robot in lived]
     if ctx.player.one_by_one:
         together(measures)
-        meant = [question() for question in questions]
+        there = ctx.player if isinstance(ctx.player, Attending) else None
+        said = there.evening(ctx, lived) if there else [question() for question in questions]
     else:
         waits = bool(measures) or not services.ask.instant("human")
-        meant = together([*measures, *questions], waits=waits)[len(measures) :]
+        said = together([*measures, *questions], waits=waits)[len(measures) :]
+    meant = [_as_items(hour.clock.hour, hour.robot, verdicts) for hour, verdicts in zip(lived, said, strict=True)]
     items: list[FeedbackItem] = []
-    for (hour, _, _), said in zip(answered, meant, strict=True):
-        items += services.answering.given(said, services.rng(Address(plan.person, plan.episode_day, hour, "answering")))
+    for (hour, _, _), mean in zip(answered, meant, strict=True):
+        items += services.answering.given(mean, services.rng(Address(plan.person, plan.episode_day, hour, "answering")))
     return {"feedback": items, "calls": services.ask.take_calls()}
 
 
@@ -249,9 +252,7 @@ def _measure_late(services: Services, plan: DayPlan, hour: HourRecord) -> None:
     services.recorder.write_hour(hour.model_copy(update={"success": success, "calls": [*hour.calls, *calls]}))
 
 
-def _hour_feedback(ctx: HumanContext, hour: int, human: HumanHour, robot: RobotHour) -> list[FeedbackItem]:
-    clock = ctx.plan.clock(ctx.plan.hours.index(hour))
-    said = ctx.player.verdicts(clock, ctx, human, robot)
+def _as_items(hour: int, robot: RobotHour, said: Sequence[Verdict]) -> list[FeedbackItem]:
     guesses, offers = [c.text for c in robot.intentions], [t.act.describe() for t in robot.tasks]
     return [
         *_items(hour, "intention", guesses, robot.intentions, said[: len(guesses)]),
@@ -275,6 +276,8 @@ def _items(
             helpful=answer.yes,
             reason=answer.reason,
             grade=answer.grade,
+            asked=answer.asked,
+            answered_as=answer.answered_as,
         )
         for text, candidate, answer in zip(texts, candidates, answers, strict=True)
     ]

@@ -126,7 +126,7 @@ def _trial(config: Config, plans: Sequence[DayPlan]) -> Config:
             "days": min(days, 1 + max(plan.episode_day for plan in plans)),
             "hours": min(config.hours, hours),
             "models": Models(),
-            "played_by": "simulated" if config.played_by == "me" else config.played_by,
+            "played_by": "simulated" if config.attended else config.played_by,
             "backbone": "offline:words",
             "classifier": "kernel",
             "classifier_config": None,
@@ -172,7 +172,7 @@ def _weighed(calls: Sequence[tuple[int, bool, ModelCall]], trial: Config, plans:
 def _is_asked(config: Config, call: ModelCall) -> bool:
     """Whether a call would be made at all: nobody asks a model what a person says, or has done in an earlier life."""
     decides = ASKS[call.prompt].role == "human" and call.node != "feedback"
-    answers = ASKS[call.prompt].role == "human" and config.played_by == "me"
+    answers = ASKS[call.prompt].role == "human" and config.attended
     return not answers and not (decides and config.earlier_life is not None)
 
 

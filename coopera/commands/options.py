@@ -17,6 +17,17 @@ from coopera.core.errors import ConfigError, deprecated
 RunPath = Annotated[Path, typer.Argument(metavar="RUN", help="A run directory, such as runs/run-001.")]
 AsJson = Annotated[bool, typer.Option("--json", help="End with one line of JSON on standard output.")]
 
+PageHost = Annotated[
+    str,
+    typer.Option("--host", metavar="ADDRESS", help="Where pages listen; on another than 127.0.0.1 they need a token."),
+]
+PagePort = Annotated[int, typer.Option("--port", metavar="N", help="The pages' port; 0 takes any that is free.")]
+PageName = Annotated[
+    str | None,
+    typer.Option("--name", metavar="NAME", help="Name of a proxy with TLS before the pages; they then need a token."),
+]
+HOST, PORT = "127.0.0.1", 8765
+
 
 def _completer(one: Declared) -> Callable[[str], list[str]]:
     """Return what completes a setting's value on a shell; of a list, its last name."""

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from coopera.commands.options import (
+    HOST,
+    PORT,
     AsJson,
     CallBudget,
     MoneyBudget,
+    PageHost,
+    PageName,
+    PagePort,
     RunPath,
     TokenBudget,
     nested,
     takes_settings,
 )
-from coopera.core.errors import BudgetError
+from coopera.core.errors import BudgetError, CooperaError, StoppedError
 from coopera.core.naming import printable
 
 if TYPE_CHECKING:
+    from coopera.config.schema import Config
+    from coopera.graphs.players.real_person import Interview
     from coopera.studies.study import Event
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
@@ -35,6 +43,9 @@ def run(
     estimate: Annotated[
         bool, typer.Option("--estimate", help="Only say how many calls and tokens the run would take.")
     ] = False,
+    host: PageHost = HOST,
+    port: PagePort = PORT,
+    name: PageName = None,
     as_json: AsJson = False,
 ) -> None:
     """Let people live their days while a robot learns to help them."""
@@ -48,10 +59,10 @@ def run(
         return
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.people.terminal import Terminal
         from coopera.studies.study import run_study
 
-        return run_study(config, on_event=on_event, ask_person=Terminal())
+        with asked(config, host, port, name) as ask_person:
+            return run_study(config, on_event=on_event, ask_person=ask_person)
 
     _carry_out(work, config.out, config, as_json=as_json)
 
@@ -61,6 +72,9 @@ def resume(
     budget_calls: CallBudget = None,
     budget_tokens: TokenBudget = None,
     budget_money: MoneyBudget = None,
+    host: PageHost = HOST,
+    port: PagePort = PORT,
+    name: PageName = None,
     as_json: AsJson = False,
 ) -> None:
     """Continue a run that was stopped, failed or killed; the result is that of an uninterrupted one."""
@@ -72,12 +86,42 @@ def resume(
     raised = load_config(run / "config.yaml", given).budget
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        from coopera.people.terminal import Terminal
         from coopera.studies.study import resume_study
 
-        return resume_study(run, on_event=on_event, budget=raised, ask_person=Terminal())
+        with asked(found.config, host, port, name) as ask_person:
+            return resume_study(run, on_event=on_event, budget=raised, ask_person=ask_person)
 
     _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
+
+
+@contextmanager
+def asked(config: Config, host: str, port: int, name: str | None) -> Iterator[Interview]:
+    """What puts a run's questions to the person; with `played_by: web` a page, whose address is told.
+
+    Raises:
+        ConfigError: If the page cannot have its address.
+    """
+    if config.played_by != "web":
+        from coopera.people.terminal import Terminal
+
+        yield Terminal()
+        return
+    from coopera.web.common import Door, served
+    from coopera.web.person.app import make_person_app
+    from coopera.web.person.person import WebPerson
+
+    person = WebPerson()
+    with served(lambda door: make_person_app(person, door), Door.opened(host, port, (name,) if name else ())) as server:
+        typer.echo(f"The day is lived at {server.address}", err=True)
+        try:
+            yield person
+        except (KeyboardInterrupt, StoppedError):
+            person.end("The run was stopped; it goes on with the same page when it is resumed.")
+            raise
+        except CooperaError as err:
+            person.end(f"The run has stopped: {err}")
+            raise
+        person.end("The study is over.")
 
 
 def _recorded(models: Mapping[str, str]) -> Path | None:
@@ -122,13 +166,13 @@ def _carry_out(
     done: Collection[tuple[int, int]] = (),
 ) -> None:
     """Do the work with progress on standard error, then show what came of it."""
-    from coopera.core.errors import StoppedError, WaitingError
+    from coopera.core.errors import WaitingError
     from coopera.report.console import PlainConsole
     from coopera.report.progress import Progress, days_table
 
     try:
         # a live line and a person's typing would get in each other's way
-        console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.played_by == "me" else None
+        console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.attended else None
         with Progress(_hours_of(config), console, done=done) as progress:
             summary = work(progress.tell)
     except WaitingError as err:

@@ -13,7 +13,7 @@ from coopera.config.complaints import complaint
 from coopera.config.declared import declared, in_words_of_today
 from coopera.config.files import read_yaml
 from coopera.config.sections import Files as Files
-from coopera.config.sections import FrameSize, HelpFrames, KeptAdapters, Labels, Private, Text
+from coopera.config.sections import FrameSize, HelpFrames, KeptAdapters, Labels, PlayedBy, Private, RealPerson, Text
 from coopera.config.sections import Models as Models
 from coopera.core.clock import FIRST_HOUR, HOURS_PER_DAY
 from coopera.core.errors import ConfigError
@@ -164,17 +164,8 @@ class Config(Frozen):
             flag="--traits",
         ),
     ] = "evening"
-    played_by: Annotated[
-        str,
-        Field(pattern=r"^(simulated|me|log:.+)$"),
-        Setting(
-            "Who plays the person: the simulation, you (asked hour by hour), or a real person's log or diary.",
-            "simulated, me or log:FILE",
-            flag="--played-by",
-            formerly="human",
-            metavar="simulated|me|log:FILE",
-        ),
-    ] = "simulated"
+    played_by: PlayedBy = "simulated"
+    real_person: Annotated[RealPerson, Setting("How a real person is asked who plays the person.")] = RealPerson()
     feedback: Annotated[
         Literal["yes_no", "graded"],
         Setting(
@@ -347,6 +338,11 @@ class Config(Frozen):
         if isinstance(value, bool):  # YAML's yes and true would pass for 1
             raise ValueError
         return value
+
+    @property
+    def attended(self) -> bool:
+        """Whether somebody is there who is asked."""
+        return self.played_by in ("me", "web")
 
     @property
     def day_hours(self) -> list[int]:

@@ -88,6 +88,53 @@ class Files(Frozen):
     scenes: Annotated[dict[str, Path], Setting("Files of homes by id.", "a mapping of ids to files")] = {}
 
 
+PlayedBy = Annotated[
+    str,
+    Field(pattern=r"^(simulated|me|web|log:.+)$"),
+    Setting(
+        "Who plays the person: the simulation, you (asked hour by hour, in this terminal or on a page in the browser), "
+        "or a real person's log or diary.",
+        "simulated, me, web or log:FILE",
+        flag="--played-by",
+        formerly="human",
+        metavar="simulated|me|web|log:FILE",
+    ),
+]
+
+
+class RealPerson(Frozen):
+    """How a real person is asked who plays the person."""
+
+    questions: Annotated[
+        int,
+        Field(strict=True, ge=1, le=10_000),
+        Setting(
+            "Questions of an evening at most; of more, each hour has as many as the others, drawn at random.",
+            flag="--evening-questions",
+        ),
+    ] = 60
+    participant: Annotated[
+        Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,59}$")] | None,
+        Setting(
+            "The participant's id in your study, never a name; kept in the run.",
+            "up to 60 letters, digits, dots, dashes and underscores",
+            flag="--participant",
+            metavar="ID",
+            unset="asked for before the first question, where there is a consent text",
+        ),
+    ] = None
+    consent: Annotated[
+        Path | None,
+        Setting(
+            "Text that a participant must agree to before the first question; kept in the run, with the answer.",
+            "the path of a text file",
+            flag="--consent",
+            metavar="FILE",
+            unset="nothing is to be agreed to",
+        ),
+    ] = None
+
+
 Private = Annotated[
     bool,
     Field(strict=True),

@@ -207,7 +207,7 @@ def open_living(config: Config) -> Living:
 
 def _answering(config: Config) -> Answering:
     """How simulated people answer; what a real person says is taken as it is."""
-    if config.played_by == "me":
+    if config.attended:
         return Answering()
     return Answering(rate=config.feedback_rate, noise=config.feedback_noise)
 
@@ -217,7 +217,7 @@ def _player(config: Config, logs: Logs | None) -> Player:
     graded = config.feedback == "graded"
     if logs:
         return Logged(logs, Simulated(graded))
-    return Interviewed(graded) if config.played_by == "me" else Simulated(graded)
+    return Interviewed(graded, config.real_person.questions) if config.attended else Simulated(graded)
 
 
 def _own_robot(

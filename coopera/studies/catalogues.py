@@ -18,6 +18,7 @@ from coopera.models.households import chosen_household, household_file
 from coopera.models.offline.household.knowledge import Household, shipped
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
+from coopera.people.answers import consent_text
 from coopera.people.changes import open_changes
 from coopera.people.shipped import read_persona
 from coopera.rundir.claim import refuse_used
@@ -81,6 +82,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
         _groups("scenes", scenes, n_scenes, config.setting)
     load_motions(config.motions)
     _knowledge(config)
+    consent_text(config)
     if config.out is not None:
         refuse_used(config.out)
     for person in people:

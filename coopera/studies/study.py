@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, cast
 
@@ -26,11 +27,14 @@ from coopera.core.success import Counts
 from coopera.evaluation import SETTINGS, episode, pool, schedule
 from coopera.graphs import Services, build_study_graph
 from coopera.graphs.players.real_person import Interview
+from coopera.graphs.players.stated import checked_step
 from coopera.graphs.study import Waiting, waiting
+from coopera.memory import Search
 from coopera.models.given import Chosen, by_role
 from coopera.models.households import household_file, household_of
 from coopera.models.settings import Budget
 from coopera.models.transport import NobodyThereError
+from coopera.people.answers import Attended, Sitting
 from coopera.people.changes import NONE, changes_file
 from coopera.people.real import open_logs
 from coopera.prompts import PromptLibrary
@@ -86,7 +90,7 @@ def run_study(
     Args:
         config: What to run; what it leaves open is filled in.
         on_event: Told of each node that ends.
-        ask_person: Puts a question to a real person, with `played_by: me`; it may raise `WaitingError`, and
+        ask_person: Puts a question to a real person, with `played_by` me or web; it may raise `WaitingError`, and
             `resume_study` asks the same question again.
         stop: What else stops the run; a run in the main thread listens to Ctrl-C and `kill` itself.
         resumable: Whether the run keeps its memory and its checkpoints on file, and ends with a report. Without, it
@@ -260,6 +264,9 @@ def _carry_on(
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(THREAD).values else {"schedule": plans}
         scored = [hour.success.predicate for hour in run.hours() if hour.success]
+        asker: object = ask_person
+        if isinstance(asker, Attended):
+            asker.attend(Sitting(run.root, run.config, partial(_checked, services), run.check))
         if (question := waiting(graph, THREAD)) is None:
             question = _stream(run, graph, services, given, scored, on_event)
         while question is not None:
@@ -298,6 +305,12 @@ def _checkpoints(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) 
     run.seal_days()
     with open_checkpoints(file) as saver:
         yield saver
+
+
+def _checked(services: Services, question: Question, step: str) -> str:
+    """Check one step of a real person's in the home that they live in."""
+    home, search = services.home(SceneId(question.scene)), partial(Search, services.embeddings)
+    return checked_step(step, question, home, search, services.human_agent)
 
 
 def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:

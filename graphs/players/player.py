@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, NamedTuple, Protocol
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, runtime_checkable
 
 from langchain_core.embeddings import Embeddings
 from typing_extensions import TypedDict
@@ -26,6 +26,7 @@ from coopera.core.household import HUMAN, AgentId, Collab
 from coopera.core.people import Circumstance, Persona
 from coopera.core.protocols import Ask, Home
 from coopera.graphs.players.changes import Change
+from coopera.graphs.players.evening import Lived
 from coopera.graphs.players.living import Living
 from coopera.graphs.players.person_models import FULL, PersonModel
 from coopera.graphs.players.real_person import Verdict
@@ -123,4 +124,13 @@ class Player(Protocol):
 
     def present(self) -> Player:
         """The player as the node that runs now reaches them; nothing is asked before."""
+        ...
+
+
+@runtime_checkable
+class Attending(Protocol):
+    """A player who is there in the evening and is asked about the whole day at once."""
+
+    def evening(self, ctx: HumanContext, hours: Sequence[Lived]) -> list[list[Verdict]]:
+        """What they say of each intention, then of each task, that the robot imagined: a list for each hour."""
         ...

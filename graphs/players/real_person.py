@@ -12,12 +12,14 @@ from langgraph.types import interrupt
 from coopera.core.household import Collab, FreeMotion, ObjectMap, PickPlace, plain
 from coopera.core.interview import MOST_STEPS, Answer, Question
 from coopera.core.replies import FreeMotionDraft, PickPlaceDraft
+from coopera.graphs.players.answering import UNANSWERED
 
 Interview: TypeAlias = Callable[[Question], Answer]
 Read = TypeVar("Read")
 
 HELPFUL = 3  # grade from which graded feedback is a yes
 _GOOD = {"y": True, "yes": True, "n": False, "no": False}
+_SKIPPED = {"skip", "s", "-"}
 _VERDICT = re.compile(r"\s*(y|yes|n|no|[1-5])\b[\s,;:.–-]*(?:because\b)?\s*(.*)", re.IGNORECASE | re.DOTALL)
 
 
@@ -27,6 +29,10 @@ class Verdict(NamedTuple):
     yes: bool | None
     reason: str
     grade: int | None = None
+    asked: bool = True
+    """Whether they were asked, rather than spared a question too many."""
+    answered_as: str = ""
+    """What they were asked in its place, since it says nearly the same."""
 
 
 def ask_here(question: Question) -> Answer:
@@ -77,13 +83,38 @@ def read_steps(answer: Answer, question: Question) -> list[str]:
     if not 1 <= len(steps) <= MOST_STEPS:
         raise ValueError(f"Please give 1 to {MOST_STEPS} steps.")
     for step in steps:
-        if len(step) > 300:
-            raise ValueError("Please keep each step under 300 characters.")
-        if "|" in step:
-            places = {name: (0, room) for name, room in question.places.items()}
-            things = {name: (0, room) for name, room in question.things.items()}
-            read_choice(step, question.collab, places, things, question.motions)
+        read_step(step, question)
     return steps
+
+
+def read_step(step: str, question: Question) -> str:
+    """Read one step; one with bars in it must name what there is, and comes back with names for numbers.
+
+    Raises:
+        ValueError: Saying what cannot be read.
+    """
+    step = " ".join(step.split())
+    if not step:
+        raise ValueError("Please say what you do.")
+    if len(step) > 300:
+        raise ValueError("Please keep each step under 300 characters.")
+    if "|" not in step:
+        return step
+    draft = choice_of(step, question)
+    if isinstance(draft, PickPlaceDraft):
+        return f"{draft.act.object} | {draft.act.receptacle}"
+    return f"{draft.act.target} | {draft.act.motion} | {draft.act.in_hand}"
+
+
+def choice_of(step: str, question: Question) -> PickPlaceDraft | FreeMotionDraft:
+    """The task of a step that is a choice among what the question lists; its ids are 0.
+
+    Raises:
+        ValueError: Naming the part that cannot be read.
+    """
+    places = {name: (0, room) for name, room in question.places.items()}
+    things = {name: (0, room) for name, room in question.things.items()}
+    return read_choice(step, question.collab, places, things, question.motions)
 
 
 def read_choice(
@@ -112,7 +143,7 @@ def read_choice(
 
 
 def read_verdicts(answer: Answer, question: Question) -> list[Verdict]:
-    """Read the evening's answers: "yes" or "no" (or 1 to 5 where graded), and perhaps a reason, for each item.
+    """Read the evening's answers: "yes", "no" (or 1 to 5 where graded) or "skip", and perhaps a reason, for each item.
 
     Raises:
         ValueError: If an item has no answer, or one that is neither.
@@ -120,16 +151,24 @@ def read_verdicts(answer: Answer, question: Question) -> list[Verdict]:
     lines = answer.splitlines() if isinstance(answer, str) else answer
     if len(lines) != len(question.items):
         raise ValueError(f"Please answer each of the {len(question.items)} items, one per line.")
-    scale = "a grade from 1 to 5" if question.graded else "yes or no"
-    verdicts = []
-    for number, line in enumerate(lines, 1):
-        found = _VERDICT.fullmatch(str(line))
-        if found is None or found[1].isdigit() != question.graded:
-            raise ValueError(f"Item {number} needs {scale}, and may have a reason after it.")
-        word, reason = found[1].lower(), " ".join(found[2].split())[:400]
-        grade = int(word) if question.graded else None
-        verdicts.append(Verdict(_GOOD[word] if grade is None else grade >= HELPFUL, reason, grade))
-    return verdicts
+    return [read_verdict(str(line), number, question.graded) for number, line in enumerate(lines, 1)]
+
+
+def read_verdict(line: str, number: int, graded: bool) -> Verdict:
+    """Read the answer to one item, the `number`th.
+
+    Raises:
+        ValueError: If it is none.
+    """
+    if line.strip().lower() in _SKIPPED:
+        return Verdict(None, UNANSWERED)
+    found = _VERDICT.fullmatch(line)
+    if found is None or found[1].isdigit() != graded:
+        scale = "a grade from 1 to 5" if graded else "yes or no"
+        raise ValueError(f'Item {number} needs {scale}, and may have a reason after it; "skip" leaves it open.')
+    word, reason = found[1].lower(), " ".join(found[2].split())[:400]
+    grade = int(word) if graded else None
+    return Verdict(_GOOD[word] if grade is None else grade >= HELPFUL, reason, grade)
 
 
 def _object(part: str, objects: Mapping[str, object], kind: str) -> str:

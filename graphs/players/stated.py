@@ -9,8 +9,11 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError
 from coopera.core.hour import DayPlan, Found, HumanHour, Intention, LoggedHour, RobotHour
-from coopera.core.household import Collab
+from coopera.core.household import HUMAN, AgentId, Collab, FreeMotion
 from coopera.core.interview import Question
+from coopera.core.protocols import Home
+from coopera.graphs.players.checks import SearchIn, obstacle
+from coopera.graphs.players.evening import MOST, Lived, evening_of
 from coopera.graphs.players.player import Decomposed, HumanContext, HumanState, Player
 from coopera.graphs.players.real_person import (
     Interview,
@@ -20,12 +23,14 @@ from coopera.graphs.players.real_person import (
     interviewer,
     read_choice,
     read_intention,
+    read_step,
     read_steps,
     read_verdicts,
 )
 from coopera.graphs.players.reflecting import Draft
 from coopera.graphs.players.simulated import Simulated, ask_for_tasks
 from coopera.graphs.robots.method import Numbers
+from coopera.simulation.acts.meaning import LEAST
 
 Logs: TypeAlias = Callable[[DayPlan, Clock], LoggedHour | None]
 """What a real person wrote down of an hour; None for an hour that they left open."""
@@ -71,10 +76,12 @@ class Interviewed:
 
     Attributes:
         graded: Whether they answer with grades from 1 to 5 instead of yes or no.
+        most: Questions of an evening at most.
         interview: How they are asked.
     """
 
     graded: bool = False
+    most: int = MOST
     interview: Interview = ask_here
     one_by_one: ClassVar[bool] = True
 
@@ -96,6 +103,7 @@ class Interviewed:
             places={name: room for name, (_, room) in found.fixed.items()},
             things={name: room for name, (_, room) in found.movable.items()},
             motions=found.motions,
+            can=state.get("can", {}),
             n_tasks=Numbers.HUMAN_TASKS[ctx.collab],
         )
         return _taken_over(
@@ -103,21 +111,50 @@ class Interviewed:
         )
 
     def verdicts(self, clock: Clock, ctx: HumanContext, human: HumanHour, robot: RobotHour) -> list[Verdict]:
-        """Ask about everything that the robot imagined, at once."""
-        question = _question(
-            "feedback",
-            clock,
-            ctx,
-            intention=human.intention.text,
-            tasks=[task.act.describe() for task in human.tasks],
-            items=[*(c.text for c in robot.intentions), *(t.act.describe() for t in robot.tasks)],
-            graded=self.graded,
-        )
-        return ask_until_read(self.interview, question, lambda said: read_verdicts(said, question))
+        """Ask about one hour alone."""
+        return self.evening(ctx, [Lived(clock, human, robot)])[0]
+
+    def evening(self, ctx: HumanContext, hours: Sequence[Lived]) -> list[list[Verdict]]:
+        """Ask about the whole day, at once; what says nearly the same is asked once, and at most so much in all."""
+        if not hours:
+            return []
+        clock = hours[-1].clock
+        asked = evening_of(hours, ctx.embeddings, most=self.most, address=(ctx.seed, ctx.persona.id, clock.day))
+        about = {"items": asked.items, "cards": asked.cards, "of": asked.of, "graded": self.graded}
+        question = _question("feedback", clock, ctx, **about)
+        if not asked.items:
+            return asked.handed_out([])
+        return asked.handed_out(ask_until_read(self.interview, question, lambda said: read_verdicts(said, question)))
 
     def present(self) -> Player:
         """The person as the node that runs now reaches them."""
         return replace(self, interview=interviewer())
+
+
+def checked_step(step: str, question: Question, home: Home, search: SearchIn, agent: AgentId = HUMAN) -> str:
+    """Read one step of a person's, as `read_step` does; a choice must also be one that can be tried in the home.
+
+    Raises:
+        ValueError: Saying what is wrong, and what would do.
+    """
+    clean = read_step(step, question)
+    if "|" in clean:
+        fixed, movable = home.objects("fixed"), home.objects("movable")
+        places = {name: fixed[name] for name in question.places if name in fixed}
+        things = {name: movable[name] for name in question.things if name in movable}
+        act = read_choice(clean, question.collab, places, things, question.motions).act
+        if isinstance(act, FreeMotion):
+            _must_mean_a_motion(act.motion, search(home.motions).top(act.motion, 3))
+        if wrong := obstacle(act, home, agent):
+            raise ValueError(wrong[:1].upper() + wrong[1:])
+    return clean
+
+
+def _must_mean_a_motion(said: str, near: Sequence[tuple[str, float]]) -> None:
+    """Refuse words that no motion comes near to; the home would have the person stand there and do nothing."""
+    if near and near[0][1] < LEAST:
+        named = ", ".join(caption for caption, _ in near)
+        raise ValueError(f'Nothing that you can do here comes near to "{said}"; the nearest are: {named}.')
 
 
 def _taken_over(steps: Sequence[str], state: HumanState, ctx: HumanContext) -> Decomposed:
@@ -161,5 +198,6 @@ def _question(
         time=clock.label,
         weekday=clock.weekday,
         collab=ctx.collab,
+        scene=ctx.plan.scene,
         **about,
     )

@@ -81,7 +81,6 @@ def test_the_person_is_asked_for_intention_tasks_and_in_the_evening_for_feedback
         ("tasks", 9),
         ("intention", 10),
         ("tasks", 10),
-        ("feedback", 9),
         ("feedback", 10),
     ]
     assert questions[2].today == ["9 am: Read at 9 am"]
@@ -96,7 +95,8 @@ def test_the_person_is_asked_for_intention_tasks_and_in_the_evening_for_feedback
         {"target": "stove_1", "motion": "stir my tea", "in_hand": "spoon"},
     ]
     feedback = services.recorder.evenings[0].feedback  # type: ignore[attr-defined]
-    assert [item.helpful for item in feedback if item.hour == 9] == [True] + [False] * (len(questions[4].items) - 1)
+    assert [card.hour for card in questions[4].cards] == [9, 10]
+    assert [item.helpful for item in feedback] == [True] + [False] * (questions[4].of - 1)
     assert feedback[0].reason == "just right"
 
 
@@ -107,7 +107,7 @@ def test_no_language_model_speaks_for_a_person_who_is_there(make_services: MakeS
     assert prompts == {"human/tasks_type2"}  # for the step in the person's own words alone
 
 
-@pytest.mark.parametrize("stop_after", [0, 1, 3, 4, 5])
+@pytest.mark.parametrize("stop_after", [0, 1, 3, 4])
 def test_a_run_that_waited_ends_as_one_that_did_not(
     make_services: MakeServices, tmp_path: Path, stop_after: int
 ) -> None:
@@ -116,7 +116,7 @@ def test_a_run_that_waited_ends_as_one_that_did_not(
     live(services_in_the_loop(make_services, tmp_path / "waited"), tmp_path / "waited", stop_after=stop_after)
     again = services_in_the_loop(make_services, tmp_path / "waited")
     rest = live(again, tmp_path / "waited")
-    assert len(rest) == 6 - stop_after
+    assert len(rest) == 5 - stop_after
     files = [
         {path.name: path.read_bytes() for path in (tmp_path / name / "trace").rglob("*.json")}
         for name in ("whole", "waited")

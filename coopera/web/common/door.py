@@ -47,7 +47,7 @@ class Door:
     Attributes:
         host: The address that it listens on; on another than this machine's own, a token is needed.
         port: 0 takes any free one.
-        names: Names by which the server may be called besides addresses, such as that of a proxy before it.
+        names: Names by which the server may be called besides addresses: that of a proxy with TLS before it.
         token: Stands in the address that is printed, then in a cookie; empty where none is needed.
         form_token: Stands in each page; what is posted must bring it back.
     """
@@ -60,8 +60,9 @@ class Door:
 
     @classmethod
     def opened(cls, host: str = "127.0.0.1", port: int = 8765, names: tuple[str, ...] = ()) -> Door:
-        """A door with a token where others than this machine can reach it."""
-        return cls(host, port, names, token="" if host in LOOPBACK else secrets.token_urlsafe(24))
+        """A door with a token where others than this machine can reach it, by the network or through a proxy."""
+        alone = host in LOOPBACK and not names
+        return cls(host, port, names, token="" if alone else secrets.token_urlsafe(24))
 
     @property
     def cookie(self) -> str:
@@ -70,9 +71,12 @@ class Door:
 
     def address(self, path: str = "/") -> str:
         """The address to be opened in a browser, with the token if there is one."""
+        query = f"?{urlencode({TOKEN: self.token})}" if self.token else ""
+        if self.names:
+            return f"https://{self.names[0]}{path}{query}"
         host = socket.gethostname() if self.host in {"0.0.0.0", "::"} else self.host
         host = f"[{host}]" if ":" in host else host
-        return f"http://{host}:{self.port}{path}" + (f"?{urlencode({TOKEN: self.token})}" if self.token else "")
+        return f"http://{host}:{self.port}{path}{query}"
 
     def called(self, host: str) -> bool:
         """Whether a Host header names this server: by an address, or by a name that is known to be its own."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from coopera.cli import main
-from coopera.core.interview import Question
+from coopera.core.interview import Card, Entry, Question
 from coopera.core.people import BigFive, Persona, PersonId
 from coopera.people.shipped import write_persona
 from coopera.people.terminal import Terminal
@@ -86,9 +86,8 @@ def test_a_real_person_is_asked_letter_by_letter() -> None:
         time="9 am",
         weekday="Monday",
         collab=2,
-        intention=ESCAPES,
-        tasks=[ESCAPES],
         items=[ESCAPES],
+        cards=[Card(hour=9, time="9 am", intention=ESCAPES, tasks=[ESCAPES], entries=[Entry(item=0, kind="task")])],
         problem=ESCAPES,
     )
     Terminal(PlainConsole(file=shown, width=200), lambda: "yes")(asked)

@@ -3,7 +3,6 @@ from __future__ import annotations
 import socket
 import urllib.request
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -139,6 +138,17 @@ def test_on_this_machine_no_token_is_needed_and_elsewhere_one_is() -> None:
     assert door.token != Door.opened("0.0.0.0").token
 
 
+def test_behind_a_proxy_the_pages_go_by_its_name_and_need_a_token() -> None:
+    door = Door.opened("127.0.0.1", 8765, ("study.example.org",))
+    assert door.address("/x").startswith("https://study.example.org/x?token=")
+    client = _client(door, "http://study.example.org")
+    assert client.get("/").status_code == 403
+    assert client.get("/", params={"token": door.token}).status_code == 200
+    assert client.get("/").status_code == 200
+    signed = {"x-form-token": door.form_token, "origin": "https://study.example.org"}
+    assert client.post("/said", json={}, headers=signed).status_code == 200
+
+
 def test_the_token_lets_in_and_is_then_a_cookie_that_no_script_and_no_foreign_page_gets() -> None:
     door = Door.opened("0.0.0.0")
     client = _client(door, "http://192.168.1.4:8765")
@@ -174,9 +184,10 @@ def test_a_server_beside_other_work_answers_and_ends() -> None:
 
 
 def test_a_port_in_use_is_told_in_one_sentence() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(ConfigError, match="in use; name another"):
-        port = taken.getsockname()[1]
-        _serve_shortly(replace(Door(), port=port))
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        door = Door(port=taken.getsockname()[1])
+        with pytest.raises(ConfigError, match="in use; name another"):
+            _serve_shortly(door)
 
 
 @pytest.mark.parametrize(
