@@ -22,6 +22,7 @@ STANDS_FOR = {
     "make test": "true",
     "pip install": "true",
     "source .venv/bin/activate": "true",
+    "coopera view runs  ": "true  ",  # it serves until Ctrl-C
 }
 SHORT = "days=1,hours=1,episodes=1,settings=2,methods=2,seeds=1"
 

@@ -90,10 +90,9 @@ def _spots(poses: Any) -> dict[str, Point]:
     found = {}
     for name, agent in agents.items() if isinstance(agents, dict) else ():
         spot = agent.get("spot") if isinstance(agent, dict) else None
-        if not isinstance(spot, list) or len(spot) != 2 or not all(isinstance(one, int | float) for one in spot):
-            continue
-        if all(math.isfinite(one) and abs(one) < _FARTHEST for one in spot):
-            found[str(name)] = (float(spot[0]), float(spot[1]))
+        numbers = [float(one) for one in spot if isinstance(one, int | float)] if isinstance(spot, list) else []
+        if len(numbers) == 2 and all(math.isfinite(one) and abs(one) < _FARTHEST for one in numbers):
+            found[str(name)] = (numbers[0], numbers[1])
     return found
 
 
