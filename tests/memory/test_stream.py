@@ -13,7 +13,7 @@ from chromadb.config import Settings
 
 from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory import MemoryStream, bundled
-from coopera.memory.ram import RamClient
+from coopera.memory.ram import RamClient, RamCollection
 from tests.memory.fakes import Letters
 
 
@@ -160,6 +160,22 @@ def test_a_store_can_be_a_chroma_client_of_the_caller(tmp_path: Path) -> None:
         stream.add(["a"], 0)
     with MemoryStream.open(client, "x", Letters()) as stream:
         assert texts_of(stream.recall("a", now=0, k=1)) == ["a"]
+
+
+def test_what_was_added_is_recalled_without_asking_the_store_for_its_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
+    get = RamCollection.get
+    monkeypatch.setattr(
+        RamCollection, "get", lambda self, **given: asked.append(given["include"]) or get(self, **given)
+    )
+    with MemoryStream.open(RamClient(), "s", Letters()) as stream:
+        stream.add([f"record {number}" for number in range(600)], hour=3, metadata=[{"pair": (1, 2)}] * 600)
+        asked.clear()
+        recalled = stream.recall("record", now=3, k=400)
+        assert {tuple(one.metadata["pair"]) for one in recalled} == {(1, 2)}
+        assert isinstance(recalled[0].metadata["pair"], list), "as the store would give it back"
+        assert len(list(stream.records())) == 600
+    assert not asked
 
 
 def test_with_real_embeddings_what_was_meant_is_recalled(tmp_path: Path) -> None:
