@@ -196,7 +196,7 @@ def main() -> None:
 
 
 def figures(recordings: list[list[Seen]]) -> str:
-    """Shares over the frames of the acts; `alike`: of pairs of following frames that differ by less than 2 of 255 a pixel."""
+    """Shares over the acts' frames; `alike`: of pairs of following frames that differ by less than 2 of 255 a pixel."""
     frames = [frame for one in recordings for frame in one if frame.doing]
     things = [frame.thing for frame in frames if frame.thing is not None]
     pairs = [pair for one in recordings for pair in zip(one, one[1:], strict=False)]

@@ -7,20 +7,22 @@ from __future__ import annotations
 
 import argparse
 import math
+import time
 from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from benchmarks.motion_sheet import HEIGHTS, studio
-from coopera.core.household import HUMAN
+from coopera.core.household import HUMAN, SceneId
 from coopera.core.people import Persona
 from coopera.people.shipped import SHIPPED, read_persona
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid_reach import standing
-from coopera.simulation.motions.library import load_library
+from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.motions.library import Motion, load_library
 from coopera.simulation.motions.poses import Setting, pose_at
 from coopera.simulation.people.appearance import appearance_of, outfit_for
+from coopera.simulation.people.skin import skinned
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.recording import Moment
 from coopera.simulation.sight.stage import Camera, Stage
@@ -28,8 +30,33 @@ from coopera.simulation.sight.walks import walking
 from coopera.simulation.state.home_state import HomeState, PersonState
 
 TILE = (120, 216)
+HEIGHTS = {"stand": (0.0, 0.9), "sit": (0.45, 0.75), "lie": (0.5, None), "floor": (0.0, None)}
 FINER = 3
 SHOWN = ("do yoga", "meditate", "take a shower", "lie down")
+
+
+def block(number: int, x: float, size: tuple[float, float, float]) -> SceneObject:
+    """A plain piece of furniture of which the body sits, lies or works."""
+    name = f"block_{number}"
+    where = {"room": "studio", "position": (x, 0.0, 0.0), "size": size, "colour": "#9c8468"}
+    return SceneObject.model_validate(
+        {"id": number, "name": name, "cls": "block", "category": "block", "fixed": True, **where}
+    )
+
+
+def studio(motion: Motion) -> Scene:
+    """A bare room with what a motion needs."""
+    support, worktop = HEIGHTS[motion.posture]
+    blocks = []
+    if motion.posture == "sit":
+        blocks.append(block(1, -0.05, (0.42, 0.5, support)))
+    if motion.posture == "lie":
+        blocks.append(block(1, 0.0, (2.0, 0.9, support)))
+    paths = (motion.keys.right, motion.keys.left)
+    if worktop is not None and any(path is not None and "surface" in path.frames for path in paths):
+        blocks.append(block(2, 0.53, (0.5, 1.1, worktop)))
+    room = Room(name="studio", kind="study", x0=-3, y0=-3, x1=3, y1=3)
+    return Scene(id=SceneId("studio"), rooms=[room], objects=blocks)
 
 
 def view(stage: Stage, shown: tuple[Array, str], camera: Camera, yaw: float = 0.0) -> Image.Image:
@@ -74,6 +101,19 @@ def pictures(persona: Persona) -> list[Image.Image]:
     return found
 
 
+def made(people: list[Persona]) -> str:
+    """What it takes to make the people's day clothes: medians of vertices, triangles and CPU seconds."""
+    skinned.cache_clear()
+    found = []
+    for persona in people:
+        looks = appearance_of(persona.profile, persona.id, persona.appearance)
+        start = time.process_time()
+        skin = skinned(looks, "day")
+        found.append((len(skin.vertices), len(skin.faces), time.process_time() - start))
+    vertices, triangles, seconds = (float(np.median(column)) for column in zip(*found, strict=True))
+    return f"{vertices:.0f} vertices, {triangles:.0f} triangles, {seconds:.2f} s of CPU for each (medians)"
+
+
 def main() -> None:
     """Draw the sheet."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -93,6 +133,7 @@ def main() -> None:
     sheet.save(args.out, "WEBP", quality=78, method=6)
     size = np.prod(sheet.size)
     print(f"{args.out}: {len(people)} people, {args.out.stat().st_size / 1e3:.0f} kB, {size / 1e6:.1f} megapixels")
+    print(made(people))
 
 
 if __name__ == "__main__":

@@ -58,7 +58,7 @@ def moments(watcher: Watcher, recording: Recording, count: int) -> Iterator[tupl
         index, within = recording.find(int(tick))
         moment = recording.shots[index].at(within)
         if index not in views:
-            views[index] = watcher._view(recording, recording.shots[index].at(recording.shots[index].deed))
+            views[index] = watcher._view(recording, recording.shots[index])
         robot = recording.robot
         yield moment, views[index] if number % 2 else robot_camera(ground.robots[robot], moment.bodies[robot])
 

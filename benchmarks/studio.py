@@ -20,8 +20,9 @@ from coopera.simulation.acts.plans import Play
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.motions.library import Motion
-from coopera.simulation.sight.recording import TICKS, Filming, Moment, Shot
+from coopera.simulation.sight.recording import Filming, Moment, Shot
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.sight.timing import TICKS
 from coopera.simulation.state.agents import PersonAgent
 
 VIEWS, BESIDE = (62.0, -38.0), (118.0, -100.0)

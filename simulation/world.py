@@ -9,7 +9,6 @@ from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
@@ -33,10 +32,11 @@ from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
-from coopera.simulation.sight.recording import TICKS, Filming, Recording
-from coopera.simulation.sight.video import FPS, WEBP, write_video
+from coopera.simulation.sight.recording import Recording
+from coopera.simulation.sight.timing import TICKS
+from coopera.simulation.sight.video import FPS, write_frames, write_video
 from coopera.simulation.sight.views import view
-from coopera.simulation.sight.watching import Onlooker, Viewpoint, Watcher
+from coopera.simulation.sight.watching import Onlooker, Viewpoint, Watcher, onlooker, recorded
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
@@ -183,7 +183,7 @@ class World:
             SimulationError: If there is no such agent or watcher.
         """
         self.state.agent(agent)
-        before, watch = self.state, self._onlooker(agent, act, watcher) if record else None
+        before, watch = self.state, onlooker(self._watching(), self.state, agent, act, watcher) if record else None
         try:
             plan = self._plan(agent, act, watch)
         except UnableError as unable:
@@ -196,7 +196,7 @@ class World:
         if watch is not None:
             self._record(plan, agent, watch)
         elif keep:
-            self._record(plan, agent, self._onlooker(agent, act, watcher))
+            self._record(plan, agent, onlooker(self._watching(), self.state, agent, act, watcher))
         self.state = plan.state
         fetched, opened = tuple(plan.fetched), tuple(dict.fromkeys(plan.opened))
         done = Outcome(agent=agent, act=act, ok=True, metres=round(plan.metres, 3), fetched=fetched, opened=opened)
@@ -221,15 +221,6 @@ class World:
     def states(self, room: str | None = None) -> dict[str, str]:
         """{object: its states in words} of what is not as at first and can be seen: see `states_in_sight`."""
         return states_in_sight(self.layout, self.state, room)
-
-    def _onlooker(self, agent: AgentId, act: Act, watcher: AgentId | None) -> Onlooker:
-        """Who watches whom while an agent acts."""
-        acts = agent if agent in self.robots else None
-        robot = self.state.the("robot", watcher or acts)
-        if acts is None:
-            return Onlooker(self._watching(), robot, agent)
-        named = act.receiver if isinstance(act, HandOver) and act.receiver in self.people else None
-        return Onlooker(self._watching(), robot, self.state.the("person", named or next(iter(self.people), None)))
 
     def plan(self, agent: AgentId, act: Act) -> Plan:
         """What `perform` would do, step by step, without doing it.
@@ -287,12 +278,7 @@ class World:
         return things_in_sight(self.layout, self.state, room)
 
     def _record(self, plan: Plan, agent: AgentId, watch: Onlooker) -> None:
-        before = self.state.model_copy(update={"box": {**plan.state.box, **self.state.box}})
-        recording = Filming(self._ground, before, watch.robot, watch.person).film(plan.steps, agent)
-        known = before.box.get(plan.in_hand or "")
-        recording.near, recording.in_hand = plan.at, plan.in_hand if known is None else known.text
-        recording.states = states_in_sight(self.layout, plan.state)
-        self._recording = recording
+        self._recording = recorded(self._ground, self.state, plan, agent, watch)
         self.state = plan.state
 
     def _plan(self, agent: AgentId, act: Act, watch: Onlooker | None) -> Plan:
@@ -336,22 +322,10 @@ class World:
         Raises:
             SimulationError: If nothing has been recorded, or the folder cannot be written.
         """
-        recording = self.recording
-        folder = Path(folder)
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         watcher = self._watching()
-        pictures = watcher.film(recording, count, self.frame_size, views=tuple(views), labels=self.labels)
-        paths = []
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            for view, stem in views.items():
-                for i, image in enumerate(pictures[view]):
-                    path = folder / f"{stem}-{i}.webp"
-                    Image.fromarray(image).save(path, "WEBP", **WEBP)
-                    paths.append(path)
-        except OSError as err:
-            raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
-        return paths
+        pictures = watcher.film(self.recording, count, self.frame_size, views=tuple(views), labels=self.labels)
+        return write_frames(Path(folder), {stem: pictures[view] for view, stem in views.items()})
 
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.

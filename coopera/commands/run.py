@@ -52,10 +52,10 @@ def run(
     from coopera.config.schema import load_config
     from coopera.studies.catalogues import resolve
 
-    asked = load_config(study or _recorded(flags.get("models", {})), flags)
-    config = resolve(asked)
+    chosen = load_config(study or _recorded(flags.get("models", {})), flags)
+    config = resolve(chosen)
     assert config.out is not None  # resolve sets it
-    if asked.renderer == "auto" and config.renderer == "tiny":
+    if chosen.renderer == "auto" and config.renderer == "tiny":
         from coopera.simulation.drawing.context import problem
 
         typer.echo(printable(f"Pictures are drawn by tiny, without shadows: {problem()}."), err=True)

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from coopera.config.files import read_yaml, write_atomic
 from coopera.core.errors import ConfigError
-from coopera.core.people import Persona, PersonId
+from coopera.core.people import Looks, Persona, PersonId
 
 SHIPPED = Path(__file__).parents[1] / "personas"
 _MOST_BYTES = 2**20  # of a persona file
@@ -107,7 +107,8 @@ def _complaint(err: ValidationError, path: Path) -> str:
     first = err.errors(include_url=False)[0]
     field = ".".join(str(part) for part in first["loc"])
     if first["type"] == "extra_forbidden":
-        return f"{path}: there is no field {field!r} (known are {', '.join(Persona.model_fields)})."
+        known = Looks.model_fields if field.startswith("appearance.") else Persona.model_fields
+        return f"{path}: there is no field {field!r} (known are {', '.join(known)})."
     if first["type"] == "missing":
         return f"{path}: the field {field} is missing."
     expected = {
@@ -116,5 +117,10 @@ def _complaint(err: ValidationError, path: Path) -> str:
         "profile": "a text of 1 to 20000 characters",
         "notes": "a text of at most 20000 characters",
         "source": "a text",
+        "appearance": f"a mapping of some of {', '.join(Looks.model_fields)}",
+        "appearance.age": "a whole number from 16 to 110",
+        "appearance.glasses": "true or false",
     }.get(field, "a number from 1 to 5" if field.startswith("big_five.") else "a mapping of five numbers from 1 to 5")
+    if first["type"] == "literal_error":
+        expected = str(first.get("ctx", {}).get("expected")).replace("'", "")
     return f"{path}: {field} must be {expected}, not {str(first['input'])[:60]!r}."

@@ -90,8 +90,9 @@ def _spots(poses: Any) -> dict[str, Point]:
     found = {}
     for name, agent in agents.items() if isinstance(agents, dict) else ():
         spot = agent.get("spot") if isinstance(agent, dict) else None
-        known = isinstance(spot, list) and len(spot) == 2 and all(isinstance(one, int | float) for one in spot)
-        if known and all(math.isfinite(one) and abs(one) < _FARTHEST for one in spot):
+        if not isinstance(spot, list) or len(spot) != 2 or not all(isinstance(one, int | float) for one in spot):
+            continue
+        if all(math.isfinite(one) and abs(one) < _FARTHEST for one in spot):
             found[str(name)] = (float(spot[0]), float(spot[1]))
     return found
 

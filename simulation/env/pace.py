@@ -9,7 +9,7 @@ from typing import NamedTuple
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import APART, Dress, Plan, Step, Turn, Walk
 from coopera.simulation.homes.floorplan import Point
-from coopera.simulation.sight.recording import PERSON_SPEED, ROBOT_SPEED, seconds_at_place
+from coopera.simulation.sight.timing import PERSON_SPEED, ROBOT_SPEED, seconds_at_place
 from coopera.simulation.sight.walks import Track
 
 _TICK = 0.1

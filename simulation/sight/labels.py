@@ -48,7 +48,9 @@ def labelled(image: Image, mask: NDArray[np.int64], names: Sequence[Name]) -> Im
         left, top, right, bottom = draw.textbbox((0, 0), name.text, font=font)
         wide, high = right - left + 2 * _PAD, bottom - top + 2 * _PAD
         x = min(max(float(np.median(columns)) - wide / 2, 0.0), width - wide)
-        heights = [rows.min() - high - 1, rows.max() + 1] if name.small else [float(np.percentile(rows, 8)), rows.max() + 1]
+        heights = (
+            [rows.min() - high - 1, rows.max() + 1] if name.small else [float(np.percentile(rows, 8)), rows.max() + 1]
+        )
         for y in (min(max(float(value), 0.0), height - high) for value in (*heights, np.median(rows))):
             box = (x, y, x + wide, y + high)
             if not any(_meet(box, other) for other in taken):

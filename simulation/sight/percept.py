@@ -18,8 +18,9 @@ from coopera.simulation.motions.library import Library
 from coopera.simulation.shapes.rotations import Array, about_z
 from coopera.simulation.sight.cameras import ROBOT_FOV, around, robot_camera
 from coopera.simulation.sight.pose_matching import HANDS, PARTS, matcher, skeleton
-from coopera.simulation.sight.recording import TICKS, Moment, Recording
+from coopera.simulation.sight.recording import Moment, Recording
 from coopera.simulation.sight.stage import Camera, Stage
+from coopera.simulation.sight.timing import TICKS
 
 INSTANTS = 8
 """At how many moments the person's joints are looked at: as many as a run takes pictures, if nothing else is asked."""

@@ -13,8 +13,6 @@ from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
-import numpy as np
-
 from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
@@ -26,19 +24,22 @@ from coopera.simulation.motions.aids import Used, aids, now
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
 from coopera.simulation.people.appearance import Outfit, outfit_for
-from coopera.simulation.shapes.rotations import Array, smooth, wrapped
-from coopera.simulation.sight.walks import Track, walking
+from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.sight.timing import (
+    BACK,
+    HOLD,
+    MOTION,
+    PERSON_SPEED,
+    REACH,
+    ROBOT_SPEED,
+    SETTLE,
+    SHOWN,
+    TICKS,
+    TURN,
+)
+from coopera.simulation.sight.walks import Track, between_bodies, mixed, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
 from coopera.simulation.ways.navigation import Stand
-
-TICKS = 30
-"""Ticks per second."""
-PERSON_SPEED, ROBOT_SPEED = 1.1, 0.8
-"""Metres per second."""
-_SHOWN = 1.3
-"""Seconds of a walk that a shot shows before the act."""
-_MOTION = 8.0
-_TURN, _REACH, _HOLD, _BACK, _SETTLE = 8, 22, 8, 16, 26
 
 
 class Held(NamedTuple):
@@ -119,15 +120,6 @@ def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
     return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
 
 
-def seconds_at_place(step: Handle | Open | Play | Give) -> float:
-    """How long a step takes where it is done, without the way there."""
-    if isinstance(step, Play):
-        ticks = _SETTLE + round(max(_MOTION, 2 * step.motion.keys.period) * TICKS)
-    else:
-        ticks = _TURN + _REACH + (2 if isinstance(step, Give) else 1) * _HOLD + _BACK
-    return ticks / TICKS
-
-
 class Filming:
     """Turns the steps of a plan into shots."""
 
@@ -186,7 +178,7 @@ class Filming:
             return 0, lambda tick: there
         drives = agent in self.robots
         track, speed = Track.along(walk.points), (ROBOT_SPEED if drives else PERSON_SPEED) / TICKS
-        ticks = min(math.ceil(track.marks[-1] / speed), round(_SHOWN * TICKS))
+        ticks = min(math.ceil(track.marks[-1] / speed), round(SHOWN * TICKS))
         carries = walk.carries is not None
 
         def at(tick: int) -> Placed:
@@ -226,8 +218,8 @@ class Filming:
         here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(agent, before is not None))
         away = here._replace(pose=self._idle(agent, after is not None))
         bent = here._replace(pose=step.posture)
-        turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
-        done = reached + _HOLD
+        turned, reached = walk_ticks + TURN, walk_ticks + TURN + REACH
+        done = reached + HOLD
         others = self._frozen(agent)
         first, then = (before, self.moved, self.opened), (after, moved, opened)
 
@@ -235,15 +227,15 @@ class Filming:
             if tick < walk_ticks:
                 body = walk_at(tick)
             elif tick < turned:
-                body = between(came, here, (tick - walk_ticks) / _TURN)
+                body = between(came, here, (tick - walk_ticks) / TURN)
             elif tick < reached:
-                body = between(here, bent, (tick - turned) / _REACH)
+                body = between(here, bent, (tick - turned) / REACH)
             else:
-                body = between(bent, away, (tick - done) / _BACK)
-            held, places, doors = then if tick >= reached + _HOLD // 2 else first
+                body = between(bent, away, (tick - done) / BACK)
+            held, places, doors = then if tick >= reached + HOLD // 2 else first
             return others(body, held, places)._replace(opened=doors)
 
-        self.recording.shots.append(Shot(done + _BACK, at, reached + _HOLD // 2 - 1, walk_ticks))
+        self.recording.shots.append(Shot(done + BACK, at, reached + HOLD // 2 - 1, walk_ticks))
         self.opened = opened
         self._finish(agent, away, after, moved)
 
@@ -261,8 +253,8 @@ class Filming:
             return how and how._replace(aids=tuple(aids(motion, setting, grip, seconds, cls)))
 
         carried = Held(person.thing) if person.thing else None
-        settled = walk_ticks + _SETTLE
-        total = settled + round(max(_MOTION, 2 * motion.keys.period) * TICKS)
+        settled = walk_ticks + SETTLE
+        total = settled + round(max(MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
         moved, outfit = self.moved, _outfit(person)
 
@@ -276,7 +268,7 @@ class Filming:
             pose = pose_at(motion, seconds, setting)
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
-                return others(between(came, body, (tick - walk_ticks) / _SETTLE), carried, moved)
+                return others(between(came, body, (tick - walk_ticks) / SETTLE), carried, moved)
             return dressed(others(body, held(seconds), moved))
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks))
@@ -293,7 +285,7 @@ class Filming:
 
         def at(tick: int) -> Moment:
             moment = last.at(tick)
-            return moment if tick < last.ticks - _BACK else moment._replace(worn=worn, held=held)
+            return moment if tick < last.ticks - BACK else moment._replace(worn=worn, held=held)
 
         self.recording.shots[-1] = Shot(last.ticks, at, last.deed, last.came)
 
@@ -304,8 +296,8 @@ class Filming:
         moves, bends = self._blend(step.agent), self._blend(step.receiver)
         here = Placed(step.stand.x, step.stand.y, step.stand.yaw, self._idle(step.agent, holds=not step.back))
         out, after = here._replace(pose=step.posture), here._replace(pose=self._idle(step.agent, holds=step.back))
-        turned, reached = walk_ticks + _TURN, walk_ticks + _TURN + _REACH
-        done = reached + 2 * _HOLD
+        turned, reached = walk_ticks + TURN, walk_ticks + TURN + REACH
+        done = reached + 2 * HOLD
         waiting, moved = self.bodies[step.receiver], self.moved
         thing, other = Held(step.thing), self.held.get(step.receiver)
         robots = (None, thing) if step.back else (thing, None)
@@ -318,19 +310,19 @@ class Filming:
             if tick < walk_ticks:
                 robot = walk_at(tick)
             elif tick < turned:
-                robot = moves(came, here, (tick - walk_ticks) / _TURN)
+                robot = moves(came, here, (tick - walk_ticks) / TURN)
             elif tick < reached:
-                robot = moves(here, out, (tick - turned) / _REACH)
+                robot = moves(here, out, (tick - turned) / REACH)
             else:
-                robot = moves(out, after, (tick - done) / _BACK)
-            share = (tick - turned) / _REACH if tick < done else 1 - (tick - done) / _BACK
-            given = tick >= reached + _HOLD
+                robot = moves(out, after, (tick - done) / BACK)
+            share = (tick - turned) / REACH if tick < done else 1 - (tick - done) / BACK
+            given = tick >= reached + HOLD
             person = bends(waiting, taking, share)
             moment = others(robot, robots[given], moved)
             held = _with(moment.held, step.receiver, persons[given])
             return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
-        self.recording.shots.append(Shot(done + _BACK, at, reached, walk_ticks))
+        self.recording.shots.append(Shot(done + BACK, at, reached, walk_ticks))
         self._finish(step.agent, after, robots[1], moved)
         self.held = _with(self.held, step.receiver, persons[1])
 
@@ -356,7 +348,7 @@ class Filming:
 
     def _blend(self, agent: AgentId) -> Callable[[Placed, Placed, float], Placed]:
         """How an agent gets from one placed body to another."""
-        return partial(_between, mix=_mixed if agent in self.robots else blend)
+        return partial(between_bodies, mix=mixed if agent in self.robots else blend)
 
     def _finish(self, agent: AgentId, body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> None:
         self.moved = moved
@@ -398,17 +390,3 @@ def watching(body: RobotBody, robot: Placed, person: Placed) -> Placed:
 def eye_level(person: Placed) -> float:
     """At which height of a person a robot looks (metres)."""
     return min(max(float(person.pose[2]) + 0.15, 0.3), 1.1)
-
-
-def _mixed(first: Array, second: Array, share: float) -> Array:
-    """A robot's posture between two others."""
-    return first + share * (second - first)
-
-
-def _between(first: Placed, second: Placed, share: float, mix: Callable[[Array, Array, float], Array]) -> Placed:
-    """Ease from one placed body to another."""
-    share = smooth(share)
-    turn = wrapped(second.yaw - first.yaw)
-    pose = mix(first.pose, second.pose, share)
-    x, y = (1 - share) * np.array(first[:2]) + share * np.array(second[:2])
-    return Placed(float(x), float(y), first.yaw + share * turn, pose)

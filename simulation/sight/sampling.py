@@ -16,7 +16,8 @@ from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.shapes.rotations import Array, about_z
 from coopera.simulation.sight.pose_matching import HANDS, PARTS, skeleton
-from coopera.simulation.sight.recording import TICKS, Moment, Recording
+from coopera.simulation.sight.recording import Moment, Recording
+from coopera.simulation.sight.timing import TICKS
 
 _CANDIDATES = 40
 """Of about so many moments the poses are compared: working out more takes longer than a picture."""

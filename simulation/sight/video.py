@@ -1,14 +1,18 @@
-"""Recordings as H.264 video, by PyAV (the extra `video`); the same pictures give the same bytes on any processor."""
+"""Recordings as pictures, and as H.264 video by PyAV (the extra `video`).
+
+The same pictures give the same video on any processor.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from coopera.core.errors import ConfigError, SimulationError
 
@@ -27,6 +31,25 @@ def need_video() -> None:
     """
     if find_spec("av") is None:
         raise ConfigError("pictures: video needs PyAV; install it with: pip install -c constraints.txt -e '.[video]'")
+
+
+def write_frames(folder: Path, pictures: Mapping[str, Sequence[NDArray[np.uint8]]]) -> list[Path]:
+    """Write pictures (height, width, 3) as NAME-0.webp … into a folder, name by name.
+
+    Raises:
+        SimulationError: If the folder cannot be written.
+    """
+    paths = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, some in pictures.items():
+            for i, image in enumerate(some):
+                path = folder / f"{name}-{i}.webp"
+                Image.fromarray(image).save(path, "WEBP", **WEBP)
+                paths.append(path)
+    except OSError as err:
+        raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
+    return paths
 
 
 def write_video(path: Path, pictures: Iterable[NDArray[np.uint8]]) -> Path:

@@ -1,15 +1,19 @@
-"""Walks as they are filmed: the place and the heading after a distance, and the pose of the legs."""
+"""Walks as they are filmed: the place and the heading after a distance, the pose of the legs, and what lies between."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+
+from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid import SLICES
 from coopera.simulation.bodies.humanoid_reach import carrying
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.motions.poses import clip
-from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.shapes.rotations import Array, smooth, wrapped
 
 _ARMS = ("right_shoulder", "right_elbow")
 
@@ -56,3 +60,17 @@ def walking(gone: float, carries: bool) -> Array:
         for name in _ARMS:
             pose[SLICES[name]] = arm[SLICES[name]]
     return pose
+
+
+def mixed(first: Array, second: Array, share: float) -> Array:
+    """A robot's posture between two others."""
+    return first + share * (second - first)
+
+
+def between_bodies(first: Placed, second: Placed, share: float, mix: Callable[[Array, Array, float], Array]) -> Placed:
+    """Ease from one placed body to another."""
+    share = smooth(share)
+    turn = wrapped(second.yaw - first.yaw)
+    pose = mix(first.pose, second.pose, share)
+    x, y = (1 - share) * np.array(first[:2]) + share * np.array(second[:2])
+    return Placed(float(x), float(y), first.yaw + share * turn, pose)

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from coopera.core.household import AgentId, plain
+from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.drawing.context import Renderer
@@ -19,9 +19,11 @@ from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
 from coopera.simulation.sight.hiding import person_body, robot_body
 from coopera.simulation.sight.labels import Name, labelled
-from coopera.simulation.sight.recording import Held, Moment, Recording, Shot, still
+from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
+from coopera.simulation.state.home_state import HomeState
+from coopera.simulation.state.looks import states_in_sight
 
 Viewpoint: TypeAlias = Literal["robot", "human"]
 """The robot's own, or a third person's of who acts."""
@@ -195,3 +197,28 @@ class Onlooker:
     def __call__(self, plan: Plan, deeds: Sequence[Placed], spot: Point) -> None:
         """Add to a plan the robot's drive to where it sees the person's act."""
         self.watcher.watch(plan, self.robot, self.person, deeds, spot)
+
+
+def onlooker(watcher: Watcher, state: HomeState, agent: AgentId, act: Act, robot: AgentId | None) -> Onlooker:
+    """Who watches whom while an agent acts: `robot`, or the one that acts, or the only one.
+
+    Raises:
+        SimulationError: If there is no such robot, or not just one to choose from.
+    """
+    people = state.ids("person")
+    acts = agent if agent not in people else None
+    watches = state.the("robot", robot or acts)
+    if acts is None:
+        return Onlooker(watcher, watches, agent)
+    named = act.receiver if isinstance(act, HandOver) and act.receiver in people else None
+    return Onlooker(watcher, watches, state.the("person", named or next(iter(people), None)))
+
+
+def recorded(ground: Ground, state: HomeState, plan: Plan, agent: AgentId, watch: Onlooker) -> Recording:
+    """Film a planned act from the home before it, and note what a percept may tell of it."""
+    before = state.model_copy(update={"box": {**plan.state.box, **state.box}})
+    recording = Filming(ground, before, watch.robot, watch.person).film(plan.steps, agent)
+    known = before.box.get(plan.in_hand or "")
+    recording.near, recording.in_hand = plan.at, plan.in_hand if known is None else known.text
+    recording.states = states_in_sight(ground.scene, plan.state)
+    return recording

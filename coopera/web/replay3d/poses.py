@@ -22,8 +22,9 @@ from coopera.simulation.people.weights import PARTS
 from coopera.simulation.shapes.rotations import about_z, quaternion
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.engine import pybullet
-from coopera.simulation.sight.recording import TICKS, Moment, Recording
+from coopera.simulation.sight.recording import Moment, Recording
 from coopera.simulation.sight.stage import Stage
+from coopera.simulation.sight.timing import TICKS
 from coopera.simulation.world import World
 from coopera.studies.assemble import open_embeddings, open_home
 from coopera.studies.replay import in_order

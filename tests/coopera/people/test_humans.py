@@ -48,6 +48,14 @@ def test_an_unknown_id_is_refused_and_reaches_no_file(person: str, tmp_path: Pat
         ("id: guest-1", "id: guest-2", "id must be the file's name, 'guest-1', not 'guest-2'"),
         ("id: guest-1", "id: Guest 1", "id must be lower-case letters, digits"),
         ("profile: I like tea.", "profile: ''", "profile must be a text of 1 to 20000 characters"),
+        (
+            "source: test",
+            "appearance: {hair: mohawk}",
+            "appearance.hair must be bald, ring, cropped, .* or curly, not 'mo",
+        ),
+        ("source: test", "appearance: {age: 7}", "appearance.age must be a whole number from 16 to 110, not '7'"),
+        ("source: test", "appearance: red", "appearance must be a mapping of some of figure, age, .*beard, not 'red'"),
+        ("source: test", "appearance: {weight: 3}", r"no field 'appearance.weight' \(known are figure, age, build"),
     ],
 )
 def test_a_faulty_persona_file_names_file_and_field(tmp_path: Path, old: str, new: str, sentence: str) -> None:

@@ -161,7 +161,11 @@ def test_a_robots_act_is_kept_under_a_name_of_its_own_from_across_the_room(home,
     home.restore({})
     assert home.perform(ROBOT, put("book_1", "dining_table_1"), record=True).ok
     paths = home.frames(2, tmp_path, "help-0")
-    assert [path.name for path in paths] == ["help-0-0.webp", "help-0-1.webp"] == sorted(p.name for p in tmp_path.iterdir())
+    assert (
+        [path.name for path in paths]
+        == ["help-0-0.webp", "help-0-1.webp"]
+        == sorted(p.name for p in tmp_path.iterdir())
+    )
 
 
 def test_recording_a_robots_act_changes_nothing_of_what_comes_of_it(home) -> None:
