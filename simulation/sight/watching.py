@@ -112,14 +112,16 @@ class Watcher:
         for moment, cameras in self._moments(recording, telling_ticks(recording, self.ground.robots, count), views):
             names = self._names(recording, moment) if labels else []
             for view, camera in cameras.items():
-                image, mask = self.drawn.picture(camera, size)
-                pictures[view].append(labelled(image, mask, names) if names else image)
+                if names:
+                    pictures[view].append(labelled(*self.drawn.picture(camera, size), names))
+                else:
+                    pictures[view].append(self.drawn.colours(camera, size))
         return pictures
 
     def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
         """Yield each n-th tick with both views side by side, the robot's on the left."""
         for _, cameras in self._moments(recording, range(0, recording.ticks, every), ("robot", "human")):
-            yield np.concatenate([self.drawn.picture(camera, size)[0] for camera in cameras.values()], axis=1)
+            yield np.concatenate([self.drawn.colours(camera, size) for camera in cameras.values()], axis=1)
 
     def _moments(
         self, recording: Recording, ticks: Iterable[int], views: Sequence[Viewpoint]
