@@ -307,7 +307,11 @@ class Renderer:
         self._kit.looks.use(3)
         for store in (self._fixed, self._moving):
             if store is not None:
+                # our own shapes are closed; what comes from files may be inside out
+                if store is self._fixed and self.scenery.scene.meshes is None:
+                    context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
                 store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store))
+                context.enable_only(context.DEPTH_TEST)
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
         target.smooth.use()
