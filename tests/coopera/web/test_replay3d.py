@@ -145,6 +145,7 @@ def test_the_page_is_one_small_file_that_names_nothing_outside(page: Path) -> No
     assert 'href="http' not in text
 
 
+@pytest.mark.slow
 def test_a_film_shows_the_same_acts(run: RunDir, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("av", reason="a film needs PyAV")
     monkeypatch.setattr(run, "config", run.config.model_copy(update={"frame_size": (32, 32)}))
