@@ -216,6 +216,8 @@ def _stand(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, near
 def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, motion: Motion) -> PersonState:
     """Standing at the target, on it where one steps on it, or near it with elbow room for large motions."""
     worktop = _worktop(target, stands=True)
+    if worktop is not None and worktop < motion.keys.above:
+        worktop = None
     sweeps = motion.keys.hold == "floor"
     if not sweeps and target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
         stand = _stand(ground, plan, agent, target, target.xy)

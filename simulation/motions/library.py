@@ -98,6 +98,7 @@ class Keys(Frozen):
     knees: float = 0.1
     hold: Hold = "right"
     works_at: tuple[float, float] | None = None
+    above: float = Field(0.0, ge=0)
     tip: list[float] = []
     lays: Laying | None = None
     aids: list[Aid] = []
