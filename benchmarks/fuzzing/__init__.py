@@ -1,4 +1,7 @@
-"""What `benchmarks.fuzz` tries: readers of files from elsewhere, some good files for each, and how to change them."""
+"""What `benchmarks.fuzz` tries: readers of files from elsewhere, some good files for each, and how to change them.
+
+A module for each kind of file names its readers in `READERS`; `kit` says what a reader is, `mutations` changes bytes.
+"""
 
 from benchmarks.fuzzing import bodies, homes, models, people, runs, studies
 from benchmarks.fuzzing.kit import Reader
