@@ -177,7 +177,7 @@ def main() -> None:
             seen: dict[str, list[list[Seen]]] = defaultdict(list)
             names: list[str] = []
             counted.rays = counted.small = 0
-            with World(load_scene(SceneId(scene)), robot=robot, frame_size=SIZE) as world:
+            with World(load_scene(SceneId(scene)), robot=robot, frame_size=SIZE, renderer="tiny") as world:
                 for act in every_motion(world)[: options.acts]:
                     if not world.perform(HUMAN, act, record=True).ok:
                         continue

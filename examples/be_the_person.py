@@ -26,7 +26,7 @@ from coopera.studies.study import new_run, plan_days
 def answer(question: Question) -> Answer:
     """Show a question and read the answer."""
     print(f"\n{question.time}: {question.kind}? {question.problem}")
-    print("\n".join([*question.tasks, *question.items, *list(question.places)[:8]]))
+    print("\n".join([*question.items, *list(question.places)[:8]]))
     if question.kind == "intention":
         return input("> ")
     return list(iter(lambda: input("> "), ""))
@@ -43,7 +43,11 @@ def main() -> None:
             done = graph.invoke(first_day(plan_days(run.config)[0]), thread, context=services)
             while "__interrupt__" in done:
                 asked = done["__interrupt__"][0]
-                said = answer(Question.model_validate(asked.value))
+                try:
+                    said = answer(Question.model_validate(asked.value))
+                except EOFError:
+                    print("Nobody answers; with a checkpointer on file the graph would wait.")
+                    return
                 done = graph.invoke(Command(resume={asked.id: said}), thread, context=services)
             for hour in run.hours():
                 print(hour.human and [task.act.describe() for task in hour.human.tasks])

@@ -55,7 +55,7 @@ def test_somebody_else_lives_there_and_only_the_pictures_change(home: World, tmp
 def test_the_outfit_is_that_of_the_motion_once_it_has_begun(home: World, motion: str, outfit: str) -> None:
     home.restore({})
     assert home.perform(HUMAN, move("bed_1", "book", motion), record=True).ok
-    shot = home._recorded().shots[-1]
+    shot = home.recording.shots[-1]
     assert shot.at(0).outfits.get(HUMAN, "day") == "day", "on the way they are dressed for the day"
     assert shot.at(shot.deed).outfits[HUMAN] == outfit
 

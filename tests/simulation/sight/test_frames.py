@@ -22,7 +22,7 @@ from tests.simulation.flat import bring, flat, move, put
 
 @pytest.fixture(scope="module")
 def home():
-    with World(flat(), frame_size=(96, 72)) as world:
+    with World(flat(), frame_size=(96, 72), renderer="tiny") as world:
         yield world
 
 
@@ -63,7 +63,7 @@ def test_the_hands_are_seen_in_the_deed(home, act, view) -> None:
 
 @pytest.mark.parametrize("name", known_robots())
 def test_a_robots_own_arm_is_not_in_its_pictures_of_a_person(name) -> None:
-    with World(flat(), robot=name) as world:
+    with World(flat(), robot=name, renderer="tiny") as world:
         assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
         assert seen_at_deed(world, "robot").robot < 0.02
 
@@ -151,7 +151,7 @@ def test_where_more_frames_are_asked_for_than_there_are_moments_each_moment_is_o
 @pytest.mark.parametrize("name", known_robots())
 @pytest.mark.parametrize("act", [put("book_1", "dining_table_1"), bring("mug")], ids=lambda act: act.kind)
 def test_pictures_of_a_robots_act_show_the_robot_at_it(name, act) -> None:
-    with World(flat(), robot=name) as world:
+    with World(flat(), robot=name, renderer="tiny") as world:
         assert world.perform(ROBOT, act, record=True).ok
         assert seen_at_deed(world, "human").robot > 0.015
 
