@@ -18,6 +18,8 @@ from coopera.simulation.world import World
 
 Sees = Literal["room", "home"]
 HELPED, USELESS = 1.0, -0.2
+FAR = 30.0
+"""What is farther than this (metres), or not there, has this depth."""
 
 
 class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
@@ -31,7 +33,8 @@ class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
 
     Observation: a `Dict` of `clock` (weekday, hour), `person` (room, motion label, furniture and class in hand, as the
     robot saw it last in this hour, 0 for unknown), `room` (the robot's) and `things` (where each thing of the home is,
-    as far as the robot has seen). The person's intention and tasks are in no observation and in no `info`.
+    as far as the robot has seen); with `picture`, what its camera sees and how far away that is. The person's intention
+    and tasks are in no observation and in no `info`.
 
     Reward: `helped` for each task of the person that an act newly helps with, `useless` for an act that fails or helps
     with none, 0 for waiting.
@@ -50,6 +53,7 @@ class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
         brings: Sequence[str] = (),
         helps: Helps = same_classes,
         sees: Sees = "room",
+        picture: tuple[int, int] | None = None,
         watches: bool = True,
         overlap: bool = False,
         rewards: tuple[float, float] = (HELPED, USELESS),
@@ -64,6 +68,8 @@ class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
             helps: The rule by which an act helps.
             sees: Whether the robot sees the things of its room, or of the whole home at any time. In both cases it was
                 shown around at first.
+            picture: Width and height of what the robot's camera sees after a step, if it is to be observed: `picture`
+                (colours) and `depth` (metres, at most `FAR`). It needs the renderer gl.
             watches: Whether a waiting robot is told what it sees of the person, which takes most of a step's time.
             overlap: Whether both act at the same time: who is done first changes the home first, and the robot stops
                 where it would run into the person. Without, the robot acts first.
@@ -72,19 +78,23 @@ class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
         """
         self.household = Household(world, life, helps=helps, overlap=overlap, watches=watches)
         self.coding = Coding(world, brings)
+        self._picture = picture
         self._sees, (self._good, self._bad), self._resources = sees, rewards, resources
         self._known: dict[str, str] = {}
         self._seen: Percept | None = None
         self._sums = dict.fromkeys(("tasks", "helped", "acts", "useless"), 0)
         self.action_space = spaces.MultiDiscrete(self.coding.robot_acts)
-        self.observation_space: spaces.Space[Any] = spaces.Dict(
-            {
-                "clock": spaces.MultiDiscrete([7, 24]),
-                "person": spaces.MultiDiscrete(self.coding.percept_sizes),
-                "room": spaces.Discrete(len(self.coding.rooms)),
-                "things": spaces.MultiDiscrete(self.coding.whereabouts_sizes),
-            }
-        )
+        observed: dict[str, spaces.Space[Any]] = {
+            "clock": spaces.MultiDiscrete([7, 24]),
+            "person": spaces.MultiDiscrete(self.coding.percept_sizes),
+            "room": spaces.Discrete(len(self.coding.rooms)),
+            "things": spaces.MultiDiscrete(self.coding.whereabouts_sizes),
+        }
+        if picture is not None:
+            width, height = picture
+            observed["picture"] = spaces.Box(0, 255, (height, width, 3), np.uint8)
+            observed["depth"] = spaces.Box(0.0, FAR, (height, width), np.float32)
+        self.observation_space: spaces.Space[Any] = spaces.Dict(observed)
 
     @property
     def world(self) -> World:
@@ -149,12 +159,18 @@ class HomeEnv(gymnasium.Env[dict[str, Any], Numbers]):
         return self._good * done.helped if done.helped else self._bad
 
     def _observation(self) -> dict[str, Any]:
-        return {
+        return self._looked() | {
             "clock": self.coding.clock(self.household.hour),
             "person": self.coding.percept(self._seen),
             "room": np.int64(self.coding.rooms.index(self.world.room_of(ROBOT))),
             "things": self.coding.whereabouts(self._known),
         }
+
+    def _looked(self) -> dict[str, Any]:
+        if self._picture is None:
+            return {}
+        seen = self.world.view(ROBOT, self._picture)
+        return {"picture": seen.colour, "depth": np.minimum(seen.depth, FAR).astype(np.float32)}
 
     def _info(self, done: Stepped) -> dict[str, Any]:
         own = done.outcomes.get(ROBOT)

@@ -13,6 +13,7 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 from coopera.core.errors import ConfigError
 from coopera.core.household import HUMAN, ROBOT, FreeMotion, HandOver, PickPlace
 from coopera.simulation import World, load_scene
+from coopera.simulation.drawing.context import problem
 from coopera.simulation.env import HomeEnv, HomeParallelEnv, Planned
 from coopera.simulation.env.coding import BRING, PUT_ON, WAIT
 from coopera.simulation.env.household import PATIENCE
@@ -134,6 +135,19 @@ def test_the_robot_knows_of_things_what_it_has_seen(world: World) -> None:
 
     assert known["home"][1] == 4 + env.coding.places.index("armchair_1")
     assert known["room"][1] != known["home"][1]
+
+
+@pytest.mark.skipif(bool(problem()), reason="pictures need EGL and OpenGL, which are not here")
+def test_what_the_robots_camera_sees_is_observed_where_it_is_asked_for(world: World) -> None:
+    env = HomeEnv(world, tidying(world), watches=False, picture=(64, 48))
+    first, _ = env.reset(seed=0)
+
+    seen, *_ = env.step(env.coding.numbers(put(world, "plate_1", "dining_table_1")))
+
+    assert env.observation_space.contains(seen)
+    assert seen["picture"].shape == (48, 64, 3)
+    assert (seen["picture"] != first["picture"]).any(), "the robot has gone somewhere else"
+    assert 0.2 < float(np.median(seen["depth"])) < 10
 
 
 def test_the_same_seed_gives_the_same_observations(world: World) -> None:
