@@ -48,6 +48,8 @@ def _one(aid: Aid, setting: Setting, share: float, *, eats: bool) -> Grip | None
     first, last = aid.when
     if share < first:
         return None
+    if aid.hand == "both":
+        return Grip("both")
     if aid.hand is not None and share <= last:
         return Grip(aid.hand, surface=working_height(setting) + (_THICK if eats else 0.0), eaten=eats, flat=True)
     if aid.at is None or (aid.hand is None and share > last):

@@ -59,14 +59,14 @@ class HandPath(Frozen):
 class Aid(Frozen):
     """A small thing that belongs to a motion and is no thing of the home, such as the fork that one eats with.
 
-    Within the shares `when` of the period it is in the `hand`; afterwards it lies `at` a place, which is x, y, z and a
-    turn in degrees in the surface's frame (or, `floor`, in the body's, above what bears it). Without a hand it lies
-    there just then. It is left out where the thing in hand is one of its kind, and where that is not held as `only`
-    says.
+    Within the shares `when` of the period it is in the `hand` (in both throughout); afterwards it lies `at` a place,
+    which is x, y, z and a turn in degrees in the surface's frame (or, `floor`, in the body's, above what bears it).
+    Without a hand it lies there just then. It is left out where the thing in hand is one of its kind, and where that is
+    not held as `only` says.
     """
 
     thing: str = Field(min_length=1, max_length=40)
-    hand: Literal["right", "left"] | None = None
+    hand: Hold | None = None
     when: tuple[float, float] = (0.0, 1.0)
     at: tuple[float, float, float, float] | None = None
     floor: bool = False

@@ -152,3 +152,9 @@ def test_how_far_a_point_is_from_a_thing_follows_its_parts() -> None:
     shape = shape_of("plate")
     beside = gap(np.array((0.5, 0.0, 0.01)), shape.cls, shape.size, np.zeros(3), np.eye(3))
     assert math.isclose(beside, 0.5 - shape.size[0] / 2, abs_tol=0.02)
+
+
+def test_who_plays_the_guitar_with_a_pick_is_seen_with_a_guitar_and_with_one_only() -> None:
+    motion, setting, held = LIBRARY["play the guitar"], Setting(0.45, 0.75, "sit"), Grip("both")
+    assert [(aid.thing, aid.grip.hold) for aid in aids(motion, setting, held, 0.3, "cookie")] == [("guitar", "both")]
+    assert aids(motion, setting, held, 0.3, "guitar") == []
