@@ -19,9 +19,9 @@ from coopera.rundir.directory import RunDir
 from coopera.web.common import Door, served
 from coopera.web.rating.app import make_rating_app
 from coopera.web.rating.store import Rating
-from tests.coopera.web.chromium import browser
+from tests.coopera.web.browser import browser, needs_browser
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, needs_browser]
 PATIENCE = 240_000  # milliseconds
 _COOPERA = "import sys; from coopera.cli import main; sys.exit(main())"
 
