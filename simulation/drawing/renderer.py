@@ -75,6 +75,16 @@ class _Store:
         self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 24x", "at")], self.faces)
         self.set(batch.pieces)
 
+    def fits(self, batch: Batch) -> bool:
+        """Whether another batch takes just as much memory, vertices and faces."""
+        return bool(self.vertices.size == batch.vertices.nbytes and self.faces.size == batch.faces.nbytes)
+
+    def rewrite(self, batch: Batch) -> None:
+        """Hold another batch, which fits, in place of this one."""
+        self.vertices.write(batch.vertices.tobytes())
+        self.faces.write(batch.faces.tobytes())
+        self.set(batch.pieces)
+
     def set(self, pieces: list[Piece]) -> None:
         """Know which stretches there are."""
         self.pieces = pieces
@@ -240,10 +250,8 @@ class Renderer:
         if stirred == []:
             return
         batch = self.scenery.moving()
-        if self._moving is not None and self._moving.vertices.size == batch.vertices.nbytes:
-            self._moving.vertices.write(batch.vertices.tobytes())
-            self._moving.faces.write(batch.faces.tobytes())
-            self._moving.set(batch.pieces)
+        if self._moving is not None and self._moving.fits(batch):
+            self._moving.rewrite(batch)
         else:
             if self._moving is not None:
                 self._moving.release()

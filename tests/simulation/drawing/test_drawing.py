@@ -147,6 +147,17 @@ def test_odd_sizes_are_pictures(home: World, size: tuple[int, int]) -> None:
 
 
 @needs_gl
+def test_what_has_as_many_corners_and_more_faces_takes_the_place_of_something_else(home: World) -> None:
+    first = home.view("robot", SIZE)
+    scenery = home._watching().drawn.drawer.scenery
+    whole = scenery._moving()
+    whole.faces = np.concatenate([whole.faces, np.zeros((7, 3), dtype=whole.faces.dtype)])
+    scenery.stirred = None
+    again = home.view("robot", SIZE)
+    assert again.colour.tobytes() == first.colour.tobytes()
+
+
+@needs_gl
 def test_a_tiled_picture_is_the_whole_picture(home: World, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = home.view("robot", SIZE)
     monkeypatch.setattr("coopera.simulation.drawing.renderer._TILE", 64)
