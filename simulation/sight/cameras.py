@@ -7,10 +7,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coopera.simulation.acts.plans import Placed, all_clear_of
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.floorplan import Bounds, Point
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.shapes.rotations import Array, about_z
 from coopera.simulation.sight.hiding import Body, angle_from_front, behind_balls, behind_boxes, boxes_of
@@ -310,7 +311,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     ]
     corners = [(x, y, high) for x in (bounds[0], bounds[2]) for y in (bounds[1], bounds[3])]
     eyes = np.array([*ring, *corners])
-    inside = np.array([_in_the_open(scene, room.bounds.grown(-0.12), eye) for eye in eyes])
+    inside = _in_the_open(scene, room.bounds.grown(-0.12), eyes)
     target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
     if not inside.any():
         corner = room.centre
@@ -326,9 +327,16 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     return cameras[_clearest(stage, cameras, score[best])]
 
 
-def _in_the_open(scene: Scene, bounds: tuple[float, float, float, float], eye: Array) -> bool:
-    """Whether a camera there is in the room and in no piece of furniture."""
-    x, y, z = (float(value) for value in eye)
-    if not (bounds[0] <= x <= bounds[2] and bounds[1] <= y <= bounds[3]):
-        return False
-    return all(thing.top + 0.1 < z or thing.bounds.distance(x, y) > 0.15 for thing in scene.fixed)
+def _in_the_open(scene: Scene, bounds: Bounds, eyes: Array) -> NDArray[np.bool_]:
+    """Whether a camera at each of many places is in the room and in no piece of furniture; shape (n, 3) to (n,)."""
+    x, y, z = eyes.T[:, :, None]
+    boxes = np.array([thing.bounds for thing in scene.fixed]).reshape(-1, 4)
+    tops = np.array([thing.top for thing in scene.fixed])
+    gaps = np.hypot(
+        np.maximum(np.maximum(boxes[:, 0] - x, x - boxes[:, 2]), 0.0),
+        np.maximum(np.maximum(boxes[:, 1] - y, y - boxes[:, 3]), 0.0),
+    )
+    free = ((tops + 0.1 < z) | (gaps > 0.15)).all(axis=1)
+    within = (bounds.x0 <= x) & (x <= bounds.x1) & (bounds.y0 <= y) & (y <= bounds.y1)
+    found: NDArray[np.bool_] = free & within[:, 0]
+    return found

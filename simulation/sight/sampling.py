@@ -54,6 +54,8 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
     """
     if count >= recording.ticks:
         return list(range(recording.ticks))
+    if count == 1:
+        return [_deed(recording)]
     ticks = _candidates(recording, count)
     looks = [_look(recording, robots, tick) for tick in ticks]
     things = sorted(set().union(*(look.things for look in looks)))
