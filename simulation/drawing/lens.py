@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coopera.simulation.shapes.rotations import Array
 
@@ -57,3 +58,10 @@ def reach_of(camera: Camera) -> tuple[float, float]:
     """The nearest and the farthest distance that a camera sees."""
     away = math.dist(camera.eye, camera.target)
     return (NEAR, FAR) if away < 6.0 else (min(1.0, away / 25), max(4 * away, FAR))
+
+
+def metres_of(depth: NDArray[np.float32], reach: tuple[float, float]) -> Array:
+    """How far before the lens each pixel is, from OpenGL's depth under a `projection`; infinite where nothing is."""
+    near, far = reach
+    metres = 2 * near * far / (far + near - (2.0 * depth.astype(np.float64) - 1.0) * (far - near))
+    return np.where(depth >= 1.0, np.inf, metres)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from coopera.simulation.drawing.context import on_context
-from coopera.simulation.drawing.lens import Camera, projection, reach_of, view_matrix
+from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
 from coopera.simulation.drawing.sight import in_view
@@ -333,7 +333,7 @@ class Renderer:
             found.tags[part] = tags[::-1]
         if found.depth.size:
             depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
-            found.depth[part] = _metres(depth, *reach)
+            found.depth[part] = metres_of(depth, reach)
 
 
 _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0, 0, 1.0)))
@@ -342,12 +342,6 @@ _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0
 def bodies_of(tags: Numbers) -> NDArray[np.int64]:
     """The body of each tag, -1 for none."""
     return (tags & ((1 << BODY_BITS) - 1)).astype(np.int64) - 1
-
-
-def _metres(depth: NDArray[np.float32], near: float, far: float) -> Array:
-    """How far each pixel is before the lens, from OpenGL's depth; infinite where nothing is."""
-    metres = 2 * near * far / (far + near - (2.0 * depth.astype(np.float64) - 1.0) * (far - near))
-    return np.where(depth >= 1.0, np.inf, metres)
 
 
 def _columns(matrix: Array) -> bytes:
