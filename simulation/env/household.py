@@ -136,8 +136,9 @@ class Household:
 
     def _was_done(self, act: Act, by_robot: Outcome | None) -> bool:
         """Whether the robot has just done what the person was about to do."""
-        done = by_robot is not None and by_robot.ok and isinstance(act, PickPlace)
-        return done and by_robot is not None and self.helps(self.world, by_robot.act, act)
+        if by_robot is None or not by_robot.ok or not isinstance(act, PickPlace):
+            return False
+        return self.helps(self.world, by_robot.act, act)
 
     def _order(
         self, acts: Mapping[AgentId, Act | None]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 from coopera.core.household import AgentId
-from coopera.simulation.acts.plans import APART, Dress, Plan, Step, Turn, Walk
+from coopera.simulation.acts.plans import APART, Dress, Plan, Turn, Walk
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.sight.timing import PERSON_SPEED, ROBOT_SPEED, seconds_at_place
 from coopera.simulation.sight.walks import Track
@@ -44,7 +43,7 @@ def course(agent: AgentId, start: Point, plan: Plan, *, drives: bool) -> Course:
     stretches, time = [Stretch(0.0, Track.along([start]), 0.0)], 0.0
     speed = ROBOT_SPEED if drives else PERSON_SPEED
     for step in plan.steps:
-        if _who(step) != agent:
+        if step.agent != agent:
             continue
         if isinstance(step, Walk):
             track = Track.along(step.points)
@@ -71,12 +70,3 @@ def waits(yields: Course, goes: Course) -> float:
             own += _TICK
         now += _TICK
     return round(waited, 6)
-
-
-def _who(step: Step) -> AgentId:
-    return step.agent
-
-
-def longest(courses: Sequence[Course]) -> float:
-    """How long it takes until all are done."""
-    return max((course.seconds for course in courses), default=0.0)
