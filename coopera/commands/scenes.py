@@ -116,7 +116,11 @@ def generate(
 @app.command("import")
 def import_homes(
     path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="An HSSD folder, one *.scene_instance.json of it, or a home's JSON.")
+        Path,
+        typer.Argument(
+            metavar="PATH",
+            help="An HSSD folder, one *.scene_instance.json of it, a house of ProcTHOR, or a home's JSON.",
+        ),
     ],
     scene: Annotated[
         list[str] | None, typer.Option(metavar="ID", help="A scene of the folder; may be repeated. [default: all]")
@@ -125,26 +129,24 @@ def import_homes(
     skip_missing: Annotated[
         bool, typer.Option("--skip-missing", help="Leave out what refers to a missing file.")
     ] = False,
+    assets: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="ProcTHOR's asset-database.json: how large its objects are.")
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Bring in homes of HSSD, or one that you wrote (docs/scenes.md), and say what was left out."""
+    """Bring in homes of HSSD or ProcTHOR, or one that you wrote (docs/scenes.md); say what was guessed or left out."""
     from coopera.homes.stored import bring_in, figures
 
-    found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force)
+    found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force, assets=assets)
     if as_json:
-        rows = [
-            {**figures(one.scene), "file": str(one.file), "skipped": one.skipped, "problems": one.problems}
-            for one in found
-        ]
+        rows = [{**figures(one.scene), "file": str(one.file), **one.told._asdict()} for one in found]
         typer.echo(json.dumps(rows))
         return
     for one in found:
         typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(one.scene)))
-        for line in one.skipped:
-            typer.echo(printable(f"  left out: {line}"))
-        for line in one.problems:
-            typer.echo(printable(f"  problem: {line}"))
+        for line in one.told.lines():
+            typer.echo(printable(f"  {line}"))
         typer.echo(f"  Stored: {one.file}")
 
 
