@@ -97,15 +97,14 @@ def generate(
     as_json: AsJson = False,
 ) -> None:
     """Make a home from a seed, or with --count many that differ, and store them, so that their ids work everywhere."""
-    from coopera.homes.generated import make_many, make_one
+    from coopera.homes.generated import Wanted, make_many, make_one
     from coopera.homes.stored import figures
 
     if count is not None:
         if png is not None:
             raise ConfigError("--png: a picture is drawn of one home; leave --count out, or use `coopera scenes show`.")
-        made = make_many(
-            count, seed, id or "home", _scenes(out), rooms=rooms, things=things, force=force, say=_progress
-        )
+        wanted = Wanted(rooms, things)
+        made = make_many(count, seed, id or "home", _scenes(out), wanted=wanted, force=force, say=_progress)
         if as_json:
             typer.echo(json.dumps({"card": str(made.card), "homes": [figures(home) for home in made.homes]}))
             return

@@ -65,8 +65,8 @@ def in_words(card: dict[str, Any]) -> str:
     lines = [
         f"# {card['name']}: {card['homes']} homes",
         "",
-        f"Homes that were generated from seeds by {card['made_by']}: `{card['command']}`. The same command gives the same "
-        "files on every machine. Licence: Apache-2.0, as that of coopera; nothing in them was taken from elsewhere.",
+        f"Homes that were generated from seeds by {card['made_by']}: `{card['command']}`. The same command gives the "
+        "same files. Licence: Apache-2.0, as that of coopera; nothing in them was taken from elsewhere.",
         "",
         "Rooms are drawn by kind, laid out, given corners of their neighbours or cut off at the home's corners, and "
         "furnished so that all can be walked up to; then things are put where they belong. Each home passed `coopera "
@@ -81,8 +81,8 @@ def in_words(card: dict[str, Any]) -> str:
         row("movable objects", "movable"),
         f"| super-categories | {len(known)} in all | {paper['categories']} in all |",
         "",
-        f"{rooms['all']} rooms, of which {rooms['no_rectangles']} are no rectangles and {rooms['with_slanted_walls']} have "
-        f"slanted walls; {rooms['homes_with_a_polygon']} homes have such a room. {objects['fixed']} fixed and "
+        f"{rooms['all']} rooms, of which {rooms['no_rectangles']} are no rectangles and {rooms['with_slanted_walls']} "
+        f"have slanted walls; {rooms['homes_with_a_polygon']} homes have such a room. {objects['fixed']} fixed and "
         f"{objects['movable']} movable objects of {objects['classes']} classes.",
         "",
         "| kind of room | rooms |",
