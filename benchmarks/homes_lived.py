@@ -1,22 +1,25 @@
 """Can one live in these homes? `python -m benchmarks.homes_lived FOLDER-or-FILE… [--hours 3] [--human amara]`.
 
-In each home a person of the offline model lives one day of some hours, with the robot, without pictures. Each life is a
-process of its own. What fails is told: a run that ends in an error, an hour that failed, an act that could not be done
-with the reason. At the end stands a table, and the exit code is 1 if a run or an hour failed.
+In each home a person of the offline model lives one day of some hours, with the robot, without pictures, one home after
+the other in one process. What fails is told: a run that ends in an error, an hour that failed, an act that could not be
+done with the reason. At the end stands a table, and the exit code is 1 if a run or an hour failed.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import io
 import json
 import sys
 import tempfile
+import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from benchmarks.one_life import live
+from coopera.cli import main as coopera
 
 
 class Lived(NamedTuple):
@@ -39,12 +42,14 @@ def main() -> None:
     given = parser.parse_args()
     files = [file for path in given.homes for file in (sorted(path.glob("*.json")) if path.is_dir() else [path])]
     lived = []
+    start = time.process_time()
     for file in files:
         lived.append(day_in(file, given.human, given.hours))
         one = lived[-1]
         fault = f"; exit code {one.code}: {one.said}" if one.code else ""
         print(f"{one.home}: {one.failed_hours} hours failed, {_share(one.done)} acts done{fault}", flush=True)
     print(table(lived))
+    print(f"{(time.process_time() - start) / max(len(lived), 1):.1f} s of CPU for each home")
     sys.exit(any(one.code or one.failed_hours for one in lived))
 
 
@@ -52,11 +57,11 @@ def day_in(home: Path, human: str, hours: int) -> Lived:
     """One day in one home."""
     with tempfile.TemporaryDirectory() as folder:
         arguments = ["run", "--scenes", str(home.absolute()), "--humans", human, "--days", "1", "--hours", str(hours)]
-        code = live([*arguments, "--pictures", "none", "--out", "run"], Path(folder))
-        said = (Path(folder) / "said").read_text(errors="replace").strip().splitlines()
-        run = Path(folder) / "run"
+        run, said = Path(folder) / "run", io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            code = coopera([*arguments, "--pictures", "none", "--out", str(run)])
         if code:
-            return Lived(home.stem, code, 0, Counter(), Counter(), said[-1] if said else "")
+            return Lived(home.stem, code, 0, Counter(), Counter(), (said.getvalue().splitlines() or [""])[-1])
         failed = json.loads((run / "summary.json").read_text())["failed_hours"]
         acts = [act for file in sorted(run.glob("trace/day-*/hour-*.json")) for act in _acts(file)]
     done = Counter(f"{act['agent']} {'done' if act['ok'] else 'not done'}" for act in acts)
