@@ -58,6 +58,9 @@ def benchmark(
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     classifier: Annotated[str | None, option("classifier")] = None,
+    restate: Annotated[
+        bool, typer.Option("--restate", help="Change the endpoint although runs have begun; the results will say so.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Run methods on the same days of the same people, and write tables, figures and statistics.
@@ -81,7 +84,8 @@ def benchmark(
     found = bench.load_grid(grid, flags)
     shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
-    with bench.claimed_folder(planned):
+    with bench.claimed_folder(planned, restate=restate) as stated:
+        typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
         failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
         summary = write_results(planned)
     if as_json:
