@@ -127,20 +127,37 @@ def growth(rows: Sequence[Row], measure: str, endpoint: Endpoint = STATED) -> di
     return found
 
 
+def late_day_values(rows: Iterable[Row], endpoint: Endpoint) -> dict[str, dict[Of, dict[int, float]]]:
+    """The endpoint's measure on each late day, by method and unit; days without a figure are left out."""
+    found = _days(rows, endpoint.measure, endpoint.late_days)
+    return {method: {key: days for key, (_, days) in each.items()} for method, each in found.items()}
+
+
 def _units(rows: Iterable[Row], measure: str, chosen: Callable[[int], range]) -> dict[str, dict[Of, Unit]]:
     """The mean over some of each person's days, a day pooling its hours; `chosen` has them from how many there were."""
+    return {
+        method: {
+            key: Unit(one.person, one.scene, one.seed, float(np.mean(list(days.values()))))
+            for key, (one, days) in each.items()
+        }
+        for method, each in _days(rows, measure, chosen).items()
+    }
+
+
+def _days(
+    rows: Iterable[Row], measure: str, chosen: Callable[[int], range]
+) -> dict[str, dict[Of, tuple[Row, dict[int, float]]]]:
+    """Some of each person's days with their figure, and a row to tell whose they are."""
     key: Of
     lives: dict[tuple[str, Of], dict[int, list[Row]]] = defaultdict(lambda: defaultdict(list))
     for row in rows:
         key = (row.setting, row.collab, row.seed, row.episode, row.person)
         lives[row.method, key][row.round].append(row)
-    found: dict[str, dict[Of, Unit]] = defaultdict(dict)
+    found: dict[str, dict[Of, tuple[Row, dict[int, float]]]] = defaultdict(dict)
     for (method, key), days in sorted(lives.items(), key=lambda item: str(item[0])):
-        values = [score(days[day], measure) for day in chosen(max(days) + 1) if day in days]
-        given = [value for value in values if value is not None]
-        if given:
-            one = next(iter(days.values()))[0]
-            found[method][key] = Unit(one.person, one.scene, one.seed, float(np.mean(given)))
+        values = {day: score(days[day], measure) for day in chosen(max(days) + 1) if day in days}
+        if given := {day: value for day, value in values.items() if value is not None}:
+            found[method][key] = (next(iter(days.values()))[0], given)
     return dict(found)
 
 

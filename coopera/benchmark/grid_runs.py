@@ -157,7 +157,9 @@ def _check_grid(bench: Benchmark) -> dict[str, Any] | None:
     fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
     if odd := [name for name in fixed if before.get(name) != now.get(name)]:
         raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
-    of_the_endpoint = {name: before[name] for name in ("endpoint", "late_days", "early_days") if name in before}
+    of_the_endpoint: dict[str, Any] = {
+        name: before[name] for name in ("endpoint", "late_days", "early_days") if name in before
+    }
     return endpoint_of(read_grid(of_the_endpoint, str(path))) if before.get("methods") else None
 
 
