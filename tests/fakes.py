@@ -108,13 +108,16 @@ class FakeHome:
     def percept(self, rng: np.random.Generator) -> Percept:
         return Percept(room="kitchen", near=["stove_1"], motion="stirring", in_hand=None, visible=["mug_1"])
 
-    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+    def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         views = ("robot", "human") if name is None else (name,)
         paths = [folder / f"{view}-{n}.webp" for view in views for n in range(count)]
         for path in paths:
             path.write_bytes(b"picture")
         return paths
+
+    def finish_frames(self) -> None:
+        pass
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         self.inhabitants.append((agent, person.id))

@@ -97,11 +97,15 @@ def around(scene: Scene, person: Placed) -> tuple[str, ...]:
 
 def within(scene: Scene, points: Array) -> tuple[str, ...]:
     """Furniture in whose hull a point is, such as a hand over a bed; points of shape (n, 3)."""
-    return tuple(
-        thing.name
-        for thing in scene.fixed
-        if any(thing.bounds.distance(x, y) < _IN and z < thing.top + _IN for x, y, z in points.tolist())
+    boxes = np.array([thing.bounds for thing in scene.fixed]).reshape(-1, 4)[:, :, None]
+    x, y, z = points.T
+    away = np.hypot(
+        np.maximum(np.maximum(boxes[:, 0] - x, x - boxes[:, 2]), 0.0),
+        np.maximum(np.maximum(boxes[:, 1] - y, y - boxes[:, 3]), 0.0),
     )
+    low = z < np.array([thing.top + _IN for thing in scene.fixed])[:, None]
+    inside = ((away < _IN) & low).any(axis=1)
+    return tuple(thing.name for thing, it in zip(scene.fixed, inside.tolist(), strict=True) if it)
 
 
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
