@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
+from itertools import cycle, product
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field, ValidationError
@@ -85,6 +85,8 @@ class Grid(Frozen):
         scenes: Homes, likewise.
         episodes: At most so many episodes of each setting; by default the paper's number.
         days: At most so many days of each episode.
+        pairing: `every` group of people in every group of homes (the paper's), or each group of people in one of them,
+            the homes `in_turn`.
         hours: Hours of each day.
         schedules: Orders of days of one's own, by name.
         with_shared: Methods that are run with shared common sense, too, as a control of how much a robot gains by
@@ -105,6 +107,7 @@ class Grid(Frozen):
     scenes: Annotated[list[str], Field(min_length=1)] | Count | None = None
     episodes: Count | None = None
     days: Count | None = None
+    pairing: Literal["every", "in_turn"] = "every"
     hours: Annotated[int, Field(strict=True, ge=1, le=15)] = HOURS_PER_DAY
     schedules: dict[Name, Schedule] = {}
     with_shared: Literal["all"] | list[str] | None = None
@@ -228,9 +231,11 @@ def _episodes(
                           f"{plan.scenes - 1} only.")  # fmt: skip
     crowds = _groups(f"setting {name}", "people", people, plan.people, plan.episodes[0], grid.humans is not None)
     places = _groups(f"setting {name}", "homes", scenes, plan.scenes, plan.episodes[1], grid.scenes is not None)
-    # homes change slowest, so that the first episodes are of different people
-    pairs = [(crowd, place) for place in places for crowd in crowds][: grid.episodes]
-    for crowd, place in pairs:
+    if grid.pairing == "in_turn":
+        pairs = list(zip(crowds, cycle(places), strict=False))
+    else:  # homes change slowest, so that the first episodes are of different people
+        pairs = [(crowd, place) for place in places for crowd in crowds]
+    for crowd, place in pairs[: grid.episodes]:
         yield [(crowd[who], place[where]) for who, where in plan.days[: grid.days]]
 
 
