@@ -160,7 +160,8 @@ def _check_grid(bench: Benchmark) -> dict[str, Any] | None:
     for one in (before, now):  # what `shared` says of these counts, however it was asked for
         one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
     # methods, seeds and settings may be added to what was run
-    fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+    fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "pairing")
+    before.setdefault("pairing", "every")
     if odd := [name for name in fixed if before.get(name) != now.get(name)]:
         raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     of_the_endpoint: dict[str, Any] = {
