@@ -129,15 +129,15 @@ def seen_share(stage: Stage, scene: Scene, eyes: Array, focus: Focus, aim: Lens)
     """
     points, weights = focus.body.points, focus.body.weights
     starts, ends = np.repeat(eyes, len(points), axis=0), np.tile(points, (len(eyes), 1))
-    stage.hide(focus.ignore)
-    hits = stage.rays(starts, ends)
-    stage.unhide(focus.ignore)
-    free = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     bodies = (focus.body, *focus.others)
     balls, radii = (np.concatenate([getattr(body, name) for body in bodies]) for name in ("balls", "radii"))
-    free &= ~behind_balls(starts, ends, balls, radii)
+    free = ~behind_balls(starts, ends, balls, radii)
     free &= aim.shows(starts, ends)
     free &= ~behind_boxes(starts, ends, boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore]))
+    stage.hide(focus.ignore)
+    hits = stage.rays(starts[free], ends[free])
+    stage.unhide(focus.ignore)
+    free[free] = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     share: Array = free.reshape(len(eyes), len(points)) @ weights
     return share
 
