@@ -23,6 +23,7 @@ from coopera.core.household import ObjectMap, SceneId
 from coopera.core.notebook.cards import card
 from coopera.core.people import Frozen
 from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, merge
+from coopera.simulation.homes.measured import Measured
 from coopera.simulation.homes.plan_card import Footprint, floor_plan
 
 SHIPPED = Path(__file__).parents[1] / "scenes"
@@ -90,7 +91,8 @@ class SceneObject(Frozen):
 
     `position` is the centre of the object's base. `size` is (width, depth, height) in the object's own frame.
     `on` names the fixed object under a movable one. A movable object without `on` stands on the floor.
-    `mesh` replaces our own shapes in pictures. For everything else the object is the box of its size.
+    `mesh` replaces our own shapes in pictures. `measured` is what that mesh says about its use, and replaces what the
+    catalogue says of the class. For everything else the object is the box of its size.
     """
 
     id: int = Field(ge=0)
@@ -105,6 +107,7 @@ class SceneObject(Frozen):
     colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
     on: str | None = None
     mesh: list[MeshPart] = Field([], max_length=16)
+    measured: Measured | None = None
 
     @property
     def xy(self) -> Point:
@@ -361,12 +364,17 @@ def dump_scene(scene: Scene) -> str:
             continue
         if isinstance(value, list):
             if key == "objects":
-                value = [{name: field for name, field in row.items() if name != "mesh" or field} for row in value]
+                value = [
+                    {name: field for name, field in row.items() if name not in _OFTEN_NONE or field} for row in value
+                ]
             rows = ",\n".join("    " + json.dumps(row, ensure_ascii=False) for row in value)
             parts.append(f'  "{key}": [\n{rows}\n  ]' if value else f'  "{key}": []')
         else:
             parts.append(f'  "{key}": {json.dumps(value)}')
     return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+_OFTEN_NONE = ("mesh", "measured")
 
 
 def _scene_files(folders: Sequence[Path]) -> dict[str, Path]:
