@@ -116,7 +116,11 @@ def generate(
 @app.command("import")
 def import_homes(
     path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="An HSSD folder, one *.scene_instance.json of it, or a home's JSON.")
+        Path,
+        typer.Argument(
+            metavar="PATH",
+            help="A folder of HSSD or in Habitat's layout, one *.scene_instance.json of it, or a home's JSON.",
+        ),
     ],
     scene: Annotated[
         list[str] | None, typer.Option(metavar="ID", help="A scene of the folder; may be repeated. [default: all]")
@@ -128,21 +132,28 @@ def import_homes(
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Bring in homes of HSSD, or one that you wrote (docs/scenes.md), and say what was left out."""
+    """Bring in homes of Habitat's data sets, or one that you wrote; report what was understood, guessed, left out."""
     from coopera.homes.stored import bring_in, figures
+    from coopera.simulation.making.report import KINDS, lines_of
 
     found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force)
     if as_json:
         rows = [
-            {**figures(one.scene), "file": str(one.file), "skipped": one.skipped, "problems": one.problems}
+            {
+                **figures(one.scene),
+                "file": str(one.file),
+                "report": [line._asdict() for line in one.report],
+                "problems": one.problems,
+            }
             for one in found
         ]
         typer.echo(json.dumps(rows))
         return
     for one in found:
         typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(one.scene)))
-        for line in one.skipped:
-            typer.echo(printable(f"  left out: {line}"))
+        for kind in KINDS:
+            for line in lines_of(one.report, kind):
+                typer.echo(printable(f"  {line}"))
         for line in one.problems:
             typer.echo(printable(f"  problem: {line}"))
         typer.echo(f"  Stored: {one.file}")

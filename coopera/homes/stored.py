@@ -8,22 +8,27 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coopera.config.files import write_output
+from coopera.config.schema import default_data_dir
 from coopera.core.errors import ConfigError
 from coopera.simulation.homes.scene import Scene, dump_scene, list_scenes, load_scene
+from coopera.simulation.making.report import KINDS, Said, lines_of
 from coopera.studies.own_files import meshes_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _INSTANCE = ".scene_instance.json"
+_DATASET = ".scene_dataset_config.json"
+_NEAR = 0.5
+"""Names whose cosine to a class of ours is less mean something else."""
 
 
 class Arrival(NamedTuple):
-    """An imported home: its file, the parts left out, and the problems found by `prove`."""
+    """An imported home: its file, what its import reports, and the problems found by `prove`."""
 
     scene: Scene
     file: Path
-    skipped: list[str]
+    report: list[Said]
     problems: list[str]
 
 
@@ -71,12 +76,13 @@ def write_picture(path: Path, pixels: NDArray[Any]) -> None:
 def bring_in(
     path: Path, folder: Path, *, scenes: Sequence[str] = (), skip_missing: bool = False, force: bool = False
 ) -> list[Arrival]:
-    """Import homes into a folder: scenes of an HSSD folder, or one home that a person wrote as JSON.
+    """Import homes into a folder: scenes of a Habitat data set, or one home that a person wrote as JSON.
 
     Args:
-        path: An HSSD folder, one of its files scenes/<id>.scene_instance.json, or a home's JSON file.
-        folder: Where the homes are stored, each with <id>.import.txt, which says what was left out.
-        scenes: Which scenes of an HSSD folder; all without it.
+        path: A folder with a data set, its *.scene_dataset_config.json, one of its *.scene_instance.json, or a home's
+            JSON file.
+        folder: Where the homes are stored, each with <id>.import.txt, the report of its import.
+        scenes: Which scenes of a data set; all without it.
         skip_missing: Leave out what refers to a missing file, instead of refusing the scene.
         force: Replace homes that are there already.
 
@@ -87,37 +93,43 @@ def bring_in(
 
     if not path.exists():
         raise ConfigError(f"{path}: there is no such file or folder.")
-    if path.is_file() and not path.name.endswith(_INSTANCE):
+    if path.is_file() and not path.name.endswith((_INSTANCE, _DATASET)):
         home = load_scene(path)
         return [_arrive(home, [], prove(home), folder, meshes=meshes_of(home), force=force)]
-    from coopera.simulation.making.hssd.files import Folder  # noqa: PLC0415
-    from coopera.simulation.making.hssd.homes import import_scene  # noqa: PLC0415
+    from coopera.simulation.making.habitat.files import Folder  # noqa: PLC0415
+    from coopera.simulation.making.habitat.homes import import_scene  # noqa: PLC0415
 
-    hssd = Folder(path if path.is_dir() else path.parent.parent)
-    known = hssd.ids()
-    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.is_file() else known)
-    if not wanted:
-        raise ConfigError(f"{path / 'scenes'}: there is no file <id>{_INSTANCE}.")
+    dataset = Folder.around(path)
+    known = dataset.ids()
+    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.name.endswith(_INSTANCE) else known)
     unknown = sorted(set(wanted) - set(known))
     if unknown:
         raise ConfigError(f"{path}: there is no scene {unknown[0]!r} (known are {', '.join(known[:12]) or 'none'}).")
     arrivals = []
     for name in wanted:
-        found = import_scene(hssd, name, skip_missing=skip_missing)
-        skipped = [f"{item.what}: {item.why}" for item in found.skipped]
-        arrivals.append(_arrive(found.scene, skipped, found.problems, folder, meshes=found.meshes, force=force))
+        found = import_scene(dataset, name, skip_missing=skip_missing, nearest=_nearest)
+        arrivals.append(_arrive(found.scene, found.report, found.problems, folder, meshes=found.meshes, force=force))
     return arrivals
 
 
 def _arrive(
-    scene: Scene, skipped: list[str], problems: list[str], folder: Path, *, meshes: dict[str, str], force: bool
+    scene: Scene, report: list[Said], problems: list[str], folder: Path, *, meshes: dict[str, str], force: bool
 ) -> Arrival:
     file = place_for(scene.id, folder, force=force)
     for name, text in meshes.items():
         write_output(folder / f"{scene.id}.meshes" / name, text)
     write_output(file, dump_scene(scene))
-    lines = [f"left out: {line}" for line in skipped] + [f"problem: {line}" for line in problems]
+    lines = [line for kind in KINDS for line in lines_of(report, kind)] + [f"problem: {line}" for line in problems]
     write_output(
         folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines) or "Everything was taken over.\n"
     )
-    return Arrival(scene, file, skipped, problems)
+    return Arrival(scene, file, report, problems)
+
+
+def _nearest(text: str, words: tuple[str, ...]) -> tuple[str, float] | None:
+    """The word that comes nearest to a text in meaning, by the bundled sentence encoder; None where none is near."""
+    from coopera.memory import Search, bundled  # noqa: PLC0415  (some seconds, and most names are known words)
+
+    with bundled(default_data_dir() / "embeddings.sqlite") as embeddings:
+        word, cosine = Search(embeddings, words).top(text, 1)[0]
+    return (word, cosine) if cosine >= _NEAR else None
