@@ -181,8 +181,11 @@ def test_variants_are_a_control_and_a_noise_floor_and_no_methods_to_compare() ->
     """ours 2/4, shared 3/4 of four tasks; sampled again 1/4 once: SD 0.177 with three degrees of freedom."""
     kinds = {"ours": 2, "random": 1, "ours+shared": 3, "ours+again1": 2}
     rows = [one for who in ("amara", "bruno", "chen") for m, n in kinds.items() for one in life(m, who, 0, n)]
-    rows = [one.model_copy(update={"helped": 1, "useless": 3}) if (one.method, one.person) == ("ours+again1", "chen") and one.day
-            else one for one in rows]  # fmt: skip
+    worse = {"helped": 1, "useless": 3}
+    rows = [
+        one.model_copy(update=worse) if (one.method, one.person) == ("ours+again1", "chen") and one.day else one
+        for one in rows
+    ]
     tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
     assert [line[0] for line in tables["comparisons_late"].rows] == ["random"]
     assert tables["control_shared"].rows[0][3] == "+0.250 [+0.250, +0.250]"
