@@ -17,15 +17,19 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable, Iterator
+from copy import deepcopy
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from typing import Any, TypeAlias
+from xml.etree import ElementTree
 
 import numpy as np
 
 from coopera.core.randomness import rng_at
 from coopera.simulation.bodies.manipulator import MobileManipulator
 from coopera.simulation.bodies.robot import load_robot, usable_robots
+from coopera.simulation.bodies.urdf import Urdf
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.engine import load_urdf, pybullet, quiet
 
@@ -34,12 +38,13 @@ Solve: TypeAlias = Callable[[Array, Array], Array]
 STARTS = 12
 NEAR = 0.005
 STEPS = 60
+_LINK = "link_of_"
 PACKAGES = {
     "ours": (),
     "pybullet": (),
     "pinocchio": ("pin", "libpinocchio", "libcoal", "eigenpy", "cmeel-boost", "cmeel-eigen", "coal", "cmeel-assimp",
                   "cmeel-octomap", "cmeel-qhull", "cmeel-tinyxml2", "cmeel-urdfdom", "cmeel-console-bridge", "cmeel-zlib"),
-    "mink": ("mink", "mujoco", "PyOpenGL", "glfw", "daqp", "qpsolvers"),
+    "mink": ("mink", "mujoco", "mujoco-core", "mujoco-studio", "PyOpenGL", "glfw", "daqp", "qpsolvers"),
 }  # fmt: skip
 
 
@@ -55,40 +60,32 @@ def ours(body: MobileManipulator) -> Solve:
 
 
 def of_pybullet(body: MobileManipulator) -> Solve:
-    """`calculateInverseKinematics` with limits and the resting posture, until it stands still."""
+    """`calculateInverseKinematics` with limits and the resting posture, three times on from what it found."""
     client = pybullet.connect(pybullet.DIRECT)
-    loaded = load_urdf(body.urdf, client, drawn=False)
-    infos = [
-        pybullet.getJointInfo(loaded, i, physicsClientId=client)
-        for i in range(pybullet.getNumJoints(loaded, physicsClientId=client))
-    ]
+    loaded = load_urdf(_with_tip(body), client, drawn=False)
+    count = pybullet.getNumJoints(loaded, physicsClientId=client)
+    infos = [pybullet.getJointInfo(loaded, i, physicsClientId=client) for i in range(count)]
     number = {info[1].decode(): info[0] for info in infos}
     moving = [info[1].decode() for info in infos if info[3] > -1]
-    arm, names = body.chain.joints, [joint.name for joint in body.chain.joints]
-    low, high = (np.array([dict(zip(names, values, strict=True)).get(name, 0.0) for name in moving])
-                 for values in (body.chain.low, body.chain.high))  # fmt: skip
+    names = [joint.name for joint in body.chain.joints]
+    low, high = (
+        np.array([dict(zip(names, values, strict=True)).get(name, other) for name in moving])
+        for values, other in ((body.chain.low, -1.0), (body.chain.high, 1.0))  # without a range pybullet hangs
+    )
     rest = np.array([dict(zip(body.joints, body.reaching, strict=True)).get(name, 0.0) for name in moving])
-    end = number[names[-1]]
-    tip = body.chain.tip
+    bounds = {"lowerLimits": low.tolist(), "upperLimits": high.tolist(), "jointRanges": (high - low).tolist()}
+    given = {**bounds, "restPoses": rest.tolist(), "maxNumIterations": 2 * STEPS, "residualThreshold": NEAR / 10}
 
     def solve(start: Array, point: Array) -> Array:
-        for name, value in zip(body.joints, body.reaching, strict=True):
-            pybullet.resetJointState(loaded, number[name], float(value), physicsClientId=client)
-        for joint, value in zip(arm, start, strict=True):
-            pybullet.resetJointState(loaded, number[joint.name], float(value), physicsClientId=client)
         posture = start
-        for _ in range(6):  # it aims at the link's origin: the gripper's offset turns with what it finds
-            aim = point - (body.chain.forward(posture).place - _origin(body, posture))
+        for _ in range(3):
+            for name, value in zip(names, posture, strict=True):
+                pybullet.resetJointState(loaded, number[name], float(value), physicsClientId=client)
             found = pybullet.calculateInverseKinematics(
-                loaded, end, aim.tolist(), lowerLimits=low.tolist(), upperLimits=high.tolist(),
-                jointRanges=(high - low).tolist(), restPoses=rest.tolist(), maxNumIterations=STEPS,
-                residualThreshold=1e-4, physicsClientId=client,
-            )  # fmt: skip
+                loaded, number["tip"], point.tolist(), physicsClientId=client, **given
+            )
             every = dict(zip(moving, found, strict=True))
             posture = np.array([every[name] for name in names])
-            for name, value in every.items():
-                if name in names:
-                    pybullet.resetJointState(loaded, number[name], value, physicsClientId=client)
             if np.linalg.norm(body.chain.forward(posture).place - point) < NEAR:
                 break
         return posture
@@ -96,19 +93,25 @@ def of_pybullet(body: MobileManipulator) -> Solve:
     return solve
 
 
-def _origin(body: MobileManipulator, posture: Array) -> Array:
-    """Where the last link's frame is: the tip, less its offset."""
-    at = body.chain.forward(posture)
-    turn = at.turn if body.chain.end is None else at.turn @ body.chain.end.T
-    place: Array = at.place - turn @ body.chain.tip
-    return place
+def _with_tip(body: MobileManipulator) -> Urdf:
+    """The description with a link at the point between the fingers."""
+    root = deepcopy(body.urdf.root)
+    last = body.urdf.hinges[body.chain.joints[-1].name].child
+    place = " ".join(map(str, body.chain.tip.tolist()))
+    root.append(ElementTree.fromstring('<link name="tip"/>'))
+    root.append(
+        ElementTree.fromstring(
+            f'<joint name="tip" type="fixed"><parent link="{last}"/><child link="tip"/><origin xyz="{place}"/></joint>'
+        )
+    )
+    return replace(body.urdf, root=root)
 
 
 def pinocchio(body: MobileManipulator) -> Solve:
     """Damped steps on its Jacobian, kept within the limits, as its examples do it."""
     import pinocchio as pin  # noqa: PLC0415 - only where it is installed
 
-    model = pin.buildModelFromXML(body.urdf.text)
+    model = pin.buildModelFromXML(_bare(body))
     joints = [joint.name for joint in body.chain.joints]
     model = pin.buildReducedModel(
         model, [model.getJointId(name) for name in model.names[1:] if name not in joints], pin.neutral(model)
@@ -147,23 +150,27 @@ def mink(body: MobileManipulator) -> Solve:
     for joint in spec.joints:
         if joint.name not in names:
             spec.delete(joint)
-    end = body.urdf.hinges[names[-1]].child
+    end = _LINK + body.urdf.hinges[names[-1]].child
     spec.body(end).add_site(name="tip", pos=body.chain.tip.tolist())
     model = spec.compile()
     task = ik.FrameTask("tip", "site", position_cost=1.0, orientation_cost=0.0, lm_damping=1e-3)
     still, limits = ik.PostureTask(model, cost=1e-3), [ik.ConfigurationLimit(model)]
     at = [model.jnt_qposadr[model.joint(name).id] for name in names]
+    round_and_round = [body.urdf.hinges[name].kind == "continuous" for name in names]
     still.set_target(_spread(model.nq, at, body.reaching[: len(at)]))
 
     def solve(start: Array, point: Array) -> Array:
         now = ik.Configuration(model, _spread(model.nq, at, start))
         task.set_target(ik.SE3.from_translation(point))
         for _ in range(STEPS):
-            speed = ik.solve_ik(now, [task, still], 0.1, "daqp", limits=limits)
-            now.integrate_inplace(speed, 0.1 * 10 / 2)
+            try:
+                now.integrate_inplace(ik.solve_ik(now, [task, still], 1.0, "daqp", limits=limits), 1.0)
+            except ik.exceptions.NoSolutionFound:
+                break
             if np.linalg.norm(now.get_transform_frame_to_world("tip", "site").translation() - point) < NEAR / 2:
                 break
-        return np.clip(now.q[at], body.chain.low, body.chain.high)
+        turned = np.where(round_and_round, np.remainder(now.q[at] + np.pi, 2 * np.pi) - np.pi, now.q[at])
+        return np.clip(turned, body.chain.low, body.chain.high)
 
     return solve
 
@@ -175,13 +182,14 @@ def _spread(count: int, at: list[int], values: Array) -> Array:
 
 
 def _bare(body: MobileManipulator) -> str:
-    """The description without shapes, which MuJoCo would look for."""
-    from xml.etree import ElementTree  # noqa: PLC0415 - of this one solver
-
+    """The description without shapes, which MuJoCo would look for, and with no link called as a joint is."""
     root = ElementTree.fromstring(body.urdf.text)
     for link in root.findall("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             link.remove(shape)
+        link.set("name", _LINK + link.get("name", ""))
+    for end in [*root.iterfind("joint/parent"), *root.iterfind("joint/child")]:
+        end.set("link", _LINK + end.get("link", ""))
     ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", {"fusestatic": "false"})
     return ElementTree.tostring(root, encoding="unicode")
 

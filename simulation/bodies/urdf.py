@@ -29,6 +29,14 @@ FLOOR = "the_floor_under_the_robot"
 """The link that is put before the root of a description whose origin is not under the robot's middle."""
 _MOVES = ("revolute", "continuous", "prismatic")
 _OTHERS = {"mujoco": "MJCF", "sdf": "SDF", "COLLADA": "COLLADA"}
+_SIZES = {
+    "box": {"size": 3},
+    "cylinder": {"radius": 1, "length": 1},
+    "sphere": {"radius": 1},
+    "capsule": {"radius": 1, "length": 1},
+    "mesh": {"scale": 3},
+}
+"""The shapes that there are, and how many numbers each of their measures has."""
 _LIGHT = '<inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
 
 
@@ -166,8 +174,9 @@ def read_urdf(path: Path) -> Urdf:
     _refuse_twice(path, "joints", [joint.get("name", "") for joint in root.findall("joint")])
     hinges = [_hinge(path, joint, set(names)) for joint in root.findall("joint")]
     base = _base(path, names, hinges)
-    for mesh in root.iterfind("link/visual//mesh"):
-        mesh.set("filename", _mesh(path, mesh.get("filename", "")))
+    _check_materials(path, root)
+    for link in root.findall("link"):
+        _check_shapes(path, link)
     return Urdf(path, root, {hinge.name: hinge for hinge in hinges}, base)
 
 
@@ -234,21 +243,51 @@ def _hinge(path: Path, joint: Element, links: set[str]) -> Hinge:
     )
 
 
+def _check_materials(path: Path, root: Element) -> None:
+    for material in root.iter("material"):
+        for colour in material.findall("color"):
+            if len(_finite(colour.get("rgba", ""))) != 4:  # red, green, blue, how opaque
+                name = material.get("name", "")
+                raise ConfigError(f"{path}: the colour of the material {name!r} must be 4 finite numbers.")
+
+
+def _check_shapes(path: Path, link: Element) -> None:
+    """See that what is visible of a link can be drawn, and find its meshes."""
+    for visual in link.findall("visual"):
+        read = _reader(path, f"a shape in the link {link.get('name')!r}")
+        for part in ("xyz", "rpy"):
+            read("origin", part, visual, (0.0, 0.0, 0.0))
+        for shape in visual.iterfind("geometry/*"):
+            if shape.tag not in _SIZES:
+                raise ConfigError(f"{path}: the link {link.get('name')!r} has a shape {shape.tag!r}, which URDF has not.")
+            within = _reader(path, f"a {shape.tag} in the link {link.get('name')!r}")
+            for attribute, count in _SIZES[shape.tag].items():
+                within("", attribute, shape, (1.0,) * count)
+            if shape.tag == "mesh":
+                shape.set("filename", _mesh(path, shape.get("filename", "")))
+
+
+def _finite(text: str) -> tuple[float, ...]:
+    """The numbers of a text; none where it has anything else, or one that is not finite."""
+    try:
+        found = tuple(float(word) for word in text.split())
+    except ValueError:
+        return ()
+    return found if all(math.isfinite(value) for value in found) else ()
+
+
 def _reader(path: Path, whose: str) -> Callable[[str, str, Element, tuple[float, ...]], tuple[float, ...]]:
-    """Read finite numbers of an attribute of a part of an element; what is not there is as given."""
+    """Read finite numbers of an attribute of a part of an element, or of itself; what is not there is as given."""
 
     def read(tag: str, attribute: str, element: Element, other: tuple[float, ...]) -> tuple[float, ...]:
-        part = element.find(tag)
+        part = element.find(tag) if tag else element
         text = None if part is None else part.get(attribute)
         if text is None:
             return other
-        try:
-            found = tuple(float(word) for word in text.split())
-        except ValueError:
-            found = ()
-        if len(found) != len(other) or not all(math.isfinite(value) for value in found):
+        found = _finite(text)
+        if len(found) != len(other):
             how = "a finite number" if len(other) == 1 else f"{len(other)} finite numbers"
-            raise ConfigError(f"{path}: {tag} {attribute} of {whose} must be {how}, not {text[:60]!r}.")
+            raise ConfigError(f"{path}: {f'{tag} {attribute}'.strip()} of {whose} must be {how}, not {text[:60]!r}.")
         return found
 
     return read

@@ -10,7 +10,7 @@ from benchmarks.frames import looked_at
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid_reach import standing
-from coopera.simulation.bodies.robot import known_robots, load_robot
+from coopera.simulation.bodies.robot import usable_robots, load_robot
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of, person_body
 from coopera.simulation.sight.labels import Name, labelled
@@ -61,14 +61,14 @@ def test_the_hands_are_seen_in_the_deed(home, act, view) -> None:
     assert seen.angle < 120
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 def test_a_robots_own_arm_is_not_in_its_pictures_of_a_person(name) -> None:
     with World(flat(), robot=name, renderer="tiny") as world:
         assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
         assert seen_at_deed(world, "robot").robot < 0.02
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 @pytest.mark.parametrize("away", [1.5, 2.5])
 def test_what_a_robot_carries_its_arm_for_is_not_before_its_eyes_when_it_looks_at_somebody(name, away) -> None:
     body = load_robot(name)
@@ -148,7 +148,7 @@ def test_where_more_frames_are_asked_for_than_there_are_moments_each_moment_is_o
     assert telling_ticks(short, home._ground.robots, 1) == [2]
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 @pytest.mark.parametrize("act", [put("book_1", "dining_table_1"), bring("mug")], ids=lambda act: act.kind)
 def test_pictures_of_a_robots_act_show_the_robot_at_it(name, act) -> None:
     with World(flat(), robot=name, renderer="tiny") as world:
