@@ -82,7 +82,8 @@ def _floor_of(mesh: Mesh) -> tuple[float, Bounds] | None:
     """The height of the lowest wide level of a stage, and the rectangle around it; None without one."""
     a, b, c = (mesh.corners[mesh.triangles[:, i]] for i in range(3))
     normal: Array = np.cross(b - a, c - a) / 2
-    level = np.abs(normal[:, 2]) > 0.95 * np.maximum(np.linalg.norm(normal, axis=1), 1e-12)
+    up = normal[:, 2] if normal[:, 2].max(initial=0.0) > 0 else -normal[:, 2]
+    level = up > 0.95 * np.maximum(np.linalg.norm(normal, axis=1), 1e-12)
     if not level.any():
         return None
     height, area = np.stack([a, b, c])[:, level, 2].mean(axis=0), np.abs(normal[level, 2])

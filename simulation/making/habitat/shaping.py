@@ -86,15 +86,16 @@ def _measured(thing: SceneObject, template: Template, instance: Instance, report
         ]
         report.guessed(thing.name, "its mesh is closed, so its inside is that of its class, as large as its box allows")
         found = found.model_copy(update={"inside": [tuple(round(part, 4) for part in row) for row in rows]})
-    report.understood(thing.name, _in_words(found))
+    report.understood(thing.name, _in_words(found, thing.position[2]))
     return found
 
 
-def _in_words(found: Measured) -> str:
+def _in_words(found: Measured, base: float) -> str:
+    """Heights above the floor."""
     said = []
     for what, levels in (("carries things at", found.surfaces), ("holds things at", found.inside)):
-        heights = sorted({f"{level[0]:.2f}" for level in levels})
+        heights = sorted({f"{base + level[0]:.2f}" for level in levels})
         said += [f"{what} {', '.join(heights)} m"] if heights else []
-    said += [f"one sits at {found.seat.z:.2f} m"] if found.seat else []
-    said += [f"one lies at {found.lie.z:.2f} m"] if found.lie else []
+    said += [f"one sits at {base + found.seat.z:.2f} m"] if found.seat else []
+    said += [f"one lies at {base + found.lie.z:.2f} m"] if found.lie else []
     return "; ".join(said) or "nothing is put on or in it"
