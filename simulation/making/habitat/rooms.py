@@ -9,6 +9,7 @@ import numpy as np
 
 from coopera.simulation.homes.floorplan import Bounds, Wall
 from coopera.simulation.homes.glb import Array, Mesh
+from coopera.simulation.homes.polygon import fault, tidy
 from coopera.simulation.homes.scene import Room
 from coopera.simulation.making.habitat.files import Folder
 from coopera.simulation.making.habitat.names import slug
@@ -57,22 +58,16 @@ def ground_of(folder: Folder, id: str, report: Report) -> Ground:
     else:
         floor = level[0] if level is not None else 0.0
         told = "that of the stage" if level is not None else "at 0 m"
-        report.guessed(
-            "rooms", f"no file tells regions, so the whole home is one room, its floor {told} ({floor:.2f} m)"
-        )
+        report.guessed.append(f"rooms: no file tells regions, so all is one room, its floor {told} ({floor:.2f} m)")
     rooms = _rooms(regions, floor, report)
-    walls: list[Wall] = []
-    if mesh is not None:
-        walls, slanted = walls_of(mesh, floor)
-        if slanted:
-            report.left_out("stage_instance", f"{slanted} pieces of wall run neither along x nor along y")
+    walls = walls_of(mesh, floor) if mesh is not None else []
     return Ground(rooms, walls, floor, level[1] if level is not None else None)
 
 
 def _stage(folder: Folder, id: str, report: Report) -> Mesh | None:
     template, placed = folder.stage(id), folder.scene(id).stage_instance
     if template is None or placed is None:
-        report.left_out("stage_instance", "there is no stage, and so there are no walls")
+        report.left_out.append("stage_instance: there is no stage, and so there are no walls")
         return None
     mesh = stage_mesh(template, placed)
     return mesh if len(mesh.triangles) else None
@@ -108,20 +103,26 @@ def _ground_floor(regions: list[Region]) -> float:
 
 
 def _rooms(regions: list[Region], floor: float, report: Report) -> list[Room]:
-    """Rectangles around the regions of one storey; small ones first, since a point belongs to the first room."""
+    """The regions of one storey; small ones first, since a point belongs to the first room."""
     rooms: list[Room] = []
     count: Counter[str] = Counter()
     for region in regions:
         if abs(region.floor - floor) >= STOREY:
-            report.left_out(region.title, "the region is on another storey")
+            report.left_out.append(f"{region.title}: the region is on another storey")
             continue
-        x0, x1, y0, y1 = region.x0, region.x1, -region.z1, -region.z0
+        x0, x1, y0, y1 = (round(side, 4) for side in (region.x0, region.x1, -region.z1, -region.z0))
         if min(x1 - x0, y1 - y0) < 0.8:
-            report.left_out(region.title, "the region is narrower than 0.8 m")
+            report.left_out.append(f"{region.title}: the region is narrower than 0.8 m")
             continue
         kind = slug(region.title.partition("_")[0] or region.title, " ") or "room"
         kind = kind.strip(" 0123456789") or "room"
         count[kind] += 1
         name = kind if count[kind] == 1 else f"{kind} {count[kind]}"
-        rooms.append(Room(name=name, kind=kind, x0=round(x0, 4), y0=round(y0, 4), x1=round(x1, 4), y1=round(y1, 4)))
-    return sorted(rooms, key=lambda room: (room.x1 - room.x0) * (room.y1 - room.y0))
+        corners = tidy([(round(x, 4), round(-z, 4)) for x, _, z in region.poly_loop])
+        wrong = fault(corners) if corners else ""
+        if wrong:
+            report.guessed.append(f"{region.title}: its outline {wrong}, so it is the rectangle around it")
+        square = wrong or {*corners} <= {(x, y) for x in (x0, x1) for y in (y0, y1)}
+        polygon = None if square else tuple(corners)
+        rooms.append(Room(name=name, kind=kind, x0=x0, y0=y0, x1=x1, y1=y1, polygon=polygon))
+    return sorted(rooms, key=lambda room: room.area)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,7 @@ OF = {"bed_1": "bed", "sofa_1": "sofa", "bookshelf_1": "bookshelf", "dresser_1":
 def home(tmp_path_factory: pytest.TempPathFactory) -> Scene:
     folder = tmp_path_factory.mktemp("habitat")
     (arrival,) = bring_in(write_habitat(folder / "flat"), folder / "scenes")
-    assert arrival.problems == []
+    assert arrival.told.problems == []
     return load_scene(arrival.file)
 
 
