@@ -70,9 +70,8 @@ def import_scene(folder: Folder, id: str, *, skip_missing: bool = False, nearest
     for number in range(len(folder.scene(id).articulated_object_instances)):
         report.left_out.append(f"articulated_object_instances.{number}: articulated objects are not taken over")
     if not found and not ground.rooms:
-        raise ConfigError(
-            f"The scene {id!r} of {folder.root} has neither regions nor objects: there is nothing to import."
-        )
+        why = f", for all was left out, first of all {report.left_out[0]}" if report.left_out else ""
+        raise ConfigError(f"The scene {id!r} of {folder.root} has neither regions nor objects{why}.")
     rooms = ground.rooms or [ground.around([one.box for one in found])]
     scene = Scene(id=SceneId(scene_id(id)), rooms=rooms, objects=[], stage=ground.walls)
     named = _name(scene, found, folder, report, nearest)

@@ -21,8 +21,8 @@ from coopera.simulation.making.report import Report
 STOREY = 1.0
 """Floors that differ by more than this, in metres, are different storeys."""
 _LEVEL = 0.05
-_LEAST_FLOOR = 0.5
-"""The floor is the lowest level that has so much of the area of the largest one."""
+_LEAST_FLOOR = 0.2
+"""The floor is the lowest level that has so much of the area of the rectangle around the stage."""
 
 
 class Ground(NamedTuple):
@@ -74,24 +74,28 @@ def _stage(folder: Folder, id: str, report: Report) -> Mesh | None:
 
 
 def _floor_of(mesh: Mesh) -> tuple[float, Bounds] | None:
-    """The height of the lowest wide level of a stage, and the rectangle around it; None without one."""
+    """The height of a stage's floor, and the rectangle around it; None where the stage is too small to live in.
+
+    It is the lowest of the wide levels that face up, or the lowest point of a stage without floors.
+    """
+    low, high = mesh.corners.min(axis=0), mesh.corners.max(axis=0)
     a, b, c = (mesh.corners[mesh.triangles[:, i]] for i in range(3))
     normal: Array = np.cross(b - a, c - a) / 2
     up = normal[:, 2] if normal[:, 2].max(initial=0.0) > 0 else -normal[:, 2]
     level = up > 0.95 * np.maximum(np.linalg.norm(normal, axis=1), 1e-12)
-    if not level.any():
-        return None
-    height, area = np.stack([a, b, c])[:, level, 2].mean(axis=0), np.abs(normal[level, 2])
+    height = np.stack([a, b, c])[:, level, 2].mean(axis=0)
     bins, number = np.unique(np.round(height / _LEVEL), return_inverse=True)
-    areas = np.bincount(number.ravel(), area)
-    lowest = int(np.flatnonzero(areas >= _LEAST_FLOOR * areas.max())[0])
-    own = number.ravel() == lowest
-    floor = float(np.average(height[own], weights=area[own]))
-    points = mesh.corners[mesh.triangles[np.flatnonzero(level)[own]]].reshape(-1, 3)
-    (x0, y0), (x1, y1) = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
-    if min(x1 - x0, y1 - y0) < STOREY:
+    areas = np.bincount(number.ravel(), up[level], minlength=len(bins))
+    wide = np.flatnonzero(areas >= _LEAST_FLOOR * float(np.prod((high - low)[:2])))
+    floor = float(low[2])
+    if len(wide):
+        own = number.ravel() == wide[0]
+        floor = float(np.average(height[own], weights=up[level][own]))
+        points = mesh.corners[mesh.triangles[np.flatnonzero(level)[own]]].reshape(-1, 3)
+        low, high = points.min(axis=0), points.max(axis=0)
+    if min((high - low)[:2]) < STOREY:
         return None
-    return round(floor, 4), Bounds(float(x0), float(y0), float(x1), float(y1))
+    return round(floor, 4), Bounds(*map(float, (*low[:2], *high[:2])))
 
 
 def _ground_floor(regions: list[Region]) -> float:
@@ -118,11 +122,12 @@ def _rooms(regions: list[Region], floor: float, report: Report) -> list[Room]:
         kind = kind.strip(" 0123456789") or "room"
         count[kind] += 1
         name = kind if count[kind] == 1 else f"{kind} {count[kind]}"
-        corners = tidy([(round(x, 4), round(-z, 4)) for x, _, z in region.poly_loop])
+        loop = [(round(x, 4), round(-z, 4)) for x, _, z in region.poly_loop]
+        corners = tidy(loop) if loop else []
         wrong = fault(corners) if corners else ""
         if wrong:
             report.guessed.append(f"{region.title}: its outline {wrong}, so it is the rectangle around it")
         square = wrong or {*corners} <= {(x, y) for x in (x0, x1) for y in (y0, y1)}
-        polygon = None if square else tuple(corners)
-        rooms.append(Room(name=name, kind=kind, x0=x0, y0=y0, x1=x1, y1=y1, polygon=polygon))
+        outline = {"x0": x0, "y0": y0, "x1": x1, "y1": y1} if square else {"polygon": corners}
+        rooms.append(Room.model_validate({"name": name, "kind": kind, **outline}))
     return sorted(rooms, key=lambda room: room.area)

@@ -75,7 +75,7 @@ def _body(client: int, solid: Solid, thing: SceneObject) -> int:
 
 
 def under(meshes: dict[str, int], place: Any, z: float) -> float:
-    """Where the highest of five near rays lands that fall from a little above a height: a seam of cushions is bridged."""
+    """Where the highest of five near rays lands that fall from a little above: a seam of cushions is bridged."""
     starts = [
         (place[0] + dx, place[1] + dy, z + 0.05) for dx, dy in ((0, 0), (0.05, 0), (-0.05, 0), (0, 0.05), (0, -0.05))
     ]
