@@ -18,6 +18,8 @@ FLOOR_REACH = 0.60
 _SLACK = 0.02
 _SMALL = (0.08, 0.08, 0.09)
 _FLOATING = 0.03
+_ON_WALL = 1.0
+"""Furniture whose base is higher hangs on a wall: nobody need walk up to it (metres)."""
 
 
 def check(scene: Scene) -> list[str]:
@@ -115,6 +117,8 @@ def _access(scene: Scene, navigator: Navigator) -> Iterator[str]:
         if not len(navigator.cells_in(room.name)):
             yield f"Nobody can get into the {room.name}."
     for thing in scene.fixed:
+        if thing.position[2] >= _ON_WALL:
+            continue
         stands = navigator.approach(thing, most=60)
         if not stands:
             yield f"Nobody can walk up to {thing.name} in the {thing.room}."

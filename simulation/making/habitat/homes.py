@@ -22,7 +22,7 @@ from coopera.simulation.making.habitat.rooms import STOREY, Ground, ground_of
 from coopera.simulation.making.habitat.schema import Instance
 from coopera.simulation.making.habitat.shaping import shaped
 from coopera.simulation.making.proof import prove
-from coopera.simulation.making.report import Report, Said
+from coopera.simulation.making.report import Report
 
 HIGHEST = 2.0
 """What hangs higher above the floor is left out: nobody gets there."""
@@ -33,7 +33,7 @@ class Imported(NamedTuple):
     """A home, the report of its import, what `prove` says of it, and the files of its meshes by their names."""
 
     scene: Scene
-    report: list[Said]
+    report: Report
     problems: list[str]
     meshes: dict[str, str]
 
@@ -68,11 +68,10 @@ def import_scene(folder: Folder, id: str, *, skip_missing: bool = False, nearest
     ground = ground_of(folder, id, report)
     found = list(_objects(folder, id, ground.floor, skip_missing, report))
     for number in range(len(folder.scene(id).articulated_object_instances)):
-        report.left_out(f"articulated_object_instances.{number}", "articulated objects are not taken over")
+        report.left_out.append(f"articulated_object_instances.{number}: articulated objects are not taken over")
     if not found and not ground.rooms:
-        raise ConfigError(
-            f"The scene {id!r} of {folder.root} has neither regions nor objects: there is nothing to import."
-        )
+        why = f", for all was left out, first of all {report.left_out[0]}" if report.left_out else ""
+        raise ConfigError(f"The scene {id!r} of {folder.root} has neither regions nor objects{why}.")
     rooms = ground.rooms or [ground.around([one.box for one in found])]
     scene = Scene(id=SceneId(scene_id(id)), rooms=rooms, objects=[], stage=ground.walls)
     named = _name(scene, found, folder, report, nearest)
@@ -81,8 +80,8 @@ def import_scene(folder: Folder, id: str, *, skip_missing: bool = False, nearest
         scene.model_copy(update={"objects": _carried(scene, objects, found, report)}).model_dump()
     )
     counts = f"{len(scene.rooms)} rooms, {len(scene.fixed)} pieces of furniture, {len(scene.movable)} movable things"
-    report.understood(id, counts)
-    return Imported(scene, report.said, prove(scene), meshes)
+    report.understood.append(f"{id}: {counts}")
+    return Imported(scene, report, prove(scene), meshes)
 
 
 def scene_id(name: str) -> str:
@@ -97,23 +96,23 @@ def _objects(folder: Folder, id: str, floor: float, skip_missing: bool, report: 
         try:
             template = folder.template(id, number, instance.template_name)
             if template.opening:
-                report.left_out(what, "a door or window: ways through walls stand open")
+                report.left_out.append(f"{what}: a door or window: ways through walls stand open")
                 continue
             instance = folder.with_origin(id, instance)
             box = box_of(template, instance)
         except FileNotFoundError as err:
             if not skip_missing:
                 raise ConfigError(str(err)) from err
-            report.left_out(what, str(err))
+            report.left_out.append(f"{what}: {str(err)}")
             continue
         x, y, z = box.position
         box = box._replace(position=(x, y, round(z - floor, 4)))
         if box.position[2] > HIGHEST:
-            report.left_out(what, f"hangs {box.position[2]:.2f} m above the floor, out of reach")
+            report.left_out.append(f"{what}: hangs {box.position[2]:.2f} m above the floor, out of reach")
         elif box.position[2] + box.size[2] < -STOREY / 2:
-            report.left_out(what, "lies below the floor")
+            report.left_out.append(f"{what}: lies below the floor")
         elif max(box.size) > LONGEST or max(abs(x), abs(y)) > 100:
-            report.left_out(what, f"is larger than {LONGEST:.0f} m, or farther than 100 m away")
+            report.left_out.append(f"{what}: is larger than {LONGEST:.0f} m, or farther than 100 m away")
         else:
             yield Recognised(number, template, instance, box)
 
@@ -138,7 +137,7 @@ def _name(
         count[kind.cls] += 1
         name = f"{kind.cls}_{count[kind.cls]}"
         if kind.why:
-            report.guessed(one.what, f"{name}: {kind.why}")
+            report.guessed.append(f"{one.what}: {name}: {kind.why}")
         objects.append(
             SceneObject(
                 id=one.number,
@@ -177,12 +176,12 @@ def _carried(scene: Scene, objects: list[SceneObject], found: list[Recognised], 
     for thing, one in zip(objects, found, strict=True):
         settled = thing if thing.fixed else put_on(thing, carriers)
         if settled is None:
-            report.guessed(one.what, f"{thing.name}: nothing carries it, so it hangs there and does not move")
+            report.guessed.append(f"{one.what}: {thing.name}: nothing carries it, so it hangs there and does not move")
             settled = thing.model_copy(update={"fixed": True})
         elif settled.position != thing.position:
             far = max(abs(a - b) for a, b in zip(settled.position, thing.position, strict=True))
             where = f"the {settled.on}" if settled.on else "the floor"
-            report.guessed(one.what, f"{thing.name}: moved by {100 * far:.0f} cm so that it lies on {where}")
+            report.guessed.append(f"{one.what}: {thing.name}: moved by {100 * far:.0f} cm so that it lies on {where}")
         seen.append(settled)
     return seen
 

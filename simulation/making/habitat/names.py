@@ -110,13 +110,13 @@ class Guesser:
             found = _known(words)
             if found is not None and _like(found[0], size):
                 said = f"{found[1]!r} in its name" if words is texts[1] else f"the lexicon calls it {label!r}"
-                return Guess(found[0], catalogue().category(found[0]), f"taken for a {plain(found[0])} ({said})")
+                return Guess(found[0], catalogue().category(found[0]), f"taken for: {plain(found[0])} ({said})")
         for words in (words for words in texts if words and self._nearest is not None):
             assert self._nearest is not None
             near = self._nearest(" ".join(words), tuple(sorted(plain(cls) for cls in _classes())))
             cls = near[0].replace(" ", "_") if near is not None else ""
             if near is not None and _like(cls, size):
-                why = f"taken for a {near[0]}, the class nearest in meaning ({near[1]:.2f})"
+                why = f"taken for: {near[0]}, the class nearest in meaning ({near[1]:.2f})"
                 return Guess(cls, catalogue().category(cls), why)
         own = "_".join(texts[0] or texts[1])[:50].strip("_") or "object"
         own = own if own not in _classes() else f"{own}_of_another_size"

@@ -48,8 +48,8 @@ def shaped(
             measured = known[key]
         seen.append(thing.model_copy(update={"mesh": look.parts, "measured": measured}))
     for cls, count in sorted(without.items()):
-        report.guessed(
-            cls, f"the meshes of {count} hold no triangles that are read; drawn and used as boxes or our shapes"
+        report.guessed.append(
+            f"{cls}: the meshes of {count} hold no triangles that we read; used as our shapes, or boxes"
         )
     return seen, files
 
@@ -74,7 +74,7 @@ def _measured(thing: SceneObject, template: Template, instance: Instance, report
     try:
         found = measure(own_mesh(template, instance, whole=True), use_of(thing))
     except ValueError as err:
-        report.guessed(thing.name, f"{err}; things go on its top")
+        report.guessed.append(f"{thing.name}: {err}; things go on its top")
         w, d, h = thing.size
         return Measured(surfaces=[(h, -0.45 * w, 0.45 * w, -0.45 * d, 0.45 * d, 9.0)])
     known = catalogue().fixed.get(thing.cls) or catalogue().movable.get(thing.cls)
@@ -84,17 +84,18 @@ def _measured(thing: SceneObject, template: Template, instance: Instance, report
             (z * h, x0 * w, x1 * w, y0 * d, y1 * d, clear * h / known.size[2])
             for z, x0, x1, y0, y1, clear in known.inside
         ]
-        report.guessed(thing.name, "its mesh is closed, so its inside is that of its class, as large as its box allows")
+        report.guessed.append(f"{thing.name}: its mesh is closed; its inside is that of its class, in its size")
         found = found.model_copy(update={"inside": [tuple(round(part, 4) for part in row) for row in rows]})
-    report.understood(thing.name, _in_words(found))
+    report.understood.append(f"{thing.name}: {_in_words(found, thing.position[2])}")
     return found
 
 
-def _in_words(found: Measured) -> str:
+def _in_words(found: Measured, base: float) -> str:
+    """Heights above the floor."""
     said = []
     for what, levels in (("carries things at", found.surfaces), ("holds things at", found.inside)):
-        heights = sorted({f"{level[0]:.2f}" for level in levels})
+        heights = sorted({f"{base + level[0]:.2f}" for level in levels})
         said += [f"{what} {', '.join(heights)} m"] if heights else []
-    said += [f"one sits at {found.seat.z:.2f} m"] if found.seat else []
-    said += [f"one lies at {found.lie.z:.2f} m"] if found.lie else []
+    said += [f"one sits at {base + found.seat.z:.2f} m"] if found.seat else []
+    said += [f"one lies at {base + found.lie.z:.2f} m"] if found.lie else []
     return "; ".join(said) or "nothing is put on or in it"
