@@ -127,7 +127,7 @@ class Watcher:
         """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
 
         With our own renderer that is done in the darkroom, while the home goes on: `finish` waits for it, and raises
-        what went wrong. Pybullet's renderers hold everything else up in any case.
+        what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is done at once.
 
         Returns:
             The files, view by view, in order of time: STEM-0.webp ….
@@ -138,9 +138,10 @@ class Watcher:
         def develop() -> None:
             write_frames(folder, self._developed(recording, takes, size, stems, labels))
 
-        self._darkroom.add(develop)
         if self._set().drawer is None:
-            self.finish()
+            develop()
+        else:
+            self._darkroom.add(develop)
         return [frame_file(folder, stem, i) for stem in stems.values() for i in range(len(takes))]
 
     def finish(self) -> None:
