@@ -34,6 +34,7 @@ class _Drawer:
         found: tuple[Any, str] = (None, _FORKED) if forked else self.pool.submit(_context).result()
         self.context, self.problem = found
 
+
 _drawers: list[_Drawer] = []
 
 
