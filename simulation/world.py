@@ -297,11 +297,7 @@ class World:
         return self._watcher
 
     def percept(self, rng: np.random.Generator) -> Percept:
-        """What a perception module reports of the recording, with its errors drawn from `rng`.
-
-        Raises:
-            SimulationError: If nothing has been recorded since the start or the last `restore`.
-        """
+        """What a perception module reports of the `recording`, with its errors drawn from `rng`."""
         recording, stage, library = self.recording, self._watching().stage, self._library
         return perceive(stage, self.layout, recording, library, errors=self.errors, class_of=self.class_of, rng=rng)
 
@@ -321,6 +317,10 @@ class World:
             self.finish_frames()
         return files
 
+    def frame_views(self, count: int) -> dict[str, View]:
+        """What `frames` shows, as data, by the names of the files; errors as of `frames` and `view`."""
+        return self._watching().views(self.recording, count, self.frame_size)
+
     def finish_frames(self) -> None:
         """Wait for the files of `frames` that nobody has waited for; a `SimulationError` if they cannot be written."""
         if self._watcher is not None:
@@ -329,9 +329,7 @@ class World:
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.
 
-        Raises:
-            SimulationError: If nothing has been recorded, or the file cannot be written.
-            ConfigError: If the extra `video` is not installed.
+        Errors as of `frames`, and a `ConfigError` if the extra `video` is not installed.
         """
         return write_video(Path(path), self.filmed())
 

@@ -5,7 +5,6 @@ Contexts belong to threads, and homes are used from many; and neither outlives a
 
 from __future__ import annotations
 
-import ctypes
 import os
 import threading
 from collections.abc import Callable
@@ -34,7 +33,6 @@ class _Drawer:
         self.pool = ThreadPoolExecutor(1, thread_name_prefix="drawing")
         found: tuple[Any, str] = (None, _FORKED) if forked else self.pool.submit(_context).result()
         self.context, self.problem = found
-        self.wait = _waiting(self.context) if self.context is not None else None
 
 
 _drawers: list[_Drawer] = []
@@ -53,25 +51,6 @@ def _context() -> tuple[Any, str]:
     except Exception as err:  # noqa: BLE001 - moderngl raises bare Exception
         return None, f"EGL does not start ({str(err).strip() or type(err).__name__}); {_PACKAGES}"
     return context, ""
-
-
-def _waiting(context: Any) -> Callable[[], Any]:
-    """What waits until all is drawn, and lets other threads go on: moderngl's own holds the interpreter meanwhile."""
-    try:
-        egl = ctypes.CDLL("libEGL.so.1")
-        egl.eglGetProcAddress.restype = ctypes.c_void_p
-        address = egl.eglGetProcAddress(b"glFinish")
-    except (OSError, AttributeError):
-        address = None
-    finish: Callable[[], Any] = ctypes.CFUNCTYPE(None)(address) if address else context.finish
-    return finish
-
-
-def drawn() -> None:
-    """Wait on the context's thread until all that was asked for is drawn, before it is read."""
-    wait = _drawer().wait
-    if wait is not None:
-        wait()
 
 
 def _drawer() -> _Drawer:

@@ -14,12 +14,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.drawing.context import drawn, on_context
+from coopera.simulation.drawing.context import on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
 from coopera.simulation.drawing.light import contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
 from coopera.simulation.drawing.sight import in_view, rooms_seen
+from coopera.simulation.drawing.unheld import finish, render
 from coopera.simulation.drawing.view import View
 from coopera.simulation.shapes.rotations import Array
 
@@ -97,7 +98,7 @@ class _Store:
         rows = np.zeros((len(chosen), 5), dtype=np.uint32)
         rows[:, 0], rows[:, 1], rows[:, 2] = self.count[chosen], 1, self.first[chosen]
         orders = context.buffer(rows.tobytes())
-        array.render_indirect(orders)
+        render(array, orders)
         orders.release()
 
     def release(self) -> None:
@@ -341,7 +342,7 @@ class Renderer:
         context.enable_only(context.NOTHING)
         target.colour.use(0)
         self._kit.smoothing.render(vertices=3)
-        drawn()
+        finish(context)
         raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
         found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:

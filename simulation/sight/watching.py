@@ -15,6 +15,7 @@ from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.drawing.context import Renderer
+from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
@@ -127,7 +128,7 @@ class Watcher:
         """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
 
         With our own renderer that is done in the darkroom, while the home goes on: `finish` waits for it, and raises
-        what went wrong. Pybullet's renderers hold everything else up in any case.
+        what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is done at once.
 
         Returns:
             The files, view by view, in order of time: STEM-0.webp ….
@@ -138,9 +139,10 @@ class Watcher:
         def develop() -> None:
             write_frames(folder, self._developed(recording, takes, size, stems, labels))
 
-        self._darkroom.add(develop)
         if self._set().drawer is None:
-            self.finish()
+            develop()
+        else:
+            self._darkroom.add(develop)
         return [frame_file(folder, stem, i) for stem in stems.values() for i in range(len(takes))]
 
     def finish(self) -> None:
@@ -150,6 +152,19 @@ class Watcher:
             SimulationError: If the files cannot be written.
         """
         self._darkroom.finish()
+
+    def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
+        """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
+
+        Raises:
+            ConfigError: If another renderer than our own draws here.
+        """
+        stage, ticks = self.drawn, telling_ticks(recording, self.ground.robots, count)
+        found: dict[str, View] = {}
+        for number, (moment, cameras) in enumerate(self._takes(recording, ticks, ("robot", "human"))):
+            stage.show(recording.state, moment)
+            found |= {f"{view}-{number}": stage.view(camera, size) for view, camera in cameras.items()}
+        return found
 
     def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
         """Yield each n-th tick with both views side by side, the robot's on the left."""

@@ -29,7 +29,8 @@ def home():
 def seen_at_deed(world: World, view: str):
     """What a picture of the deed shows."""
     watcher, recording = world._watcher, world._recording
-    ((moment, cameras),) = watcher._moments(recording, [deed_of(recording)], (view,))
+    ((moment, cameras),) = watcher._takes(recording, [deed_of(recording)], (view,))
+    watcher.drawn.show(recording.state, moment)
     return looked_at(watcher.drawn, moment, cameras[view])
 
 
@@ -127,10 +128,10 @@ def test_frames_that_follow_each_other_differ_more_than_those_at_equal_times(hom
     recording, watcher = home._recording, home._watcher
 
     def least(ticks) -> float:
-        images = [
-            watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int)
-            for _, cameras in watcher._moments(recording, ticks, ("human",))
-        ]
+        images = []
+        for moment, cameras in watcher._takes(recording, ticks, ("human",)):
+            watcher.drawn.show(recording.state, moment)
+            images.append(watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int))
         return min(float(np.abs(a - b).mean()) for a, b in zip(images, images[1:], strict=False))
 
     evenly = np.linspace(0, recording.ticks - 1, 5).round().astype(int).tolist()
