@@ -315,7 +315,7 @@ def _read(path: Path) -> list[Example]:
 
 
 def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
-    """Have an example just read share what equals a part of those before: of thousands, an evening holds half as much."""
+    """Have an example just read share what equals a part of one before: thousands then take half of their memory."""
     parts = read.__dict__  # frozen, but nobody else has it yet
     for name in ("person", "candidate", "intention", "profile", "big_five"):
         parts[name] = shared.setdefault(parts[name], parts[name])
