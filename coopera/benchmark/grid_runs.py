@@ -13,7 +13,6 @@ from typing import Any, Literal
 import yaml
 from pydantic import ValidationError
 
-from coopera.benchmark.fingerprints import fingerprints
 from coopera.benchmark.stated import Statement, endpoint_of, read_statements, standing, state, statement
 from coopera.config.at_most import at_most, smaller
 from coopera.config.declared import in_words_of_today
@@ -30,6 +29,7 @@ from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_cs
 from coopera.models.settings import SHARED
 from coopera.rundir import claim
 from coopera.rundir.directory import RunDir
+from coopera.rundir.fingerprints import fingerprints
 from coopera.rundir.trace_files import damaged, read_json
 from coopera.studies.catalogues import load_catalogues, resolve
 from coopera.studies.own_files import names_file

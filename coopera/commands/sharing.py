@@ -118,7 +118,7 @@ def export(
     out: Annotated[Path, typer.Option(metavar="DIR", help="A new folder.")],
     as_json: AsJson = False,
 ) -> None:
-    """Write a run's days as a Hugging Face data set (DIR/hours) and as LeRobot-style episodes (DIR/episodes)."""
+    """Write a run's days as Hugging Face data set (DIR/hours), LeRobot-style episodes (DIR/episodes) and Croissant."""
     from coopera.rundir.directory import RunDir
     from coopera.rundir.export import export as write
 
