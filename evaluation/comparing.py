@@ -100,7 +100,7 @@ def clustered_mean(units: Sequence[Unit], *, level: float = 0.95) -> Mean:
     return mean_over_people(person_means(units), level=level)
 
 
-def noise(units: dict[Of, Unit], of: dict[Of, Unit] | None = None) -> Noise | None:
+def noise(units: dict[Of, Unit], of: dict[Of, Unit] | None = None, *, level: float = 0.95) -> Noise | None:
     """The noise floor of the mean over people, from what the same people had in the same episode under several seeds.
 
     Seeds are drawn anew for each person, so that their noise averages out over people.
@@ -108,6 +108,7 @@ def noise(units: dict[Of, Unit], of: dict[Of, Unit] | None = None) -> Noise | No
     Args:
         units: What they had; with a single seed there is no floor.
         of: The units whose mean the floor is of; by default the same.
+        level: Share of such studies that stay within the floor.
     """
     groups: dict[Of, list[float]] = defaultdict(list)
     for key, unit in units.items():
@@ -120,7 +121,7 @@ def noise(units: dict[Of, Unit], of: dict[Of, Unit] | None = None) -> Noise | No
     share = sum(1 / times for times in met.values()) / len(met) ** 2
     sd = math.sqrt(squares / freedom)
     low, high = (sd * math.sqrt(freedom / float(stats.chi2.ppf(at, freedom))) for at in (0.975, 0.025))
-    return Noise(sd, low, high, freedom, float(stats.t.ppf(0.975, freedom)) * sd * math.sqrt(share))
+    return Noise(sd, low, high, freedom, float(stats.t.ppf((1 + level) / 2, freedom)) * sd * math.sqrt(share))
 
 
 def sign_flip(differences: Sequence[float]) -> float:

@@ -80,7 +80,7 @@ class Grid(Frozen):
         methods: Names, in the order in which they are run in each life.
         settings: Names in `SCHEDULES` or `schedules`.
         collab: Collaboration types.
-        seeds: How many seeds, from 0.
+        seeds: How many seeds, from 0; or which.
         humans: People in the order in which they take part; a number takes so many of those there are.
         scenes: Homes, likewise.
         episodes: At most so many episodes of each setting; by default the paper's number.
@@ -102,7 +102,7 @@ class Grid(Frozen):
     methods: Annotated[list[str], Field(min_length=1)] = ["ours"]
     settings: Annotated[list[Name], Field(min_length=1)] = ["1"]
     collab: Annotated[list[Literal[1, 2]], Field(min_length=1)] = [2]
-    seeds: Count = 1
+    seeds: Count | Annotated[list[Annotated[int, Field(strict=True, ge=0, lt=2**63)]], Field(min_length=1)] = 1
     humans: Annotated[list[str], Field(min_length=1)] | Count | None = None
     scenes: Annotated[list[str], Field(min_length=1)] | Count | None = None
     episodes: Count | None = None
@@ -116,6 +116,11 @@ class Grid(Frozen):
     late_days: Count | None = None
     early_days: tuple[Count, Count] = (2, 5)
     run: dict[str, Any] = {}
+
+    @property
+    def seed_list(self) -> Sequence[int]:
+        """The seeds themselves."""
+        return self.seeds if isinstance(self.seeds, list) else range(self.seeds)
 
     @property
     def variants(self) -> list[Variant]:
@@ -217,7 +222,7 @@ def lives(grid: Grid, people: Sequence[str], scenes: Sequence[str]) -> list[Life
     for setting in grid.settings:
         if setting not in known:
             raise ConfigError(f"settings: there is no setting {setting!r} (known are {', '.join(known)}).")
-        for place, (collab, seed) in enumerate(product(grid.collab, range(grid.seeds))):
+        for place, (collab, seed) in enumerate(product(grid.collab, grid.seed_list)):
             for number, days in enumerate(_episodes(setting, known[setting], people, scenes, grid)):
                 found.append((seed, number, place, Life(setting, collab, seed, number, days)))
     return [life for *_, life in sorted(found, key=lambda entry: entry[:3])]

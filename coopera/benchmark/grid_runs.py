@@ -22,13 +22,14 @@ from coopera.core.errors import ConfigError, RunError
 from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
+from coopera.evaluation.grid import OF, Grid, Life, Variant, check_names, lives, read_grid
 from coopera.evaluation.grid import SHARED as WITH_SHARED
-from coopera.evaluation.grid import Grid, Life, Variant, check_names, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
 from coopera.models.settings import SHARED
 from coopera.rundir import claim
 from coopera.rundir.directory import RunDir
+from coopera.rundir.fingerprints import fingerprints
 from coopera.rundir.trace_files import damaged, read_json
 from coopera.studies.catalogues import load_catalogues, resolve
 from coopera.studies.own_files import names_file
@@ -39,6 +40,9 @@ NOBODY = "none"
 
 ROWS = "rows.json"
 _DECIDES = {"models", "household", "classifier", "prompts", "person_model", "intentions"}
+_OF_THE_GRID = {"setting", "schedule", "collab", "humans", "scenes", "days", "hours"}
+_OF_THE_GRID |= {"method", "seed", "out", "earlier_life"}
+_OF_A_RUN = _OF_THE_GRID | {"data_dir", "cache", "files", "base_url", "prompts"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,6 +259,10 @@ def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
         sha256=sha256(to_csv(rows)),
         grid=bench.grid.model_dump(mode="json"),
         endpoint=standing(read_statements(bench.root)),
+        fingerprints=fingerprints(
+            RunDir.open(job.folder) for job in whole if job.after and _is_done(job) and OF not in job.labels["method"]
+        ),
+        config=bench.jobs[0].config.model_dump(mode="json", exclude=_OF_A_RUN, exclude_defaults=True),
     )
     return rows, card, seconds
 
@@ -305,10 +313,8 @@ def _cut(grid: Grid) -> Grid:
         update={
             "settings": grid.settings[: most.settings],
             "methods": grid.methods[: most.methods],
-            **{
-                name: smaller(getattr(grid, name), getattr(most, name))
-                for name in ("episodes", "days", "hours", "seeds")
-            },
+            "seeds": grid.seeds[: most.seeds] if isinstance(grid.seeds, list) else smaller(grid.seeds, most.seeds),
+            **{name: smaller(getattr(grid, name), getattr(most, name)) for name in ("episodes", "days", "hours")},
         }
     )
 
@@ -316,19 +322,7 @@ def _cut(grid: Grid) -> Grid:
 def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Config:
     """What all runs of a grid share: its field `run`, and flags over it."""
     for name in grid.run:
-        if name in (
-            "setting",
-            "schedule",
-            "collab",
-            "humans",
-            "scenes",
-            "days",
-            "hours",
-            "method",
-            "seed",
-            "out",
-            "earlier_life",
-        ):
+        if name in _OF_THE_GRID:
             raise ConfigError(f"{file or 'run'}: run.{name}: the grid itself decides this.")
     return load_config(None, {**{"pictures": "none"}, **grid.run, **flags})
 

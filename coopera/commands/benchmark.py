@@ -109,7 +109,7 @@ def benchmark(
         return
     with bench.claimed_folder(planned, restate=restate) as stated:
         typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
-        failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
+        failures = carry_out_in_words(planned, workers=workers, ray=ray, limit=limit)
         summary = write_results(planned)
     if as_json:
         typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
@@ -132,7 +132,7 @@ def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:
         typer.echo(line)
 
 
-def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
+def carry_out_in_words(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
     """Work through what is left with a line per run; returns the runs that failed, with the reason."""
     from coopera.benchmark.grid_runs import carry_out
 

@@ -178,14 +178,12 @@ def test_another_measure_another_test_and_a_narrower_family_can_be_the_endpoint(
 
 
 def test_variants_are_a_control_and_a_noise_floor_and_no_methods_to_compare() -> None:
-    """ours 2/4, shared 3/4 of four tasks; sampled again 1/4 once: SD 0.177 with three degrees of freedom."""
+    """ours 2/4, shared 3/4 of four tasks; sampled again 1/4 once: variance (1/4)^2 / 2 / 3, SD 0.102."""
     kinds = {"ours": 2, "random": 1, "ours+shared": 3, "ours+again1": 2}
     rows = [one for who in ("amara", "bruno", "chen") for m, n in kinds.items() for one in life(m, who, 0, n)]
-    worse = {"helped": 1, "useless": 3}
-    rows = [
-        one.model_copy(update=worse) if (one.method, one.person) == ("ours+again1", "chen") and one.day else one
-        for one in rows
-    ]
+    odd = {"helped": 1, "useless": 3}
+    rows = [row.model_copy(update=odd) if (row.method, row.person, row.day) == ("ours+again1", "chen", 1) else row
+            for row in rows]  # fmt: skip
     tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
     assert [line[0] for line in tables["comparisons_late"].rows] == ["random"]
     assert tables["control_shared"].rows[0][3] == "+0.250 [+0.250, +0.250]"
