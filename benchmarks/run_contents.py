@@ -14,6 +14,7 @@ import json
 import re
 import sqlite3
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -23,7 +24,7 @@ from langchain_core.embeddings import Embeddings
 from coopera.config.schema import default_data_dir
 from coopera.graphs import build_study_graph
 from coopera.memory import MemoryStream, bundled
-from coopera.memory.store import streams
+from coopera.memory.store import Store
 from coopera.rundir.directory import RunDir
 from coopera.studies.standing import THREAD, open_checkpoints
 
@@ -123,9 +124,10 @@ def differences(whole: Contents, other: Contents) -> list[str]:
 
 def _memories(folder: Path, embeddings: Embeddings) -> Iterator[tuple[str, str]]:
     """Each stream with what it remembers, in order."""
-    for name in streams(folder):
-        with MemoryStream.open(folder, name, embeddings, create=False) as stream:
-            yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
+    with closing(Store.open(folder, create=False)) as store:  # held open, since to open it takes longer than to read it
+        for name in store.streams():
+            with MemoryStream.open(folder, name, embeddings, create=False) as stream:
+                yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
 
 
 def _state(file: Path) -> str:
