@@ -158,7 +158,7 @@ def working(
     return at_work(scene, person, motion, thing_of(scene, state, person.thing), text=text, standing=near)
 
 
-def surface_at_work(  # noqa: PLR0913 - as for `working`, and what came of it
+def surface_at_work(
     scene: Scene,
     state: HomeState,
     person: PersonState,

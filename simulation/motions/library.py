@@ -93,8 +93,8 @@ class Prop(Aid):
 class Showing(Frozen):
     """How pictures show the thing in hand where it is what the motion is done to, and not what it is done with.
 
-    From the share `after` of the period on it lies `at` a place (see Aid), or is in `hand`, tipped as `tip` says; else
-    it is not seen. `of` and `but` are those of Prop.
+    From the share `after` of the period on it lies `at` a place (see Aid), or is in `hand`, tipped as `tip` says, or
+    `bitten` at the mouth; else it is not seen. `of` and `but` are those of Prop.
     """
 
     of: list[str] = []
@@ -103,6 +103,7 @@ class Showing(Frozen):
     at: tuple[float, float, float, float] | None = None
     floor: bool = False
     hand: Hold | None = None
+    bitten: bool = False
     tip: list[float] = []
 
 

@@ -28,7 +28,7 @@ class Shown(NamedTuple):
     props: tuple[Used, ...] = ()
 
 
-def shown(  # noqa: PLR0913 - what is done, where, with what, and when
+def shown(
     motion: Motion, setting: Setting, grip: Grip, names: Sequence[str], top: Worktop | None, seconds: float
 ) -> Shown:
     """What a picture shows at a moment.
@@ -97,7 +97,7 @@ def _instead(said: Showing, setting: Setting, grip: Grip, share: float) -> Grip 
         return Grip(laid=Laid(x + ahead, y + left, z + high, math.radians(turn)))
     if said.hand is None:
         return None
-    return _tipped(grip._replace(hold=said.hand, laid=None), said.tip, share)
+    return _tipped(grip._replace(hold=said.hand, laid=None, bitten=said.bitten), said.tip, share)
 
 
 def _tipped(grip: Grip, tip: list[float], share: float) -> Grip:

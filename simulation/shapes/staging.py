@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from coopera.simulation.shapes.kit import BLACK, BLUE, CREAM, DARK, GREEN, RED, STEEL, WHITE, YELLOW, Kit, Recipe, shade
 
 _ORANGE = (0.93, 0.5, 0.14)
@@ -99,9 +101,10 @@ def spread_blanket(kit: Kit) -> None:
 def foam(kit: Kit) -> None:
     """Draw white foam in a heap of bubbles."""
     w, d, h = kit.w, kit.d, kit.h
-    spots = ((-0.3, -0.2), (-0.1, 0.3), (0.15, -0.3), (0.32, 0.1), (0.0, 0.0), (-0.36, 0.2), (0.3, -0.2), (0.1, 0.32))
-    for k, (x, y) in enumerate(spots):
-        kit.ball((x * w, y * d, h * 0.2), h * (0.5 + 0.12 * (k % 3)), WHITE if k % 2 else (0.88, 0.95, 1.0))
+    for k in range(26):
+        angle, away = 2.4 * k, 0.09 * math.sqrt(k)
+        at = (away * w * math.cos(angle), away * d * math.sin(angle), h * 0.25 * (1.0 + (k % 3)) * (1.0 - away))
+        kit.ball(at, h * (0.2 + 0.07 * (k % 4)), WHITE if k % 3 else (0.86, 0.94, 1.0))
 
 
 def dish_rack(kit: Kit) -> None:
@@ -115,6 +118,19 @@ def dish_rack(kit: Kit) -> None:
     for k, x in enumerate((-0.36, -0.2, -0.04, 0.12)):
         kit.tube((x * w, 0, h * 0.52), min(d, h) * 0.46, 0.012, WHITE if k % 2 else (0.75, 0.86, 0.95), "x")
     kit.tube((w * 0.34, 0, h * 0.08), w * 0.1, h * 0.4, RED)
+
+
+def dishes(kit: Kit) -> None:
+    """Draw a pile of plates with a bowl on top, and foam on it."""
+    r, h = kit.w / 2, kit.h
+    for k in range(5):
+        kit.tube((0.01 * (k % 2), 0, h * 0.1 * k), r * 0.55, h * 0.05, WHITE)
+        kit.tube((0.01 * (k % 2), 0, h * (0.05 + 0.1 * k)), r, h * 0.05, (0.62, 0.76, 0.88) if k % 2 else CREAM)
+    kit.tube((0, 0, h * 0.5), r * 0.5, h * 0.2, BLUE)
+    kit.tube((0, 0, h * 0.7), r * 0.7, h * 0.25, BLUE)
+    kit.tube((0, 0, h * 0.95), r * 0.6, 0.002, shade(BLUE, 0.45))
+    for x, y in ((0.6, 0.3), (-0.5, 0.5), (0.2, -0.7)):
+        kit.ball((x * r, y * r, h * 0.52), h * 0.14, WHITE)
 
 
 def sliced_food(kit: Kit) -> None:
@@ -147,10 +163,44 @@ def knitting(kit: Kit) -> None:
 
 
 def steam(kit: Kit) -> None:
-    """Draw steam that rises in puffs."""
+    """Draw steam that rises in three thin winding lines."""
     w, h = kit.w, kit.h
-    for k, (x, y) in enumerate(((0, 0), (0.25, 0.1), (-0.2, -0.15), (0.1, -0.2), (-0.1, 0.2), (0.2, 0.0))):
-        kit.ball((x * w, y * w, h * (0.08 + 0.16 * k)), w * (0.12 + 0.03 * k), (0.93, 0.95, 0.97))
+    for x in (-0.35, 0.0, 0.35):
+        for k in range(5):
+            bend = 0.14 if k % 2 else -0.02
+            kit.rod(((x + bend) * w, 0, h * (0.12 + 0.18 * k)), w * 0.035, h * 0.24, (0.86, 0.88, 0.9))
+
+
+def rope_over(kit: Kit) -> None:
+    """Draw a skipping rope on its way over the head: an arc from one end's handle to the other's."""
+    _arc(kit, up=1.0)
+
+
+def rope_under(kit: Kit) -> None:
+    """Draw a skipping rope on its way under the feet."""
+    _arc(kit, up=-1.0)
+
+
+def _arc(kit: Kit, up: float) -> None:
+    w, h = kit.w, kit.h
+    base = 0.0 if up > 0 else h
+    for side in (-1, 1):
+        kit.rod((side * w / 2, 0, base), 0.016, 0.13, BLACK, "x")
+    for k in range(41):
+        angle = math.pi * k / 40
+        kit.ball((w / 2 * math.cos(angle), 0, base + up * h * math.sin(angle)), kit.d / 2)
+
+
+def garment(kit: Kit) -> None:
+    """Draw a garment that hangs from the shoulders: body, sleeves, collar and buttons."""
+    w, d, h = kit.w, kit.d, kit.h
+    kit.box((0, 0, 0), (w * 0.66, d, h * 0.94))
+    kit.box((0, d * 0.1, h * 0.86), (w * 0.2, d, h * 0.1), shade(kit.colour, 0.55))
+    for side in (-1, 1):
+        kit.box((side * w * 0.41, 0, h * 0.5), (w * 0.18, d, h * 0.42), shade(kit.colour, 0.85))
+        kit.box((side * w * 0.17, d * 0.2, h * 0.2), (w * 0.16, d, h * 0.16), shade(kit.colour, 0.7))
+    for k in range(4):
+        kit.ball((0, d * 0.55, h * (0.2 + 0.17 * k)), 0.013, DARK)
 
 
 def exercise_mat(kit: Kit) -> None:
@@ -175,7 +225,20 @@ def puzzle(kit: Kit) -> None:
 STAGED: dict[str, Recipe] = {
     f"staged_{recipe.__name__}": recipe
     for recipe in (
-        *(place_setting, place_mat, plant_stand, cat, dog, full_bowl, falling_food, spread_blanket, foam, dish_rack),
+        *(
+            place_setting,
+            place_mat,
+            plant_stand,
+            cat,
+            dog,
+            full_bowl,
+            falling_food,
+            spread_blanket,
+            foam,
+            dish_rack,
+            dishes,
+        ),
         *(sliced_food, open_book, knitting, steam, exercise_mat, puzzle),
+        *(rope_over, rope_under, garment),
     )
 }

@@ -62,7 +62,7 @@ def person_body(person: Placed, *later: Placed) -> Body:
 
 
 def at_work(body: Body, work: Array) -> Body:
-    """The same, for a picture of what it does: the points of what it works with, shape (n, 3), count as its hands do."""
+    """The same, for a picture of what it does: points of what it works with, shape (n, 3), count besides."""
     if not len(work):
         return body
     points = np.concatenate((body.points, work))
@@ -70,16 +70,18 @@ def at_work(body: Body, work: Array) -> Body:
     return body._replace(points=points, weights=weights / weights.sum())
 
 
-def framed_of(persons: Sequence[Placed]) -> Array:
+def framed_of(persons: Sequence[Placed], *, whole: bool = False) -> Array:
     """What of a person is to be within a picture, at some moments: shape (n, 3), in the world.
 
-    The head, the trunk and the hands; the feet of who lies, sits on the floor or steps about, too.
+    The head, the trunk and the hands; the feet of who lies, sits on the floor or steps about, too,
+    and where the `whole` body is asked for.
     """
     joints = [forward(person.pose).place for person in persons]
-    ankles = np.array([[_in_world(one, at[f"{side}_ankle"]) for side in SIDES] for one, at in zip(persons, joints)])
+    feet_of = [[at[f"{side}_ankle"] for side in SIDES] for at in joints]
+    ankles = np.array([_in_world(one, np.array(feet)) for one, feet in zip(persons, feet_of, strict=True)])
     low = min(float(at["pelvis"][2]) for at in joints) < _LOW
     flat = min(float(at["head"][2] - at["pelvis"][2]) for at in joints) < _FLAT
-    feet = low or flat or float(np.ptp(ankles, axis=0).max()) > _STEPS
+    feet = whole or low or flat or float(np.ptp(ankles, axis=0).max()) > _STEPS
     found = []
     for person, at in zip(persons, joints, strict=True):
         points = [at["head"] + (0.0, 0.0, _HEAD), at["chest"], at["pelvis"], *(at[f"{side}_hand"] for side in SIDES)]

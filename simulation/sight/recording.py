@@ -46,7 +46,7 @@ from coopera.simulation.ways.navigation import Stand
 class Held(NamedTuple):
     """What someone holds, by its name or its text, and how; `aids` is what else belongs to what they do with it.
 
-    `drawn` is how pictures show it, where they show it otherwise; nothing else knows of it.
+    `drawn` is how pictures show it; nothing else knows of it.
     """
 
     name: str
@@ -259,18 +259,14 @@ class Filming:
         def held(seconds: float) -> Held | None:
             if not person.thing:
                 return None
-            how = now(motion, setting, grip, seconds)
-            drawn = shown(motion, setting, how, (person.thing, cls), top, seconds)
-            return Held(person.thing, how, tuple(aids(motion, setting, grip, seconds, cls)), drawn)
+            how, more = now(motion, setting, grip, seconds), aids(motion, setting, grip, seconds, cls)
+            return Held(person.thing, how, tuple(more), shown(motion, setting, how, (person.thing, cls), top, seconds))
 
         carried = Held(person.thing) if person.thing else None
         settled = walk_ticks + SETTLE
         total = settled + round(max(MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
         moved, outfit = self.moved, _outfit(person)
-
-        def dressed(moment: Moment) -> Moment:
-            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -280,7 +276,8 @@ class Filming:
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
                 return others(between(came, body, (tick - walk_ticks) / SETTLE), carried, moved)
-            return dressed(others(body, held(seconds), moved))
+            moment = others(body, held(seconds), moved)
+            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks, settled))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit

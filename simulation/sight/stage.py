@@ -29,7 +29,8 @@ from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.motions.holding import held_at, worn_at
+from coopera.simulation.motions.holding import held_at
+from coopera.simulation.motions.worn import worn_at
 from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print

@@ -18,6 +18,7 @@ from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.motions.holding import held_at
+from coopera.simulation.motions.props import Shown
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
@@ -33,7 +34,7 @@ Viewpoint: TypeAlias = Literal["robot", "human"]
 """The robot's own, or a third person's of who acts."""
 _AWAY = -100.0
 _NOTHING: Mapping[AgentId, Held] = MappingProxyType({})
-_MOMENTS = (0.5, 0.65, 0.8)
+_MOMENTS = (0.35, 0.5, 0.6, 0.7, 0.8, 0.93)
 """When, as shares of a shot, the third person looks for the hands besides."""
 _NEAR = 0.7
 """Furniture this near to who acts has its name written, where names are asked for (metres)."""
@@ -155,8 +156,9 @@ class Watcher:
         focus = self._focus(moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
         if who not in self.ground.robots:
             corners, tops = map(np.concatenate, zip(*(self._work(recording, one, who) for one in moments), strict=True))
-            framed = np.concatenate((framed_of([one.bodies[who] for one in moments]), corners, tops))
-            focus = focus._replace(body=at_work(focus.body, tops), framed=framed)
+            person = framed_of([one.bodies[who] for one in moments], whole=moment.outfits.get(who) == "sport")
+            body = at_work(focus.body, np.unique(tops.round(2), axis=0))
+            focus = focus._replace(body=body, framed=np.concatenate((person, corners, tops)))
         return view_camera(self.stage, self.ground.scene, focus)
 
     def _work(self, recording: Recording, moment: Moment, who: AgentId) -> tuple[Array, Array]:
@@ -168,12 +170,10 @@ class Watcher:
         if held is None:
             return np.zeros((0, 3)), np.zeros((0, 3))
         size = thing_of(self.ground.scene, recording.state, held.name).size
-        used = [(size, held.grip)] if held.drawn is None or held.drawn.grip is not None else []
-        if held.drawn is not None and held.drawn.grip is not None:
-            used = [(size, held.drawn.grip)]
-        hand = [(*held_at(placed.pose, size, grip), size) for size, grip in used]
-        props = [(shape_of(one.thing).size, one.grip) for one in held.drawn.props] if held.drawn is not None else []
-        others = [(*held_at(placed.pose, size, grip), size) for size, grip in props]
+        drawn = Shown(held.grip) if held.drawn is None else held.drawn
+        hand = [] if drawn.grip is None else [(*held_at(placed.pose, size, drawn.grip), size)]
+        props = [(shape_of(one.thing).size, one.grip) for one in drawn.props]
+        others = [(*held_at(placed.pose, wide, grip), wide) for wide, grip in props]
         inner = [(place, turn, (0.5 * wide, 0.5 * deep, high)) for place, turn, (wide, deep, high) in others]
         return corners_of(placed, [*hand, *inner]), tops_of(placed, [*hand, *others])
 
