@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from coopera.simulation.shapes.kit import BLACK, BLUE, CREAM, DARK, GREEN, RED, STEEL, WHITE, YELLOW, Kit, Recipe, shade
@@ -44,13 +45,10 @@ def cat(kit: Kit) -> None:
     for x in (-0.22, 0.22):
         for y in (-0.28, 0.14):
             kit.rod((x * w, y * d, h * 0.18), w * 0.11, h * 0.36)
-            kit.ball((x * w, y * d + 0.015, h * 0.05), w * 0.13, CREAM)
     kit.ball((0, d * 0.32, h * 0.5), w * 0.4)
     kit.ball((0, d * 0.42, h * 0.45), w * 0.22, CREAM)
-    kit.ball((0, d * 0.47, h * 0.48), w * 0.07, (0.9, 0.5, 0.5))
     for x in (-1, 1):
-        kit.tube((x * w * 0.24, d * 0.3, h * 0.66), w * 0.13, h * 0.08)
-        kit.tube((x * w * 0.24, d * 0.3, h * 0.74), w * 0.08, h * 0.07)
+        kit.rod((x * w * 0.24, d * 0.3, h * 0.72), w * 0.1, h * 0.2)
         kit.ball((x * w * 0.17, d * 0.41, h * 0.57), w * 0.07, BLACK)
     kit.rod((0, -d * 0.42, h * 0.74), w * 0.09, h * 0.56)
 
@@ -62,7 +60,6 @@ def dog(kit: Kit) -> None:
     for x in (-0.22, 0.22):
         for y in (-0.3, 0.14):
             kit.rod((x * w, y * d, h * 0.22), w * 0.12, h * 0.44)
-            kit.ball((x * w, y * d + 0.02, h * 0.05), w * 0.14, WHITE)
     kit.tube((0, d * 0.2, h * 0.64), w * 0.28, 0.03, RED)
     kit.ball((0, d * 0.3, h * 0.76), w * 0.36)
     kit.rod((0, d * 0.42, h * 0.7), w * 0.18, d * 0.2, WHITE, "y")
@@ -101,10 +98,10 @@ def spread_blanket(kit: Kit) -> None:
 def foam(kit: Kit) -> None:
     """Draw white foam in a heap of bubbles."""
     w, d, h = kit.w, kit.d, kit.h
-    for k in range(26):
-        angle, away = 2.4 * k, 0.09 * math.sqrt(k)
+    for k in range(15):
+        angle, away = 2.4 * k, 0.12 * math.sqrt(k)
         at = (away * w * math.cos(angle), away * d * math.sin(angle), h * 0.25 * (1.0 + (k % 3)) * (1.0 - away))
-        kit.ball(at, h * (0.2 + 0.07 * (k % 4)), WHITE if k % 3 else (0.86, 0.94, 1.0))
+        kit.ball(at, h * (0.26 + 0.07 * (k % 4)), WHITE if k % 3 else (0.86, 0.94, 1.0))
 
 
 def dish_rack(kit: Kit) -> None:
@@ -148,8 +145,8 @@ def open_book(kit: Kit) -> None:
     kit.box((0, 0, 0), (w, d, h * 0.3))
     for side in (-1, 1):
         kit.box((side * w * 0.245, 0, h * 0.3), (w * 0.47, d * 0.94, h * 0.7), CREAM)
-        for k in range(7):
-            kit.box((side * w * 0.25, d * (0.36 - 0.12 * k), h), (w * 0.36, d * 0.035, 0.001), DARK)
+        for k in range(6):
+            kit.box((side * w * 0.25, d * (0.36 - 0.14 * k), h), (w * 0.36, d * 0.035, 0.001), DARK)
 
 
 def knitting(kit: Kit) -> None:
@@ -186,9 +183,10 @@ def _arc(kit: Kit, up: float) -> None:
     base = 0.0 if up > 0 else h
     for side in (-1, 1):
         kit.rod((side * w / 2, 0, base), 0.016, 0.13, BLACK, "x")
-    for k in range(41):
-        angle = math.pi * k / 40
-        kit.ball((w / 2 * math.cos(angle), 0, base + up * h * math.sin(angle)), kit.d / 2)
+    turns = [math.pi * k / 13 for k in range(14)]
+    places = [(w / 2 * math.cos(angle), 0.0, base + up * h * math.sin(angle)) for angle in turns]
+    for first, second in itertools.pairwise(places):
+        kit.bar(first, second, kit.d / 2)
 
 
 def garment(kit: Kit) -> None:
@@ -214,11 +212,11 @@ def puzzle(kit: Kit) -> None:
     """Draw a puzzle half laid: a patch of coloured pieces, and some loose ones."""
     w, d, h = kit.w, kit.d, kit.h
     colours = (RED, YELLOW, GREEN, BLUE, _ORANGE, WHITE)
-    for row in range(4):
-        for column in range(6):
-            done = column + row < 7
-            x, y = w * (-0.4 + 0.15 * column), d * (0.34 - 0.22 * row)
-            size = (w * 0.145, d * 0.21, h) if done else (w * 0.1, d * 0.15, h)
+    for row in range(3):
+        for column in range(5):
+            done = column + row < 5
+            x, y = w * (-0.4 + 0.18 * column), d * (0.32 - 0.3 * row)
+            size = (w * 0.17, d * 0.28, h) if done else (w * 0.12, d * 0.2, h)
             kit.box((x if done else x + 0.02, y, 0), size, colours[(2 * column + row) % 6])
 
 
