@@ -21,8 +21,9 @@ from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, to_segme
 
 ROBOT_FOV = 60.0
 VIEW_FOV = 50.0
-_MARGIN, _LENS = 1.2, (22.0, 56.0)
-"""How much more than what it is to show is in a picture from across the room, and its narrowest and widest lens."""
+_MARGIN, _TALL, _LENS = 1.2, 1.15, (22.0, 56.0)
+"""How much more than what it is to show is in a picture from across the room, how many metres of it are so at least,
+and the narrowest and the widest lens."""
 _RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _CORNER = (0.25, 2.2)
 """How far from a room's walls, and how high, the cameras in its corners are (metres)."""
@@ -343,7 +344,8 @@ def _closed_in(camera: Camera, points: Array) -> Camera:
     lines = points - np.array(camera.eye)
     depth = np.maximum(lines @ ahead, 0.3)
     high, wide = np.abs(lines @ np.cross(right, ahead)) / depth, np.abs(lines @ right) / depth
-    tall = _MARGIN * max(float(high.max()), float(wide.max()) * 3 / 4)
+    least = _TALL / 2 / math.dist(camera.eye, camera.target)
+    tall = max(_MARGIN * float(high.max()), _MARGIN * float(wide.max()) * 3 / 4, least)
     return camera._replace(fov=min(max(2 * math.degrees(math.atan(tall)), _LENS[0]), _LENS[1]))
 
 
