@@ -29,6 +29,8 @@ _CHANGED = 0.35
 """What it counts that another thing is held, has been moved, is worn or is open (half of it, squared, each way)."""
 _BEFORE = 4
 """Of a motion's pictures one in so many may show what was before it: one, at least."""
+_TELLS = 0.02
+"""A motion of which so much is not yet shown (a distance of poses, in metres) has the next picture."""
 _END = 1.0
 """The last so many seconds are the end."""
 
@@ -65,6 +67,7 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
     places = np.array(rows)
     deed = ticks.index(_deed(recording))
     before = np.array(ticks) < _begun(recording)
+    elsewhere = before & (np.array(ticks) < _arrived(recording))
     spare = max(1, count // _BEFORE)
     chosen, left = [deed], np.linalg.norm(places - places[deed], axis=1)
     for number in range(1, count):
@@ -73,8 +76,8 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
             late = np.array(ticks) >= recording.ticks - _END * TICKS
             among = np.where(late, left, -1.0)
         among = among.copy()
-        if before[chosen].sum() >= spare and not before.all():
-            among[before] = -1.0
+        if left[~before].max(initial=0.0) >= _TELLS:
+            among[before if before[chosen].sum() >= spare else elsewhere if spare == 1 else chosen] = -1.0
         among[chosen] = -2.0
         best = int(np.argmax(np.round(among, 6)))
         chosen.append(best)
@@ -88,6 +91,12 @@ def _begun(recording: Recording) -> int:
     return 0 if last.begun is None else recording.ticks - last.ticks + last.begun
 
 
+def _arrived(recording: Recording) -> int:
+    """The tick at which who acts has come to the place of the last shot, with what they have in hand."""
+    last = recording.shots[-1]
+    return recording.ticks - last.ticks + last.came
+
+
 def _deed(recording: Recording) -> int:
     """The tick at which the act is best seen."""
     before = sum(shot.ticks for shot in recording.shots[:-1])
@@ -97,14 +106,11 @@ def _deed(recording: Recording) -> int:
 def _candidates(recording: Recording, count: int) -> list[int]:
     """Ticks to choose from, rising: evenly spread, one of each walk, each deed, and the last."""
     step = max(1, min(recording.ticks // _CANDIDATES, recording.ticks // (3 * count)))
-    found, start, begun = set(), 0, _begun(recording)
+    found, start = set(), 0
     for shot in recording.shots:
         moves = set(range(start + shot.came, start + shot.ticks, step))
         found |= {start + shot.came // 2, start + shot.deed, start + shot.ticks - 1} | moves
         start += shot.ticks
-    if begun and count < 2 * _BEFORE:  # of what was before a motion: the person, there, with the thing in hand
-        arrived = recording.ticks - recording.shots[-1].ticks + recording.shots[-1].came
-        found = {tick for tick in found if tick >= begun} | {arrived}
     if len(found) <= count:
         found = set(range(recording.ticks))
     return sorted(found)
