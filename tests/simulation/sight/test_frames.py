@@ -113,6 +113,15 @@ def test_the_deed_is_among_the_frames_and_all_are_of_different_moments(home, cou
         assert chosen[-1] >= home._recording.ticks - 30
 
 
+@pytest.mark.parametrize(("count", "before"), [(4, 1), (5, 1), (8, 2)])
+def test_most_frames_of_a_motion_are_of_the_motion(home, count, before) -> None:
+    home.restore({})
+    assert home.perform(HUMAN, move("dining_table_1", "bowl", "eat a meal"), record=True).ok
+    last = home._recording.shots[-1]
+    begun = home._recording.ticks - last.ticks + last.begun
+    assert 1 <= sum(tick < begun for tick in ticks_of(home, count)) <= before
+
+
 def test_few_frames_show_the_taking_the_carrying_and_the_putting_down(home) -> None:
     home.restore({})
     assert home.perform(HUMAN, put("mug_1", "dining_table_1"), record=True).ok
