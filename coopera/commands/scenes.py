@@ -137,7 +137,7 @@ def import_homes(
         Path,
         typer.Argument(
             metavar="PATH",
-            help="An HSSD folder, one *.scene_instance.json of it, a house of ProcTHOR, or a home's JSON.",
+            help="A folder of HSSD or in Habitat's layout, one *.scene_instance.json, a house of ProcTHOR, or a home.",
         ),
     ],
     scene: Annotated[
@@ -153,7 +153,7 @@ def import_homes(
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Bring in homes of HSSD or ProcTHOR, or one that you wrote (docs/scenes.md); say what was guessed or left out."""
+    """Bring in homes of Habitat or ProcTHOR, or one that you wrote (docs/scenes.md); say what was guessed, left out."""
     from coopera.homes.stored import bring_in, figures
 
     found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force, assets=assets)

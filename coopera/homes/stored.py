@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coopera.config.files import write_output
+from coopera.config.schema import default_data_dir
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_json
 from coopera.simulation.homes.scene import Scene, dump_scene, list_scenes, load_scene
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _INSTANCE = ".scene_instance.json"
+_DATASET = ".scene_dataset_config.json"
+_NEAR = 0.5
+"""Names whose cosine to a class of ours is less mean something else."""
 
 
 class Told(NamedTuple):
@@ -93,24 +97,25 @@ def bring_in(
     force: bool = False,
     assets: Path | None = None,
 ) -> list[Arrival]:
-    """Import homes into a folder: scenes of an HSSD folder, a house of ProcTHOR, or a home that a person wrote as JSON.
+    """Import homes into a folder: Habitat's scenes, a house of ProcTHOR, or a home that a person wrote as JSON.
 
     Args:
-        path: An HSSD folder, one of its files scenes/<id>.scene_instance.json, a house's or a home's JSON file.
-        folder: Where the homes are stored, each with <id>.import.txt, which says what was left out.
-        scenes: Which scenes of an HSSD folder; all without it.
+        path: A folder in Habitat's layout, its *.scene_dataset_config.json, one of its *.scene_instance.json, or a
+            house's or a home's JSON file.
+        folder: Where the homes are stored, each with <id>.import.txt, which is what the import says.
+        scenes: Which scenes of a folder; all without it.
         skip_missing: Leave out what refers to a missing file, instead of refusing the scene.
         force: Replace homes that are there already.
         assets: ProcTHOR's asset database, which says how large its objects are.
 
     Raises:
-        ConfigError: If something is wrong with it; names file and field. Nothing is written then.
+        ConfigError: If something is wrong with it; names file and field. Nothing of that home is written then.
     """
     from coopera.simulation.making.proof import prove  # noqa: PLC0415  (slow to import)
 
     if not path.exists():
         raise ConfigError(f"{path}: there is no such file or folder.")
-    if path.is_file() and not path.name.endswith(_INSTANCE):
+    if path.is_file() and not path.name.endswith((_INSTANCE, _DATASET)):
         house = _house(path, folder, assets, force=force)
         if house is not None:
             return [house]
@@ -118,22 +123,21 @@ def bring_in(
         if home.stage is None:
             _need_doors(home, path)
         return [_arrive(home, Told([], prove(home)), folder, meshes=meshes_of(home), force=force)]
-    from coopera.simulation.making.hssd.files import Folder  # noqa: PLC0415
-    from coopera.simulation.making.hssd.homes import import_scene  # noqa: PLC0415
+    from coopera.simulation.making.habitat.files import Folder  # noqa: PLC0415
+    from coopera.simulation.making.habitat.homes import import_scene, scene_id  # noqa: PLC0415
 
-    hssd = Folder(path if path.is_dir() else path.parent.parent)
-    known = hssd.ids()
-    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.is_file() else known)
-    if not wanted:
-        raise ConfigError(f"{path / 'scenes'}: there is no file <id>{_INSTANCE}.")
+    dataset = Folder.around(path)
+    known = dataset.ids()
+    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.name.endswith(_INSTANCE) else known)
     unknown = sorted(set(wanted) - set(known))
     if unknown:
         raise ConfigError(f"{path}: there is no scene {unknown[0]!r} (known are {', '.join(known[:12]) or 'none'}).")
     arrivals = []
     for name in wanted:
-        found = import_scene(hssd, name, skip_missing=skip_missing)
-        skipped = [f"{item.what}: {item.why}" for item in found.skipped]
-        told = Told(skipped, found.problems)
+        place_for(scene_id(name), folder, force=force)
+        found = import_scene(dataset, name, skip_missing=skip_missing, nearest=_nearest)
+        said = found.report
+        told = Told(said.left_out, found.problems, said.understood, said.guessed)
         arrivals.append(_arrive(found.scene, told, folder, meshes=found.meshes, force=force))
     return arrivals
 
@@ -172,3 +176,12 @@ def _arrive(scene: Scene, told: Told, folder: Path, *, meshes: dict[str, str], f
     lines = told.lines() or ["Everything was taken over."]
     write_output(folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines))
     return Arrival(scene, file, told)
+
+
+def _nearest(text: str, words: tuple[str, ...]) -> tuple[str, float] | None:
+    """The word that comes nearest to a text in meaning, by the bundled sentence encoder; None where none is near."""
+    from coopera.memory import Search, bundled  # noqa: PLC0415  (some seconds, and most names are known words)
+
+    with bundled(default_data_dir() / "embeddings.sqlite") as embeddings:
+        word, cosine = Search(embeddings, words).top(text, 1)[0]
+    return (word, cosine) if cosine >= _NEAR else None
