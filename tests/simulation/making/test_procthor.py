@@ -72,14 +72,14 @@ def test_children_lie_on_their_parents(home: Imported) -> None:
 def test_a_chair_under_a_table_is_drawn_out(home: Imported) -> None:
     chair, table = the(home, "dining_chair_1"), the(home, "dining_table_1")
     assert not chair.bounds.overlaps(table.bounds)
-    assert any("objects.2 (Chair_002_1): shifted by" in line for line in home.guessed)
+    assert any("objects.2 (Chair_002_1): shifted by" in line for line in home.report.guessed)
 
 
 def test_the_account_says_what_was_understood_guessed_and_left_out(home: Imported) -> None:
-    assert home.understood[0] == "3 rooms, 2 of them no rectangles, and 2 doors and openings"
-    assert any("Dining_Table_16_1): the usual size of its type" in line for line in home.guessed)
-    assert any("Gizmo_9): a box that can be carried, for its type is not known" in line for line in home.guessed)
-    said = "\n".join(home.left_out)
+    assert home.report.understood[0] == "3 rooms, 2 of them no rectangles, and 2 doors and openings"
+    assert any("Dining_Table_16_1): the usual size of its type" in line for line in home.report.guessed)
+    assert any("Gizmo_9): a box that can be carried, for its type is not known" in line for line in home.report.guessed)
+    said = "\n".join(home.report.left_out)
     assert "1 windows: the walls stand whole there" in said
     assert "doors.1 (door|1|2): it leads outside" in said
     assert "objects.5 (Wall_Decor_Painting_3): a picture on the wall" in said
