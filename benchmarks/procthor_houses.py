@@ -1,4 +1,6 @@
-"""Houses by ProcTHOR's own generator, without Unity: `PYTHONHASHSEED=0 python -m benchmarks.procthor_houses OUT any:1 …`.
+"""Houses by ProcTHOR's own generator, without Unity.
+
+    PYTHONHASHSEED=0 python -m benchmarks.procthor_houses OUT any:1 5-room:7
 
 Needs `pip install --no-deps procthor networkx` (0.0.1.dev2) besides what coopera needs. Each house is SPEC:SEED, with
 the name of one of its room specifications or `any`. Floor plans, doors, windows, furniture and what hangs on walls are
@@ -50,9 +52,9 @@ def _generator() -> Any:
         for module in (name.partition(".")[0], name):
             sys.modules.setdefault(module, ModuleType(module))
         setattr(sys.modules[name], taken, type(taken, (), {}))
-    making, objects, known = (
-        import_module(f"procthor.{name}") for name in ("generation", "generation.objects", "databases")
-    )
+    making: Any = import_module("procthor.generation")
+    objects: Any = import_module("procthor.generation.objects")
+    known: Any = import_module("procthor.databases")
     pandas = import_module("pandas")
     columns = ["assetGroupName", *(f"in{room}s" for room in ("Kitchen", "LivingRoom", "Bedroom", "Bathroom"))]
     columns += ["xSize", "ySize", "zSize", "inCorner", "onEdge", "inMiddle", "allowDuplicates", "weight", "minXSize"]
@@ -72,7 +74,8 @@ def _small_things(house: Any, split: str, known: Any) -> None:
     kinds = {room["id"]: room["roomType"] for room in house.room_types}
     for number, thing in enumerate(house.objects):
         asset = known.asset_id_database[thing["assetId"]]
-        box, children = asset["boundingBox"], []
+        box: Any = asset["boundingBox"]
+        children: list[dict[str, Any]] = []
         room = kinds[f"room|{thing['id'].split('|')[0]}"]
         for type_, chance in known.objects_in_receptacles.get(asset["objectType"], {}).items():
             belongs = known.placement_annotations.loc[type_].get(f"in{room}s", 0)
