@@ -68,7 +68,9 @@ class Stage:
         self.renderer = None if name is None else start_renderer(name, self.client)
         drawn = name in ("tiny", "egl")
         self.home = build(scene, self.client, drawn=drawn)
-        self.bodies = {agent: load_urdf(read_urdf(BODIES / "person.urdf"), self.client, drawn=drawn) for agent in people}
+        self.bodies = {
+            agent: load_urdf(read_urdf(BODIES / "person.urdf"), self.client, drawn=drawn) for agent in people
+        }
         self.bodies |= {agent: load_urdf(body.urdf, self.client, drawn=drawn) for agent, body in robots.items()}
         names = dict.fromkeys(people, [name for name, _ in JOINTS])
         names |= {agent: list(body.joints) for agent, body in robots.items()}

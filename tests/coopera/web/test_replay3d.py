@@ -20,7 +20,7 @@ from coopera import Config, RunDir, run_study
 from coopera.core.errors import ConfigError, RunError
 from coopera.people.shipped import find
 from coopera.simulation import load_scene
-from coopera.simulation.bodies.robot import usable_robots, load_robot
+from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.people.weights import PARTS
 from tests.coopera.conftest import Said
 from tests.coopera.web.browser import Watched, browsing, needs_browser

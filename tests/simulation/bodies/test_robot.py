@@ -17,6 +17,7 @@ from coopera.simulation.sight.engine import load_urdf, pybullet
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, put
 
+
 def before(body: RobotBody, *point: float) -> np.ndarray:
     """A point as seen from where the body works, in its own frame."""
     return about_z(body.side) @ np.array(point)

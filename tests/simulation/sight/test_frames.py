@@ -10,7 +10,7 @@ from benchmarks.frames import looked_at
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid_reach import standing
-from coopera.simulation.bodies.robot import usable_robots, load_robot
+from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of, person_body
 from coopera.simulation.sight.labels import Name, labelled
