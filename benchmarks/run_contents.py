@@ -11,6 +11,7 @@ import json
 import re
 import sqlite3
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -19,7 +20,7 @@ from langchain_core.embeddings import Embeddings
 
 from coopera.graphs import build_study_graph
 from coopera.memory import MemoryStream
-from coopera.memory.store import streams
+from coopera.memory.store import Store
 from coopera.rundir.directory import RunDir
 from coopera.studies.standing import THREAD, open_checkpoints
 
@@ -119,9 +120,10 @@ def differences(whole: Contents, other: Contents) -> list[str]:
 
 def _memories(folder: Path, embeddings: Embeddings) -> Iterator[tuple[str, str]]:
     """Each stream with what it remembers, in order."""
-    for name in streams(folder):
-        with MemoryStream.open(folder, name, embeddings, create=False) as stream:
-            yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
+    with closing(Store.open(folder, create=False)) as store:  # held open, since to open it takes longer than to read it
+        for name in store.streams():
+            with MemoryStream.open(folder, name, embeddings, create=False) as stream:
+                yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
 
 
 def _state(file: Path) -> str:

@@ -10,34 +10,63 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coopera.evaluation.agreement import l1
-from coopera.evaluation.comparing import Comparison, Unit, clustered_mean, compare
+from coopera.evaluation.comparing import Comparison, Of, Unit, clustered_mean, compare
 from coopera.evaluation.counts import pool
 from coopera.evaluation.measuring import find_measure
-from coopera.evaluation.results import Row
+from coopera.evaluation.results import Card, Row
 from coopera.evaluation.statistics import Mean
 
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """Which of a person's days of an episode count, as the grid states it before the first run.
+    """The primary endpoint: which of a person's days of an episode count, by which measure, and what is tested.
 
     A person's days are counted from 0 here (`Row.round`), and from 1 in the grid and in words.
 
     Attributes:
         late: How many of the last days; None is the last third, rounded up.
         early: First and last of the early days, from 1; late days are never early.
-        stated: Whether the grid stated it; one that was run before there was an endpoint did not.
+        standing: When it was stated and whether it was kept, in words.
+        measure: Its headline counts.
+        reference: The method that others are compared with.
+        against: Those of one family, which the correction is for; None is all.
+        test: One of `coopera.evaluation.comparing.TESTS`.
+        correction: One of `coopera.evaluation.comparing.CORRECTIONS`.
     """
 
     late: int | None = None
     early: tuple[int, int] = (2, 5)
-    stated: bool = True
+    standing: str = "Not stated in a file"
+    measure: str = "help"
+    reference: str = "ours"
+    against: tuple[str, ...] | None = None
+    test: str = "sign_flip"
+    correction: str = "holm"
 
     @classmethod
-    def of(cls, grid: Mapping[str, Any]) -> Endpoint:
-        """As a card's grid says; grids of before there was an endpoint have the default, and that is said."""
+    def of(cls, grid: Mapping[str, Any], standing: str | None = None) -> Endpoint:
+        """As a card's grid says; grids of before there was an endpoint have the default, and that is said.
+
+        Args:
+            grid: As a card has it.
+            standing: When it was stated and whether it was kept; cards of before this was noted do not say.
+        """
         first, last = grid.get("early_days") or cls().early
-        return cls(grid.get("late_days"), (first, last), "late_days" in grid)
+        said = dict(grid.get("endpoint") or {})
+        against = said.pop("against", None)
+        before = "Stated in the grid, without a date" if "late_days" in grid else "Not stated by this grid"
+        return cls(
+            grid.get("late_days"),
+            (first, last),
+            standing or before,
+            **said,
+            against=tuple(against) if against else None,
+        )
+
+    @property
+    def title(self) -> str:
+        """The endpoint's measure as tables name it."""
+        return find_measure(self.measure).title
 
     def late_days(self, days: int) -> range:
         """The late days of a person who lived so many."""
@@ -51,10 +80,15 @@ class Endpoint:
         """In words."""
         last = {None: "last third of the days", 1: "last day"}.get(self.late, f"last {self.late} days")
         days = f"late days: each person's {last} of an episode; early days: {self.early[0]} to {self.early[1]}"
-        return f"{'Stated beforehand' if self.stated else 'Not stated by this grid, which is older'}; {days}"
+        return f"{self.standing}; {days}"
 
 
 STATED = Endpoint()
+
+
+def endpoint_of(card: Card) -> Endpoint:
+    """The primary endpoint of a results folder."""
+    return Endpoint.of(card.grid, card.endpoint.words if card.endpoint else None)
 
 
 class Cell(NamedTuple):
@@ -69,10 +103,6 @@ def score(rows: Iterable[Row], measure: str, figure: str | None = None) -> float
     hours = [row for row in rows if row.status == "ok"]
     spec = find_measure(measure)
     return spec.pool([figures for row in hours if (figures := row.of(spec)) is not None])[figure or spec.headline]
-
-
-Of = tuple[Hashable, ...]
-"""What a unit is of: setting, type, seed, episode and person."""
 
 
 def units(rows: Iterable[Row], measure: str) -> dict[str, dict[Of, Unit]]:
@@ -97,20 +127,37 @@ def growth(rows: Sequence[Row], measure: str, endpoint: Endpoint = STATED) -> di
     return found
 
 
+def late_day_values(rows: Iterable[Row], endpoint: Endpoint) -> dict[str, dict[Of, dict[int, float]]]:
+    """The endpoint's measure on each late day, by method and unit; days without a figure are left out."""
+    found = _days(rows, endpoint.measure, endpoint.late_days)
+    return {method: {key: days for key, (_, days) in each.items()} for method, each in found.items()}
+
+
 def _units(rows: Iterable[Row], measure: str, chosen: Callable[[int], range]) -> dict[str, dict[Of, Unit]]:
     """The mean over some of each person's days, a day pooling its hours; `chosen` has them from how many there were."""
+    return {
+        method: {
+            key: Unit(one.person, one.scene, one.seed, float(np.mean(list(days.values()))))
+            for key, (one, days) in each.items()
+        }
+        for method, each in _days(rows, measure, chosen).items()
+    }
+
+
+def _days(
+    rows: Iterable[Row], measure: str, chosen: Callable[[int], range]
+) -> dict[str, dict[Of, tuple[Row, dict[int, float]]]]:
+    """Some of each person's days with their figure, and a row to tell whose they are."""
     key: Of
     lives: dict[tuple[str, Of], dict[int, list[Row]]] = defaultdict(lambda: defaultdict(list))
     for row in rows:
         key = (row.setting, row.collab, row.seed, row.episode, row.person)
         lives[row.method, key][row.round].append(row)
-    found: dict[str, dict[Of, Unit]] = defaultdict(dict)
+    found: dict[str, dict[Of, tuple[Row, dict[int, float]]]] = defaultdict(dict)
     for (method, key), days in sorted(lives.items(), key=lambda item: str(item[0])):
-        values = [score(days[day], measure) for day in chosen(max(days) + 1) if day in days]
-        given = [value for value in values if value is not None]
-        if given:
-            one = next(iter(days.values()))[0]
-            found[method][key] = Unit(one.person, one.scene, one.seed, float(np.mean(given)))
+        values = {day: score(days[day], measure) for day in chosen(max(days) + 1) if day in days}
+        if given := {day: value for day, value in values.items() if value is not None}:
+            found[method][key] = (next(iter(days.values()))[0], given)
     return dict(found)
 
 
@@ -131,9 +178,23 @@ def _cells(found: dict[str, dict[Of, Unit]]) -> dict[str, Cell]:
 def comparisons(
     rows: Sequence[Row], reference: str, measure: str = "predicate", late: Endpoint | None = None
 ) -> list[Comparison]:
-    """Each method against the reference on the same days: the last ones, or the late ones of an endpoint."""
-    found = units(rows, measure) if late is None else late_units(rows, measure, late)
-    return compare(found.pop(reference, {}), found)
+    """Each method against the reference on the same days: the last ones, or the late ones of an endpoint.
+
+    With an endpoint its test and its correction hold, the latter for the methods that it names; the others follow and
+    have no corrected p.
+    """
+    if late is None:
+        found = units(rows, measure)
+        return compare(found.pop(reference, {}), found)
+    found = late_units(rows, measure, late)
+    base = found.pop(reference, {})
+    named = found if late.against is None else {name: found[name] for name in late.against if name in found}
+    others = {name: each for name, each in found.items() if name not in named}
+    explored = compare(base, others, test=late.test, correction="none")
+    return [
+        *compare(base, named, test=late.test, correction=late.correction),
+        *(one._replace(p_corrected=None) for one in explored),
+    ]
 
 
 def curve(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
+from itertools import cycle, product
 from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import Field, ValidationError
@@ -16,6 +16,7 @@ from pydantic import Field, ValidationError
 from coopera.core.clock import HOURS_PER_DAY
 from coopera.core.errors import ConfigError
 from coopera.core.people import Frozen
+from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.settings import SETTINGS
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_+-]{0,39}$")]
@@ -49,6 +50,24 @@ SCHEDULES: dict[str, Schedule] = {
 """The paper's settings, and the one in which a stranger comes at the end, by name."""
 
 
+class Primary(Frozen):
+    """What a benchmark is to show, as its file states it beforehand.
+
+    Attributes:
+        measure: Its headline is the endpoint; `help` is need F1.
+        reference: The method that others are compared with.
+        against: Those others; by default all of the grid. The rest is compared too, outside of the correction.
+        test: Over people, two-sided.
+        correction: For several comparisons.
+    """
+
+    measure: str = "help"
+    reference: str = "ours"
+    against: Annotated[list[str], Field(min_length=1)] | None = None
+    test: Literal["sign_flip", "t"] = "sign_flip"
+    correction: Literal["holm", "none"] = "holm"
+
+
 class Grid(Frozen):
     """What a benchmark covers.
 
@@ -61,8 +80,11 @@ class Grid(Frozen):
         scenes: Homes, likewise.
         episodes: At most so many episodes of each setting; by default the paper's number.
         days: At most so many days of each episode.
+        pairing: `every` group of people in every group of homes (the paper's), or each group of people in one of them,
+            the homes `in_turn`.
         hours: Hours of each day.
         schedules: Orders of days of one's own, by name.
+        endpoint: The measure of the primary endpoint, and how methods are compared in it.
         late_days: The primary endpoint is the mean of so many of each person's last days of an episode; by default of
             the last third of them, rounded up (of 15 days the last 5).
         early_days: First and last of the days, counted from 1, that growth is measured from; late days are none.
@@ -77,8 +99,10 @@ class Grid(Frozen):
     scenes: Annotated[list[str], Field(min_length=1)] | Count | None = None
     episodes: Count | None = None
     days: Count | None = None
+    pairing: Literal["every", "in_turn"] = "every"
     hours: Annotated[int, Field(strict=True, ge=1, le=15)] = HOURS_PER_DAY
     schedules: dict[Name, Schedule] = {}
+    endpoint: Primary = Primary()
     late_days: Count | None = None
     early_days: tuple[Count, Count] = (2, 5)
     run: dict[str, Any] = {}
@@ -112,12 +136,32 @@ def read_grid(data: Mapping[str, Any], source: str) -> Grid:
         field = ".".join(str(part) for part in first["loc"] if not str(part).startswith(("list[", "constrained")))
         if first["type"] == "extra_forbidden":
             name = str(first["loc"][-1])
-            near = difflib.get_close_matches(name, Grid.model_fields, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(Grid.model_fields)}"
+            known = (
+                Primary.model_fields if first["loc"][0] == "endpoint" and len(first["loc"]) > 1 else Grid.model_fields
+            )
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
             raise ConfigError(f"{source}: there is no field {name!r} ({hint}).") from None
         if first["type"] == "too_short":
             raise ConfigError(f"{source}: {field} is empty, so there is nothing to run.") from None
         raise ConfigError(f"{source}: {field} cannot be {first['input']!r} ({first['msg'].lower()}).") from None
+
+
+def check_endpoint(grid: Grid) -> None:
+    """Refuse an endpoint that this grid cannot have.
+
+    Raises:
+        ConfigError: If its measure is unknown, or it names methods that the grid has not.
+    """
+    stated = grid.endpoint
+    find_measure(stated.measure)
+    # a grid of baselines alone has nothing to compare, unless it says so
+    named = [stated.reference] if "reference" in stated.model_fields_set else []
+    for name in [*named, *(stated.against or [])]:
+        if name not in grid.methods:
+            raise ConfigError(f"endpoint: {name} is none of the grid's methods ({', '.join(grid.methods)}).")
+    if stated.reference in (stated.against or []):
+        raise ConfigError(f"endpoint: {stated.reference} cannot be compared with itself.")
 
 
 def lives(grid: Grid, people: Sequence[str], scenes: Sequence[str]) -> list[Life]:
@@ -150,9 +194,11 @@ def _episodes(
                           f"{plan.scenes - 1} only.")  # fmt: skip
     crowds = _groups(f"setting {name}", "people", people, plan.people, plan.episodes[0], grid.humans is not None)
     places = _groups(f"setting {name}", "homes", scenes, plan.scenes, plan.episodes[1], grid.scenes is not None)
-    # homes change slowest, so that the first episodes are of different people
-    pairs = [(crowd, place) for place in places for crowd in crowds][: grid.episodes]
-    for crowd, place in pairs:
+    if grid.pairing == "in_turn":
+        pairs = list(zip(crowds, cycle(places), strict=False))
+    else:  # homes change slowest, so that the first episodes are of different people
+        pairs = [(crowd, place) for place in places for crowd in crowds]
+    for crowd, place in pairs[: grid.episodes]:
         yield [(crowd[who], place[where]) for who, where in plan.days[: grid.days]]
 
 

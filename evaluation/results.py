@@ -125,6 +125,20 @@ def columns_of(measure: str, figures: type[Frozen]) -> dict[str, str]:
     return {field if measure == _BARE else f"{measure}_{field}": field for field in fields}
 
 
+class Standing(Frozen):
+    """Whether the primary endpoint that was stated before the first run was kept.
+
+    Attributes:
+        sha256: Of the endpoint in force and the planned sample.
+        kept: Whether it was stated before the first run with a robot, and not changed since.
+        words: The same in words.
+    """
+
+    sha256: str
+    kept: bool
+    words: str
+
+
 class Card(Frozen):
     """What results.json says of a table."""
 
@@ -141,6 +155,8 @@ class Card(Frozen):
     failed_hours: int
     sha256: str
     grid: dict[str, Any]
+    endpoint: Standing | None = None
+    """None in results of before endpoints were stamped."""
 
 
 def rows_of(

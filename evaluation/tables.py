@@ -28,7 +28,7 @@ from coopera.evaluation.statistics import FEWEST, Mean
 
 REFERENCE = "ours"
 PRIMARY = "help"
-"""The measure of the primary endpoint: its headline is need F1."""
+"""Need F1 is shown whatever the endpoint is."""
 FRESH = "untrained"
 NONE = "–"
 _TYPES = {1: "type 1", 2: "type 2"}
@@ -102,12 +102,12 @@ def last_day_table(rows: Sequence[Row], methods: Sequence[str], measure: str) ->
 
 
 def late_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
-    """The primary endpoint: need F1 as the mean of each person's late days, by setting and type."""
+    """The primary endpoint: its measure as the mean of each person's late days, by setting and type."""
     places = _places(rows)
-    found = {place: late_days(_of(rows, place), PRIMARY, endpoint) for place in places}
+    found = {place: late_days(_of(rows, place), endpoint.measure, endpoint) for place in places}
     return Table(
         "late_days",
-        "Primary endpoint: need F1, mean of the late days",
+        f"Primary endpoint: {endpoint.title}, mean of the late days",
         ["method", *map(_place, places)],
         _lines(methods, [found[place] for place in places]),
         f"{endpoint}. {_MEANS}",
@@ -117,11 +117,11 @@ def late_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint =
 def growth_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
     """How much better the late days are than the early ones."""
     places = _places(rows)
-    found = {place: growth(_of(rows, place), PRIMARY, endpoint) for place in places}
+    found = {place: growth(_of(rows, place), endpoint.measure, endpoint) for place in places}
     every = [found[place] for place in places]
     return Table(
         "growth",
-        "Growth of need F1 from the early to the late days",
+        f"Growth of {endpoint.title} from the early to the late days",
         ["method", *map(_place, places)],
         _lines([method for method in methods if any(method in cells for cells in every)], every),
         f"{endpoint}. {_MEANS}",
@@ -170,37 +170,53 @@ def paper_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
 
 
 def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint | None = None) -> Table:
-    """Each method against ours on the same days, all settings and types together.
+    """Each method against the reference on the same days, all settings and types together.
 
-    With an endpoint need F1 on its late days, without one the paper's: predicate F1 on last days.
+    With an endpoint its measure on its late days by its test, without one the paper's: predicate F1 on last days.
     """
-    found = comparisons(rows, REFERENCE, PRIMARY if late else "predicate", late)
+    stated = late or _PAPERS
+    found = comparisons(rows, stated.reference, stated.measure, late)
+    family = [one for one in found if one.p_corrected is not None]
     lines = [
         [
             one.method,
             f"{one.difference.mean:+.3f} {_signed(one.difference)}",
             f"{one.p:.4f}",
-            f"{one.p_holm:.4f}",
+            NONE if one.p_corrected is None else f"{one.p_corrected:.4f}",
             str(one.people),
             *([NONE if one.detectable is None else f"{one.detectable:.3f}"] if _testable(found) else []),
         ]
-        for one in sorted(found, key=lambda one: list(methods).index(one.method))
+        for one in sorted(found, key=lambda one: (one.p_corrected is None, list(methods).index(one.method)))
     ]
-    what = "need F1, mean of the late days" if late else "predicate F1 on the same last days"
+    what = f"{late.title}, mean of the late days" if late else "predicate F1 on the same last days"
+    times = len(family) if stated.correction == "holm" else 1
     notes = [
         f"{late}." if late else "The paper's endpoint.",
-        "Mean over people with a 95 % t interval; sign-flip permutation test over people, two-sided.",
-        f"Its p stays below {ALPHA} after Holm's correction of {len(found)} comparisons from "
-        f"{people_needed(max(len(found), 1))} people on.",
+        f"Mean over people with a 95 % t interval; {_TESTS[stated.test]} over people, two-sided.",
+        *(
+            [
+                f"Its p stays below {ALPHA} after {_CORRECTIONS[stated.correction]} of {len(family)} comparisons from "
+                f"{people_needed(max(times, 1))} people on."
+            ]
+            if stated.test == "sign_flip"
+            else []
+        ),
+        *(["Rows without a corrected p were not among the stated comparisons."] if len(family) < len(found) else []),
         *(["Detectable: the true difference found with 80 % power at this scatter."] if _testable(found) else []),
     ]
+    corrected = "p (Holm)" if stated.correction == "holm" else "p (stated)"
     return Table(
         "comparisons_late" if late else "comparisons",
-        f"Difference to {REFERENCE} in {what}",
-        ["method", "difference", "p", "p (Holm)", "people", *(["detectable"] if _testable(found) else [])],
+        f"Difference to {stated.reference} in {what}",
+        ["method", "difference", "p", corrected, "people", *(["detectable"] if _testable(found) else [])],
         lines,
         " ".join(notes),
     )
+
+
+_PAPERS = Endpoint(measure="predicate", late=1)
+_TESTS = {"sign_flip": "sign-flip permutation test", "t": "t test"}
+_CORRECTIONS = {"holm": "Holm's correction", "none": "no correction"}
 
 
 def _testable(found: Sequence[Comparison]) -> bool:

@@ -51,7 +51,7 @@ def _check_index(folder: Path) -> None:
 
 
 def _main(folder: str, *, everything: bool) -> None:
-    """Read the store, or exit with the reason."""
+    """Read the store."""
     _check_index(Path(folder))
     store = Store(open_client(Path(folder)), folder, folder, None)
     for name in store.streams():
@@ -63,10 +63,16 @@ def _main(folder: str, *, everything: bool) -> None:
                 log.records(range(number * BLOCK, min((number + 1) * BLOCK, len(log))))
 
 
-if __name__ == "__main__":
+def reason_against(folder: str, *, everything: bool) -> str | None:
+    """Why a store cannot be read; None where it can."""
     try:
-        _main(sys.argv[1], everything="--all" in sys.argv)
+        _main(folder, everything=everything)
     except DamagedMemoryError as err:
-        sys.exit(f"{err.where}: {err.what}")
+        return f"{err.where}: {err.what}"
     except (MemoryStoreError, OSError) as err:
-        sys.exit(str(err))
+        return str(err)
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(reason_against(sys.argv[1], everything="--all" in sys.argv))

@@ -13,6 +13,7 @@ from typing import Any, Literal
 import yaml
 from pydantic import ValidationError
 
+from coopera.benchmark.stated import Statement, endpoint_of, read_statements, standing, state, statement
 from coopera.config.at_most import at_most, smaller
 from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, read_yaml, reason, write_atomic
@@ -21,7 +22,7 @@ from coopera.core.errors import ConfigError, RunError
 from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
-from coopera.evaluation.grid import Grid, Life, lives, read_grid
+from coopera.evaluation.grid import Grid, Life, check_endpoint, lives, read_grid
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
 from coopera.rundir import claim
@@ -85,6 +86,7 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
     methods = [name for name in grid.methods if name != NOBODY]
     if len(set(methods)) < len(methods):
         raise ConfigError("methods: each may stand once.")
+    check_endpoint(grid)
     jobs: list[RunJob] = []
     for life in lives(grid, people, scenes):
         base = _life_config(life, grid, config)
@@ -98,11 +100,18 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
 
 
 @contextmanager
-def claimed_folder(bench: Benchmark) -> Iterator[None]:
+def claimed_folder(bench: Benchmark, *, restate: bool = False) -> Iterator[Statement]:
     """Make the folder, or go on in it if it holds the same grid; while entered, nobody else works in it.
 
+    Args:
+        bench: What is to be run.
+        restate: Whether its endpoint may differ from the folder's although runs have begun.
+
+    Yields:
+        What the endpoint is, stamped before anything is run.
+
     Raises:
-        ConfigError: If it cannot be written or holds something else.
+        ConfigError: If it cannot be written or holds something else, another endpoint among it.
         RunError: If another process works in it.
     """
     if not (bench.root / "grid.yaml").is_file() and bench.root.is_dir() and set(os.listdir(bench.root)) - {"lock"}:
@@ -113,33 +122,50 @@ def claimed_folder(bench: Benchmark) -> Iterator[None]:
     except OSError as err:
         raise ConfigError(f"out: {bench.root} cannot be written ({reason(err)}).") from err
     with lock:
+        former = _check_grid(bench)
+        today = state(bench.root, _statement(bench), former, restate=restate)
         _note_grid(bench)
-        yield
+        yield today
+
+
+def _statement(bench: Benchmark) -> Statement:
+    lived = [(job.config.seed, job.config.schedule or []) for job in bench.jobs if job.after is None]
+    begun = len(list((bench.root / "runs").glob("*/*/run.json")))
+    return statement(bench.grid, lived, begun)
+
+
+def _grid_text(bench: Benchmark) -> str:
+    shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
+    return yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
+
+
+def _check_grid(bench: Benchmark) -> dict[str, Any] | None:
+    """Return the endpoint of the folder's grid.yaml, if there is one; refuse  a grid that differs in what may not."""
+    path = bench.root / "grid.yaml"
+    if not path.is_file():
+        return None
+    before, now = read_yaml(path, "grid of this benchmark"), load_yaml(_grid_text(bench))
+    for key in ("run", "shared"):
+        if not isinstance(before.get(key) or {}, dict):
+            raise ConfigError(f"{path}: {key} must be a mapping of settings to values.")
+        before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
+    was = {name: value for name, value in AS_BEFORE.items() if name in _DECIDES}
+    before["shared"] = {**was, **before["shared"]}
+    for one in (before, now):  # what `shared` says of these counts, however it was asked for
+        one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
+    # methods, seeds and settings may be added to what was run
+    fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+    if odd := [name for name in fixed if before.get(name) != now.get(name)]:
+        raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
+    of_the_endpoint: dict[str, Any] = {
+        name: before[name] for name in ("endpoint", "late_days", "early_days") if name in before
+    }
+    return endpoint_of(read_grid(of_the_endpoint, str(path))) if before.get("methods") else None
 
 
 def _note_grid(bench: Benchmark) -> None:
-    """Write grid.yaml, unless the folder holds the runs of a grid that differs in what may not."""
-    path = bench.root / "grid.yaml"
-    shared = bench.jobs[0].config.model_dump(mode="json", include=_DECIDES)
-    text = yaml.safe_dump({**bench.grid.model_dump(mode="json"), "shared": shared}, sort_keys=False)
-    if path.is_file():
-        before, now = read_yaml(path, "grid of this benchmark"), load_yaml(text)
-        for key in ("run", "shared"):
-            if not isinstance(before.get(key) or {}, dict):
-                raise ConfigError(f"{path}: {key} must be a mapping of settings to values.")
-            before[key] = in_words_of_today(Config, before.get(key) or {}, f"{path}: {key}")
-        was = {name: value for name, value in AS_BEFORE.items() if name in _DECIDES}
-        before["shared"] = {**was, **before["shared"]}
-        for one in (before, now):  # what `shared` says of these counts, however it was asked for
-            one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
-        # methods, seeds and settings may be added to what was run
-        # the endpoint is stated before the first run, and stays
-        fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "late_days", "early_days")
-        before = Grid().model_dump(mode="json", include={"late_days", "early_days"}) | before
-        if odd := [name for name in fixed if before.get(name) != now.get(name)]:
-            raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     try:
-        write_atomic(path, text)
+        write_atomic(bench.root / "grid.yaml", _grid_text(bench))
     except OSError as err:
         raise ConfigError(f"out: {bench.root} cannot be written ({reason(err)}).") from err
 
@@ -221,6 +247,7 @@ def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
         failed_hours=sum(row.status == "failed" for row in rows),
         sha256=sha256(to_csv(rows)),
         grid=bench.grid.model_dump(mode="json"),
+        endpoint=standing(read_statements(bench.root)),
     )
     return rows, card, seconds
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from coopera.benchmark.results_page import CARD, read_results
 from coopera.core.errors import ConfigError
-from coopera.evaluation.analysis import Endpoint, last_day, late_days
+from coopera.evaluation.analysis import endpoint_of, last_day, late_days
 
 
 class Entry(NamedTuple):
@@ -46,7 +46,7 @@ def entries(folder: Path) -> list[Entry]:
         name = card.name if path.parent == folder else path.parent.relative_to(folder).as_posix()
         for setting, collab in sorted({(row.setting, row.collab) for row in rows}):
             chosen = [row for row in rows if (row.setting, row.collab) == (setting, collab)]
-            late, people = late_days(chosen, endpoint=Endpoint.of(card.grid)), len({row.person for row in chosen})
+            late, people = late_days(chosen, endpoint=endpoint_of(card)), len({row.person for row in chosen})
             for method, cell in last_day(chosen).items():
                 need = late[method].interval if method in late else None
                 found.append(

@@ -58,6 +58,16 @@ def benchmark(
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     classifier: Annotated[str | None, option("classifier")] = None,
+    power: Annotated[
+        bool, typer.Option("--power", help="Run nothing: simulate what this grid would find, and what it would not.")
+    ] = False,
+    scatter: Annotated[
+        Path | None,
+        typer.Option(metavar="RESULTS", help="Results whose scatter --power takes. [default: a stated one]"),
+    ] = None,
+    restate: Annotated[
+        bool, typer.Option("--restate", help="Change the endpoint although runs have begun; the results will say so.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Run methods on the same days of the same people, and write tables, figures and statistics.
@@ -81,7 +91,11 @@ def benchmark(
     found = bench.load_grid(grid, flags)
     shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
-    with bench.claimed_folder(planned):
+    if power or scatter:
+        _foresee(planned, scatter, as_json=as_json)
+        return
+    with bench.claimed_folder(planned, restate=restate) as stated:
+        typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
         failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
         summary = write_results(planned)
     if as_json:
@@ -90,6 +104,19 @@ def benchmark(
         typer.echo(f"Results: {summary['page']}")
     if failures:
         raise typer.Exit(1)
+
+
+def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:
+    from coopera.benchmark import foresight
+    from coopera.report.tables import print_table
+
+    found = foresight.foresight(planned, scatter)
+    if as_json:
+        typer.echo(json.dumps(foresight.as_json(found), sort_keys=True))
+        return
+    print_table(*foresight.as_table(found))
+    for line in foresight.in_words(found):
+        typer.echo(line)
 
 
 def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:

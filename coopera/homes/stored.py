@@ -34,7 +34,7 @@ def figures(scene: Scene) -> dict[str, Any]:
         "rooms": len(scene.rooms),
         "fixed": len(scene.fixed),
         "movable": len(scene.movable),
-        "square_metres": round(sum((room.x1 - room.x0) * (room.y1 - room.y0) for room in scene.rooms)),
+        "square_metres": round(sum(room.area for room in scene.rooms)),
         "categories": dict(Counter(sorted(thing.category for thing in scene.objects))),
     }
 

@@ -30,10 +30,9 @@ class Elbowroom:
                 self.names.append(thing.name)
                 rows.append((*thing.to_world(*part.position), *part.around, thing.yaw))
         for wall in scene.walls():
-            b = wall.bounds
+            x, y, half_x, half_y, yaw = wall.block
             self.names.append("wall")
-            size = ((b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, _WALL / 2)
-            rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, _WALL / 2, *size, 0.0))
+            rows.append((x, y, _WALL / 2, half_x, half_y, _WALL / 2, yaw))
         self._boxes = np.array(rows).reshape(-1, 7)
         self._round = np.hypot(self._boxes[:, 3], self._boxes[:, 4]) + _THICK + _SLACK
 

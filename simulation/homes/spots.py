@@ -63,16 +63,7 @@ def furniture_on(scene: Scene, carrier: SceneObject) -> list[Taken]:
     near = [other for other in scene.fixed if other.name != carrier.name and other.bounds.overlaps(around)]
     filled = [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
     room = scene.room(carrier.room)
-    return filled if room is None else [*filled, *_outside(room.bounds)]
-
-
-def _outside(room: Bounds) -> list[Taken]:
-    out = room.grown(_OVERHANG)
-    strips = (
-        *(out._replace(x1=room.x0), out._replace(x0=room.x1)),
-        *(out._replace(y1=room.y0), out._replace(y0=room.y1)),
-    )
-    return [Taken(strip, 0.0, math.inf) for strip in strips]
+    return filled if room is None else [*filled, *(Taken(b, 0.0, math.inf) for b in room.outside(around, _OVERHANG))]
 
 
 def spots(

@@ -85,11 +85,17 @@ class Kit:
         self.parts: list[Part] = []
 
     def box(
-        self, at: tuple[float, float, float], size: Size, colour: Colour | None = None, *, tilt: float = 0.0
+        self,
+        at: tuple[float, float, float],
+        size: Size,
+        colour: Colour | None = None,
+        *,
+        tilt: float = 0.0,
+        yaw: float = 0.0,
     ) -> None:
-        """Add a box by the centre of its base; `tilt` (radians) leans it about x, its top towards -y."""
+        """Add a box by the centre of its base; `tilt` (radians) leans it about x, its top to -y; or `yaw` turns it."""
         half = (max(size[0] / 2, _THIN), max(size[1] / 2, _THIN), max(size[2] / 2, _THIN))
-        turn = (math.sin(tilt / 2), 0.0, 0.0, math.cos(tilt / 2))
+        turn = (math.sin(tilt / 2), 0.0, math.sin(yaw / 2), math.cos((tilt or yaw) / 2))
         middle = (at[0], at[1], at[2] + half[2])
         self._add("box", middle, turn, colour, half=half)
 

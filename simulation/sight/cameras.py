@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from coopera.simulation.acts.plans import Placed, all_clear_of
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.homes.floorplan import Bounds, Point
-from coopera.simulation.homes.scene import Scene
+from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.scene import Room, Scene
 from coopera.simulation.shapes.rotations import Array, about_z
 from coopera.simulation.sight.hiding import Body, angle_from_front, behind_balls, behind_boxes, boxes_of
 from coopera.simulation.sight.recording import eye_level
@@ -23,6 +23,7 @@ ROBOT_FOV = 60.0
 VIEW_FOV = 50.0
 _RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.2))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _CORNER = (0.25, 2.2)
+_OFF_WALL = 0.12
 """How far from a room's walls, and how high, the cameras in its corners are (metres)."""
 _WATCH = (1.1, 4.5)
 _COMFORT = 2.1
@@ -302,16 +303,15 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     room = scene.room(focus.room) or scene.rooms[0]
     radii, count, heights = _RING
     inset, high = _CORNER
-    bounds = room.bounds.grown(-inset)
     ring = [
         (placed.x + r * math.cos(k * math.tau / count), placed.y + r * math.sin(k * math.tau / count), z)
         for r in radii
         for z in heights
         for k in range(count)
     ]
-    corners = [(x, y, high) for x in (bounds[0], bounds[2]) for y in (bounds[1], bounds[3])]
+    corners = [(x, y, high) for x, y in room.corners(inset)]
     eyes = np.array([*ring, *corners])
-    inside = _in_the_open(scene, room.bounds.grown(-0.12), eyes)
+    inside = _in_the_open(scene, room, eyes)
     target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
     if not inside.any():
         corner = room.centre
@@ -327,7 +327,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     return cameras[_clearest(stage, cameras, score[best])]
 
 
-def _in_the_open(scene: Scene, bounds: Bounds, eyes: Array) -> NDArray[np.bool_]:
+def _in_the_open(scene: Scene, room: Room, eyes: Array) -> NDArray[np.bool_]:
     """Whether a camera at each of many places is in the room and in no piece of furniture; shape (n, 3) to (n,)."""
     x, y, z = eyes.T[:, :, None]
     boxes = np.array([thing.bounds for thing in scene.fixed]).reshape(-1, 4)
@@ -337,6 +337,5 @@ def _in_the_open(scene: Scene, bounds: Bounds, eyes: Array) -> NDArray[np.bool_]
         np.maximum(np.maximum(boxes[:, 1] - y, y - boxes[:, 3]), 0.0),
     )
     free = ((tops + 0.1 < z) | (gaps > 0.15)).all(axis=1)
-    within = (bounds.x0 <= x) & (x <= bounds.x1) & (bounds.y0 <= y) & (y <= bounds.y1)
-    found: NDArray[np.bool_] = free & within[:, 0]
+    found: NDArray[np.bool_] = free & room.covers(eyes[:, 0], eyes[:, 1], _OFF_WALL)
     return found

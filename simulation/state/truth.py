@@ -201,7 +201,7 @@ def _held_up(scene: Scene, state: HomeState, thing: SceneObject, where: ThingSta
     room = scene.room_at(x, y)
     if carrier is not None and carrier.fixed:
         room = scene.room(carrier.room) or room
-    if not room.bounds.encloses(space.bounds, _SLACK):
+    if not room.encloses(space.bounds, _SLACK):
         yield f"{thing.name} sticks out of the {room.name}."
     if carrier is None:
         if abs(z) > _FLOATING:

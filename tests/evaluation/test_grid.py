@@ -26,6 +26,12 @@ def test_a_stranger_comes_on_the_tenth_day() -> None:
     assert [who for who, _ in first.days] == ["p0", "p1", "p2"] * 3 + ["p3"]
 
 
+def test_homes_in_turn_give_each_person_one_home() -> None:
+    grid = read_grid({"pairing": "in_turn", "humans": ["a", "b", "c", "d"], "scenes": ["x", "y", "z"], "days": 1}, "g")
+    found = lives(grid, grid.humans, grid.scenes)
+    assert [life.days for life in found] == [[("a", "x")], [("b", "y")], [("c", "z")], [("d", "x")]]
+
+
 def test_the_first_episodes_are_of_different_people_and_seeds_come_last() -> None:
     found = lives(Grid(settings=["1"], seeds=2, episodes=3), PEOPLE, HOMES)
     assert [(life.seed, life.days[0]) for life in found] == [

@@ -40,12 +40,15 @@ def home_mesh(scene: Scene) -> Mesh:
     made: list[Mesh] = []
     for room in scene.rooms:
         kind = catalogue().rooms.get(room.kind)
-        size = (room.x1 - room.x0, room.y1 - room.y0, 0.05)
-        made.append(_box(size, (*room.centre, -0.03), rgb_of(kind.floor) if kind else _FLOOR))
+        for b in room.rectangles():
+            size = (b.x1 - b.x0, b.y1 - b.y0, 0.05)
+            made.append(
+                _box(size, ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -0.03), rgb_of(kind.floor) if kind else _FLOOR)
+            )
     for wall in scene.walls():
-        b = wall.bounds
-        size = (max(b.x1 - b.x0, WALL_THICKNESS), max(b.y1 - b.y0, WALL_THICKNESS), WALLS)
-        made.append(_box(size, ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, WALLS / 2), _PAINT))
+        x, y, half_x, half_y, yaw = wall.block
+        size = (max(2 * half_x, WALL_THICKNESS), max(2 * half_y, WALL_THICKNESS), WALLS)
+        made.append(_placed(_box(size, (0.0, 0.0, 0.0), _PAINT), (x, y, WALLS / 2), _about_z(yaw)))
     for thing in scene.fixed:
         made.append(_placed(thing_mesh(scene, thing), thing.position, _about_z(thing.yaw)))
     return _together(made)
