@@ -173,7 +173,8 @@ def mink(body: MobileManipulator) -> Solve:
             if np.linalg.norm(now.get_transform_frame_to_world("tip", "site").translation() - point) < NEAR / 2:
                 break
         turned = np.where(round_and_round, np.remainder(now.q[at] + np.pi, 2 * np.pi) - np.pi, now.q[at])
-        return np.clip(turned, body.chain.low, body.chain.high)
+        within: Array = np.clip(turned, body.chain.low, body.chain.high)
+        return within
 
     return solve
 
@@ -207,7 +208,7 @@ SOLVERS: dict[str, tuple[str, Callable[[MobileManipulator], Solve]]] = {
 
 def points_of(body: MobileManipulator, count: int) -> list[Array]:
     """Points that the gripper can be at, the same for the same robot."""
-    rng, found = rng_at(0, "robot_arms", body.name), []
+    rng, found = rng_at(0, "robot_arms", body.name), list[Array]()
     while len(found) < count:
         point = body.chain.forward(rng.uniform(body.chain.low, body.chain.high)).place
         if 0.05 < point[2] < 1.8 and 0.3 < float(np.hypot(point[0], point[1])) < body.farthest:

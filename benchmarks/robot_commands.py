@@ -17,8 +17,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
-from coopera.core.household import HUMAN, ROBOT, PickPlace, Relation
+from coopera.core.household import HUMAN, ROBOT, PickPlace
 from coopera.simulation import World, load_scene
 from coopera.simulation.bodies.robot import usable_robots
 
