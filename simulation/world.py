@@ -101,6 +101,7 @@ class World:
         """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
+        self._planned: dict[AgentId, tuple[HomeState, Act, Plan]] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -230,7 +231,9 @@ class World:
             SimulationError: If there is no such agent.
         """
         self.state.agent(agent)
-        return self._plan(agent, act, None)
+        plan = self._plan(agent, act, None)
+        self._planned[agent] = (self.state, act, plan)
+        return plan
 
     def go_to(self, agent: AgentId, target: str) -> Result:
         """Let an agent go to a room, a piece of furniture or a thing, by name."""
@@ -282,6 +285,9 @@ class World:
         self.state = plan.state
 
     def _plan(self, agent: AgentId, act: Act, watch: Onlooker | None) -> Plan:
+        ready = self._planned.pop(agent, None)
+        if watch is None and ready is not None and ready[0] is self.state and ready[1] == act:
+            return ready[2]
         seen = watch if agent in self._ground.people else None
         if isinstance(act, PickPlace):
             return pick_place(self._ground, self.state, agent, act, seen)
