@@ -125,6 +125,42 @@ def columns_of(measure: str, figures: type[Frozen]) -> dict[str, str]:
     return {field if measure == _BARE else f"{measure}_{field}": field for field in fields}
 
 
+class Standing(Frozen):
+    """Whether the primary endpoint that was stated before the first run was kept.
+
+    Attributes:
+        sha256: Of the endpoint in force and the planned sample.
+        kept: Whether it was stated before the first run with a robot, and not changed since.
+        words: The same in words.
+    """
+
+    sha256: str
+    kept: bool
+    words: str
+
+
+class Fingerprints(Frozen):
+    """SHA-256 of what a benchmark's runs were made with.
+
+    Attributes:
+        person: The person's model with its prompts and the settings of how people live and answer.
+        judge: The judge's model with its prompts.
+        household: The household files of person, robot and judge, and whether they share one.
+        robot: The robot's model, body and classifier.
+        prompts: All prompts.
+        code: Modules, prompts and knowledge files of coopera.
+        mixed: Which of these are not the same in all runs.
+    """
+
+    person: str
+    judge: str
+    household: str
+    robot: str
+    prompts: str
+    code: str
+    mixed: list[str] = []
+
+
 class Card(Frozen):
     """What results.json says of a table."""
 
@@ -141,6 +177,11 @@ class Card(Frozen):
     failed_hours: int
     sha256: str
     grid: dict[str, Any]
+    endpoint: Standing | None = None
+    """None in results of before endpoints were stamped, as are those below."""
+    fingerprints: Fingerprints | None = None
+    config: dict[str, Any] | None = None
+    """What the runs shared, so far as it is not the default of settings."""
 
 
 def rows_of(

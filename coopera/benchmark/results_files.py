@@ -9,12 +9,14 @@ from markupsafe import Markup
 
 from coopera.benchmark.grid_runs import Benchmark, gather
 from coopera.benchmark.results_page import CARD, TABLE, shown
+from coopera.benchmark.stated import FILE
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.core.errors import RunError
-from coopera.evaluation.analysis import Endpoint
+from coopera.evaluation.analysis import endpoint_of, plain
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.results import Card, Row, to_csv, unpaired
-from coopera.evaluation.tables import Table, all_tables
+from coopera.evaluation.table import Table
+from coopera.evaluation.tables import all_tables
 from coopera.report.environment import environment
 from coopera.report.look import TEMPLATES, style_with
 from coopera.report.policy import content_policy
@@ -36,6 +38,8 @@ def write_results(bench: Benchmark) -> dict[str, Any]:
         write_atomic(folder / TABLE, to_csv(rows))
         write_atomic(folder / CARD, canonical_json(card.model_dump()))
         write_atomic(folder / "timings.csv", _timings(seconds))
+        if (bench.root / FILE).is_file():
+            write_atomic(folder / FILE, (bench.root / FILE).read_text(encoding="utf-8"))
         _write_parquet(folder)
         page = write_views(folder, card, rows, left=len(bench.left), total=len(bench.jobs))
     except OSError as err:
@@ -49,7 +53,7 @@ def write_views(folder: Path, card: Card, rows: list[Row], *, left: int = 0, tot
     Raises:
         OSError: If the folder cannot be written.
     """
-    tables, figures = all_tables(rows, card.methods, Endpoint.of(card.grid)), all_figures(rows, card.methods)
+    tables, figures = all_tables(rows, card.methods, endpoint_of(card)), all_figures(plain(rows), card.methods)
     head = f"# Results of {card.name}\n\n{_coverage(card, rows, left, total)}\n\n"
     drawn = "".join(f"![{name}](figures/{name}.svg)\n\n" for name in figures)
     write_atomic(folder / "tables.md", head + drawn + "\n".join(table.markdown() for table in tables))
@@ -70,6 +74,8 @@ def _coverage(card: Card, rows: list[Row], left: int, total: int) -> str:
         f"settings: {', '.join(card.settings)}, seeds: {len(card.seeds)}):",
         f"{card.rows} hours, {card.failed_hours} of them failed and in no figure.",
     ]
+    if card.endpoint:
+        parts.append(f"Primary endpoint: {card.endpoint.words}.")
     if left:
         parts.append(
             f"Not complete: {left} of {total} runs are still to be done; lives that not all methods have met are "

@@ -44,6 +44,15 @@ def benchmark(
     episodes: Annotated[int | None, typer.Option(help="Episodes of each setting. [default: as the paper]")] = None,
     days: Annotated[int | None, option("days")] = None,
     hours: Annotated[int | None, option("hours")] = None,
+    household: Annotated[str | None, option("household")] = None,
+    with_shared: Annotated[
+        str | None,
+        typer.Option(metavar="NAME,…|all|none", help="Run with shared common sense, too. [default: the reference]"),
+    ] = None,
+    noise: Annotated[
+        int | None,
+        typer.Option(help="How often the reference meets the same days again, its models sampled anew. [default: 0]"),
+    ] = None,
     workers: Annotated[int, typer.Option(min=1, max=256, help="Processes on this machine.")] = 1,
     ray: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here. [default: none]")
@@ -58,6 +67,16 @@ def benchmark(
     base_url: BaseUrl = None,
     prompts: PromptFolder = None,
     classifier: Annotated[str | None, option("classifier")] = None,
+    power: Annotated[
+        bool, typer.Option("--power", help="Run nothing: simulate what this grid would find, and what it would not.")
+    ] = False,
+    scatter: Annotated[
+        Path | None,
+        typer.Option(metavar="RESULTS", help="Results whose scatter --power takes. [default: a stated one]"),
+    ] = None,
+    restate: Annotated[
+        bool, typer.Option("--restate", help="Change the endpoint although runs have begun; the results will say so.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Run methods on the same days of the same people, and write tables, figures and statistics.
@@ -77,12 +96,20 @@ def benchmark(
         "episodes": episodes,
         "days": days,
         "hours": hours,
+        "noise": noise,
+        "with_shared": {"all": "all", "none": []}.get(with_shared or "", as_list(with_shared)),
     }
     found = bench.load_grid(grid, flags)
-    shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
+    shared = nested(
+        {"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier, "household": household}
+    )
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
-    with bench.claimed_folder(planned):
-        failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
+    if power or scatter:
+        _foresee(planned, scatter, as_json=as_json)
+        return
+    with bench.claimed_folder(planned, restate=restate) as stated:
+        typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
+        failures = carry_out_in_words(planned, workers=workers, ray=ray, limit=limit)
         summary = write_results(planned)
     if as_json:
         typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
@@ -92,7 +119,20 @@ def benchmark(
         raise typer.Exit(1)
 
 
-def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
+def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:
+    from coopera.benchmark import foresight
+    from coopera.report.tables import print_table
+
+    found = foresight.foresight(planned, scatter)
+    if as_json:
+        typer.echo(json.dumps(foresight.as_json(found), sort_keys=True))
+        return
+    print_table(*foresight.as_table(found))
+    for line in foresight.in_words(found):
+        typer.echo(line)
+
+
+def carry_out_in_words(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
     """Work through what is left with a line per run; returns the runs that failed, with the reason."""
     from coopera.benchmark.grid_runs import carry_out
 

@@ -89,10 +89,15 @@ def rooms_seen(scene: Scene, camera: Camera) -> set[int] | None:
 
 def _posts(scene: Scene, room: int, door: Doorway) -> list[tuple[float, float]]:
     """The corners of a doorway's opening in the floor plan, a little wider than it is."""
-    r, half = scene.rooms[room], door.width / 2 + 0.02
-    across = min(abs(door.y - r.y0), abs(door.y - r.y1)) < min(abs(door.x - r.x0), abs(door.x - r.x1))
-    dx, dy = (half, 0.06) if across else (0.06, half)
-    return [(door.x + i * dx, door.y + j * dy) for i in (-1, 1) for j in (-1, 1)]
+    half = door.width / 2 + 0.02
+    wall = min((edge.wall for edge in scene.rooms[room].edges), key=lambda one: one.distance(door.x, door.y))
+    begin, end = wall.ends
+    ux, uy = ((end[i] - begin[i]) / math.dist(begin, end) for i in (0, 1))
+    if wall.axis == "x":
+        (a, b), (c, d) = (half * ux, half * uy), (-0.06 * uy, 0.06 * ux)
+    else:
+        (a, b), (c, d) = (0.06 * uy, -0.06 * ux), (half * ux, half * uy)
+    return [(door.x + i * a + j * c, door.y + i * b + j * d) for i in (-1, 1) for j in (-1, 1)]
 
 
 def _between(

@@ -14,13 +14,18 @@ import numpy as np
 from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
+from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.magic_box import shape_of
+from coopera.simulation.motions.holding import held_at
+from coopera.simulation.motions.props import Shown
 from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
 from coopera.simulation.sight.darkroom import Darkroom
-from coopera.simulation.sight.hiding import person_body, robot_body
+from coopera.simulation.sight.hiding import at_work, corners_of, framed_of, person_body, robot_body, tops_of
 from coopera.simulation.sight.labels import Name, labelled
 from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
 from coopera.simulation.sight.sampling import telling_ticks
@@ -33,7 +38,7 @@ Viewpoint: TypeAlias = Literal["robot", "human"]
 """The robot's own, or a third person's of who acts."""
 _AWAY = -100.0
 _NOTHING: Mapping[AgentId, Held] = MappingProxyType({})
-_MOMENTS = (0.5, 0.65, 0.8)
+_MOMENTS = (0.35, 0.5, 0.6, 0.7, 0.8, 0.93)
 """When, as shares of a shot, the third person looks for the hands besides."""
 _NEAR = 0.7
 """Furniture this near to who acts has its name written, where names are asked for (metres)."""
@@ -215,8 +220,30 @@ class Watcher:
         body = moment.bodies[who]
         away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
         self.stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
-        later = [shot.at(round(shot.came + share * (shot.ticks - shot.came))).bodies[who] for share in _MOMENTS]
-        return view_camera(self.stage, self.ground.scene, self._focus(moment.bodies, who, moment.held, later))
+        moments = [moment, *(shot.at(round(shot.came + share * (shot.ticks - shot.came))) for share in _MOMENTS)]
+        focus = self._focus(moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
+        if who not in self.ground.robots:
+            corners, tops = map(np.concatenate, zip(*(self._work(recording, one, who) for one in moments), strict=True))
+            person = framed_of([one.bodies[who] for one in moments], whole=moment.outfits.get(who) == "sport")
+            body = at_work(focus.body, np.unique(tops.round(2), axis=0))
+            focus = focus._replace(body=body, framed=np.concatenate((person, corners, tops)))
+        return view_camera(self.stage, self.ground.scene, focus)
+
+    def _work(self, recording: Recording, moment: Moment, who: AgentId) -> tuple[Array, Array]:
+        """Where what a person works with is drawn at a moment, in the world.
+
+        The corners of what is in hand and those within what else is shown, and the middles of all tops; shapes (n, 3).
+        """
+        held, placed = moment.held.get(who), moment.bodies[who]
+        if held is None:
+            return np.zeros((0, 3)), np.zeros((0, 3))
+        size = thing_of(self.ground.scene, recording.state, held.name).size
+        drawn = Shown(held.grip) if held.drawn is None else held.drawn
+        hand = [] if drawn.grip is None else [(*held_at(placed.pose, size, drawn.grip), size)]
+        props = [(shape_of(one.thing).size, one.grip) for one in drawn.props]
+        others = [(*held_at(placed.pose, wide, grip), wide) for wide, grip in props]
+        inner = [(place, turn, (0.5 * wide, 0.5 * deep, high)) for place, turn, (wide, deep, high) in others]
+        return corners_of(placed, [*hand, *inner]), tops_of(placed, [*hand, *others])
 
     def _focus(
         self,

@@ -154,14 +154,44 @@ def test_whoever_has_no_early_days_has_no_growth() -> None:
 
 def test_tables_name_the_endpoint_that_the_grid_states() -> None:
     rows = [one for person in ("amara", "bruno", "chen") for one in life("ours", person, 0, 1, 2, 3)]
-    [table] = [
-        table for table in all_tables(rows, ["ours"], Endpoint.of({"late_days": 1})) if table.name == "late_days"
-    ]
+    endpoint = Endpoint.of({"late_days": 1}, "Stated before the first run and kept")
+    [table] = [table for table in all_tables(rows, ["ours"], endpoint) if table.name == "late_days"]
     assert table.rows == [["ours", "0.750 [0.750, 0.750] (3)"]]
-    assert "Stated beforehand; late days: each person's last day of an episode; early days: 2 to 5." in table.note
+    assert "and kept; late days: each person's last day of an episode; early days: 2 to 5." in table.note
     old = Endpoint.of({})
-    assert (old.late, old.early, old.stated) == (STATED.late, STATED.early, False)
-    assert str(old).startswith("Not stated by this grid, which is older; late days: each person's last third")
+    assert (old.late, old.early, old.measure) == (STATED.late, STATED.early, "help")
+    assert str(old).startswith("Not stated by this grid; late days: each person's last third")
+
+
+def test_another_measure_another_test_and_a_narrower_family_can_be_the_endpoint() -> None:
+    rows = [one for who in "abcdef" for m in ("ours", "random", "oracle") for one in life(m, who, 0, 1, 2)]
+    stated = {"measure": "predicate", "reference": "oracle", "against": ["ours"], "test": "t", "correction": "none"}
+    tables = {
+        table.name: table for table in all_tables(rows, ["ours", "random", "oracle"], Endpoint.of({"endpoint": stated}))
+    }
+    assert tables["late_days"].title == "Primary endpoint: predicate F1, mean of the late days"
+    found = tables["comparisons_late"]
+    assert found.title == "Difference to oracle in predicate F1, mean of the late days"
+    assert [(line[0], line[3]) for line in found.rows] == [("ours", "1.0000"), ("random", "–")]
+    assert "t test over people" in found.note
+    assert "Rows without a corrected p were not among the stated comparisons." in found.note
+
+
+def test_variants_are_a_control_and_a_noise_floor_and_no_methods_to_compare() -> None:
+    """ours 2/4, shared 3/4 of four tasks; sampled again 1/4 once: variance (1/4)^2 / 2 / 3, SD 0.102."""
+    kinds = {"ours": 2, "random": 1, "ours+shared": 3, "ours+again1": 2}
+    rows = [one for who in ("amara", "bruno", "chen") for m, n in kinds.items() for one in life(m, who, 0, n)]
+    odd = {"helped": 1, "useless": 3}
+    rows = [row.model_copy(update=odd) if (row.method, row.person, row.day) == ("ours+again1", "chen", 1) else row
+            for row in rows]  # fmt: skip
+    tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
+    assert [line[0] for line in tables["comparisons_late"].rows] == ["random"]
+    assert tables["control_shared"].rows[0][3] == "+0.250 [+0.250, +0.250]"
+    [sampled] = tables["noise"].rows
+    assert sampled[:2] == ["ours", "same days, replies sampled anew"]
+    assert (sampled[2][:5], sampled[3]) == ("0.102", "3")
+    assert tables["comparisons_late"].columns[-1] == "noise floor"
+    assert "+" not in "".join(line[0] for line in tables["late_days"].rows)
 
 
 def test_two_people_get_no_interval_and_no_detectable_difference() -> None:

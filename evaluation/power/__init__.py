@@ -1,0 +1,1 @@
+"""Before a benchmark is run: what its endpoint's test would find, by simulation."""
