@@ -106,7 +106,14 @@ class _Studies:
 
     @classmethod
     def draw(
-        cls, spreads: Sequence[Floats], test: str, correction: str, seed: int, *, skewed: bool = False
+        cls,
+        spreads: Sequence[Floats],
+        test: str,
+        correction: str,
+        seed: int,
+        *,
+        skewed: bool = False,
+        studies: int = STUDIES,
     ) -> _Studies:
         rng = np.random.default_rng(seed)
         people = len(spreads[0])
