@@ -23,13 +23,15 @@ import mmap
 import os
 import re
 import shutil
+import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -217,9 +219,11 @@ class Survey:
 def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     """A whole life of the program in a forked process; where it succeeds, what it left and its modules are noted."""
     from coopera.cli import main  # noqa: PLC0415 - heavy
+    from coopera.memory import rebuild, store  # noqa: PLC0415
     from coopera.memory.embeddings import bundled  # noqa: PLC0415
 
     code, base = 70, disk.base
+    rebuild.damage = store.damage = _prober()  # type: ignore[attr-defined]
     try:
         code = main(args)
         atexit._run_exitfuncs()
@@ -233,6 +237,51 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
     return code
+
+
+def _prober() -> Callable[..., str | None]:
+    """A stand-in for `coopera.memory.damage.damage`, whose processes are forked and need not import anything anew.
+
+    They come from one that is forked now, while there are no threads that could hold a lock then.
+    """
+    from coopera.memory.probe import reason_against  # noqa: PLC0415 - heavy
+
+    ours, theirs = socket.socketpair()
+    if os.fork() == 0:
+        ours.close()
+        talk = theirs.makefile("rw")
+        for line in talk:
+            talk.write(json.dumps(_in_a_fork(partial(reason_against, **json.loads(line)))) + "\n")
+            talk.flush()
+        os._exit(0)
+    theirs.close()
+    talk = ours.makefile("rw")
+
+    def damage(folder: Path, *, everything: bool = False) -> str | None:
+        talk.write(json.dumps({"folder": str(folder), "everything": everything}) + "\n")
+        talk.flush()
+        found: str | None = json.loads(talk.readline())
+        return found
+
+    return damage
+
+
+def _in_a_fork(look: Callable[[], str | None]) -> str | None:
+    """What a function says in a process of its own, or how that process ended."""
+    given, taken = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.write(taken, (look() or "").encode())
+            os._exit(0)
+        finally:
+            os._exit(70)
+    os.close(taken)
+    with os.fdopen(given) as file:
+        said = file.read()
+    _, status = os.waitpid(child, 0)
+    code = os.waitstatus_to_exitcode(status)
+    return (said or None) if code == 0 else f"reading its index ends the process with {code}"
 
 
 def _numbered(kinds: Iterable[str]) -> Iterator[str]:
@@ -261,7 +310,10 @@ def _import(names: Iterable[str]) -> None:
 
 def _warm_up(flags: Sequence[str], base: Path, data: Path) -> None:
     """Live such a day in this process, off the watched disk and without what has threads, so that much stays loaded."""
-    from coopera import Config, run_study  # noqa: PLC0415 - heavy
+    import typer.main  # noqa: PLC0415 - heavy
+
+    from coopera import Config, run_study  # noqa: PLC0415
+    from coopera.cli import app  # noqa: PLC0415
     from coopera.report.page import write_report  # noqa: PLC0415
     from coopera.rundir.directory import RunDir  # noqa: PLC0415
 
@@ -270,6 +322,8 @@ def _warm_up(flags: Sequence[str], base: Path, data: Path) -> None:
     config = Config(humans=[given["humans"]], days=days, hours=hours, pictures="none", data_dir=data, out=base / "warm")
     run_study(config, resumable=False)
     write_report(RunDir.open(base / "warm"))
+    command = typer.main.get_command(app)
+    typer.main.get_command = lambda _: command  # type: ignore[assignment]
     gc.collect()
     gc.freeze()
 

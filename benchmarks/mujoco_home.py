@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator
 from importlib import import_module
@@ -20,13 +21,14 @@ _KINDS = {"box": "box", "cylinder": "cylinder", "sphere": "sphere", "capsule": "
 
 def _geoms(scene: Scene) -> Iterator[str]:
     for room in scene.rooms:
-        (x, y), w, d = room.centre, room.x1 - room.x0, room.y1 - room.y0
-        yield f'<geom type="box" pos="{x} {y} -0.025" size="{w / 2} {d / 2} 0.025" rgba="0.7 0.6 0.45 1"/>'
+        for b in room.rectangles():
+            (x, y), w, d = b.middle, b.x1 - b.x0, b.y1 - b.y0
+            yield f'<geom type="box" pos="{x} {y} -0.025" size="{w / 2} {d / 2} 0.025" rgba="0.7 0.6 0.45 1"/>'
     for wall in scene.walls():
-        b = wall.bounds
-        walls = f"{(b.x1 - b.x0) / 2} {(b.y1 - b.y0) / 2} {WALL_HEIGHT / 2}"
-        middle = f"{(b.x0 + b.x1) / 2} {(b.y0 + b.y1) / 2} {WALL_HEIGHT / 2}"
-        yield f'<geom type="box" pos="{middle}" size="{walls}" rgba="0.9 0.88 0.82 1"/>'
+        cx, cy, wide, deep, yaw = wall.block
+        place, sides = f"{cx} {cy} {WALL_HEIGHT / 2}", f"{wide} {deep} {WALL_HEIGHT / 2}"
+        facing = f"{math.cos(yaw / 2)} 0 0 {math.sin(yaw / 2)}"
+        yield f'<geom type="box" pos="{place}" quat="{facing}" size="{sides}" rgba="0.9 0.88 0.82 1"/>'
     for thing in scene.objects:
         turn = about_z(thing.yaw)
         for part in parts_of(thing.cls, thing.size, thing.rgb):

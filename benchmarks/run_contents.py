@@ -1,25 +1,30 @@
 """What a run holds, so that two runs can be compared: every file is of a kind, and a kind says what of it counts.
 
+    python -m benchmarks.run_contents RUN...
+
 Seconds and process numbers differ between equal runs, so records are compared without them. A file of no kind counts
 too: that it is there at all is then what is compared.
 """
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 import json
 import re
 import sqlite3
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from langchain_core.embeddings import Embeddings
 
+from coopera.config.schema import default_data_dir
 from coopera.graphs import build_study_graph
-from coopera.memory import MemoryStream
-from coopera.memory.store import streams
+from coopera.memory import MemoryStream, bundled
+from coopera.memory.store import Store
 from coopera.rundir.directory import RunDir
 from coopera.studies.standing import THREAD, open_checkpoints
 
@@ -119,9 +124,10 @@ def differences(whole: Contents, other: Contents) -> list[str]:
 
 def _memories(folder: Path, embeddings: Embeddings) -> Iterator[tuple[str, str]]:
     """Each stream with what it remembers, in order."""
-    for name in streams(folder):
-        with MemoryStream.open(folder, name, embeddings, create=False) as stream:
-            yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
+    with closing(Store.open(folder, create=False)) as store:  # held open, since to open it takes longer than to read it
+        for name in store.streams():
+            with MemoryStream.open(folder, name, embeddings, create=False) as stream:
+                yield name, _sha(json.dumps([(one.text, one.hour, dict(one.metadata)) for one in stream.records()]))
 
 
 def _state(file: Path) -> str:
@@ -138,3 +144,17 @@ def _state(file: Path) -> str:
 
 def _sha(data: str | bytes) -> str:
     return hashlib.sha256(data.encode() if isinstance(data, str) else data).hexdigest()
+
+
+def main() -> None:
+    """Print a SHA-256 of each kind of what some runs hold: two versions of the code that agree in it do the same."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("runs", nargs="+", type=Path)
+    embeddings = bundled(default_data_dir() / "embeddings.sqlite")
+    for run in parser.parse_args().runs:
+        for kind, files in contents(run, embeddings).items():
+            print(f"{_sha(json.dumps(files, sort_keys=True))[:16]}  {len(files):4d}  {kind} of {run}")
+
+
+if __name__ == "__main__":
+    main()

@@ -51,11 +51,11 @@ def _check_index(folder: Path) -> None:
 
 
 def _main(folder: str, *, everything: bool) -> None:
-    """Read the store, or exit with the reason."""
+    """Read the store."""
     _check_index(Path(folder))
-    store = Store(open_client(Path(folder)), folder, folder, None)
+    store = Store(open_client(Path(folder)), "the store", folder, None)
     for name in store.streams():
-        log = Log(partial(store.raw, name), f"the memory stream {name!r}", exclusive=True)
+        log = Log(partial(store.raw, name), f"the memory stream {name!r}", store.vectors(name), exclusive=True)
         last = (len(log) - 1) // BLOCK
         for number in range(last + 1) if everything else {0, max(0, last - 1)} if len(log) else ():
             log.block(number)
@@ -63,10 +63,16 @@ def _main(folder: str, *, everything: bool) -> None:
                 log.records(range(number * BLOCK, min((number + 1) * BLOCK, len(log))))
 
 
-if __name__ == "__main__":
+def reason_against(folder: str, *, everything: bool) -> str | None:
+    """Why a store cannot be read; None where it can."""
     try:
-        _main(sys.argv[1], everything="--all" in sys.argv)
+        _main(folder, everything=everything)
     except DamagedMemoryError as err:
-        sys.exit(f"{err.where}: {err.what}")
+        return f"{err.where}: {err.what}"
     except (MemoryStoreError, OSError) as err:
-        sys.exit(str(err))
+        return str(err)
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(reason_against(sys.argv[1], everything="--all" in sys.argv))

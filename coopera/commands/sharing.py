@@ -116,14 +116,27 @@ def _interval(low: float | None, high: float | None) -> str:
 def export(
     run: RunPath,
     out: Annotated[Path, typer.Option(metavar="DIR", help="A new folder.")],
+    views: Annotated[
+        str,
+        typer.Option(
+            metavar="depth,instances,classes",
+            help="What to write of each picture besides its colours (DIR/views): the acts are done again for it.",
+        ),
+    ] = "",
     as_json: AsJson = False,
 ) -> None:
     """Write a run's days as Hugging Face data set (DIR/hours), LeRobot-style episodes (DIR/episodes) and Croissant."""
     from coopera.rundir.directory import RunDir
     from coopera.rundir.export import export as write
+    from coopera.studies.seen import export_views, kinds_of
 
-    made = write(RunDir.open(run), out)
+    kinds, source = kinds_of(views), RunDir.open(run)
+    made = write(source, out)
+    if kinds:
+        made["views"] = export_views(source, out / "views", kinds)
     if as_json:
         typer.echo(json.dumps(made, sort_keys=True))
     else:
         typer.echo(f"{made['hours']} hours and {made['episodes']} episodes of {made['frames']} frames: {made['out']}")
+        if kinds:
+            typer.echo(f"{made['views']} views ({', '.join(kinds)}): {out / 'views'}")

@@ -193,9 +193,8 @@ def _symbol(scene: Scene) -> Markup:
     """Rooms, walls and furniture; what lies about is left out."""
     marks = []
     for room in scene.rooms:
-        (x0, y1), (x1, y0) = _xy((room.x0, room.y0)), _xy((room.x1, room.y1))
-        box = '<rect class="room" x="{:.0f}" y="{:.0f}" width="{:.0f}" height="{:.0f}"/>'
-        marks.append(Markup(box).format(x0, y0, x1 - x0, y1 - y0))
+        line = " ".join(f"{x:.0f},{y:.0f}" for x, y in map(_xy, room.outline))
+        marks.append(Markup('<polygon class="room" points="{}"/>').format(line))
     for thing in scene.fixed:
         corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
         half_x, half_y = thing.size[0] / 2, thing.size[1] / 2
@@ -205,12 +204,11 @@ def _symbol(scene: Scene) -> Markup:
             Markup('<polygon class="thing" points="{}"><title>{}</title></polygon>').format(line, plain(thing.name))
         )
     for wall in scene.walls():
-        ends = [(one, wall.at) if wall.axis == "x" else (wall.at, one) for one in (wall.start, wall.end)]
-        (x0, y0), (x1, y1) = map(_xy, ends)
+        (x0, y0), (x1, y1) = map(_xy, wall.ends)
         marks.append(Markup('<path class="wall" d="M{:.0f} {:.0f}L{:.0f} {:.0f}"/>').format(x0, y0, x1, y1))
     for room in scene.rooms:
         if room.x1 - room.x0 >= _ROOM_LABEL:
-            x, y = _xy((room.x0, room.y1))
+            x, y = _xy(min(room.outline, key=lambda corner: (-corner[1], corner[0])))
             marks.append(
                 Markup('<text class="roomname" x="{:.0f}" y="{:.0f}">{}</text>').format(x + 14, y + 32, room.name)
             )

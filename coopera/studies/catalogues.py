@@ -15,7 +15,7 @@ from coopera.graphs.players.person_models import PERSON_MODELS
 from coopera.models.classifiers import find_classifier
 from coopera.models.classifiers.instruction import read_recipe
 from coopera.models.households import chosen_household, household_file
-from coopera.models.offline.household.knowledge import Household, shipped
+from coopera.models.offline.household.knowledge import ROBOTS, Household, shipped
 from coopera.models.offline.household.knowledge import load as load_household
 from coopera.people import shipped as humans
 from coopera.people.answers import consent_text
@@ -192,7 +192,7 @@ def _knowledge(config: Config) -> None:
     """Refuse a household file of one's own, or a file of changes, that is wrong before anything is written."""
     named = [household_file(spec) for spec in sorted(set(config.models.model_dump().values()))]
     for own in (chosen_household(config.household), *named):
-        if own is not None and own.is_file():
+        if own is not None and own != ROBOTS and own.is_file():
             load_household(own)
     open_changes(config.changes, config.seed, known_activities(config))
 

@@ -45,4 +45,4 @@ def _away_from(ground: Ground, others: Sequence[Point]) -> Point | None:
 
 
 def _area(room: Room) -> float:
-    return round((room.x1 - room.x0) * (room.y1 - room.y0), 6)
+    return round(room.area, 6)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.homes.catalogue import parts_of
+from coopera.simulation.homes.catalogue import solids
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.rotations import Array
 
@@ -26,14 +26,13 @@ class Elbowroom:
         self.names: list[str] = []
         rows: list[tuple[float, ...]] = []
         for thing in scene.fixed:
-            for part in parts_of(thing.cls, thing.size, thing.rgb):
+            for solid in solids(thing):
                 self.names.append(thing.name)
-                rows.append((*thing.to_world(*part.position), *part.around, thing.yaw))
+                rows.append((*thing.to_world(*solid.middle), *solid.half, thing.yaw))
         for wall in scene.walls():
-            b = wall.bounds
+            x, y, half_x, half_y, yaw = wall.block
             self.names.append("wall")
-            size = ((b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, _WALL / 2)
-            rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, _WALL / 2, *size, 0.0))
+            rows.append((x, y, _WALL / 2, half_x, half_y, _WALL / 2, yaw))
         self._boxes = np.array(rows).reshape(-1, 7)
         self._round = np.hypot(self._boxes[:, 3], self._boxes[:, 4]) + _THICK + _SLACK
 

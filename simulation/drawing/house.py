@@ -8,12 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.simulation.drawing.geometry import Mesh, fine_box, flat_uv, merged, painted
+from coopera.simulation.drawing.geometry import Mesh, Solid, fine_box, flat_uv, merged, painted
 from coopera.simulation.drawing.materials import PANE, Material, wooden
 from coopera.simulation.homes.catalogue import catalogue, parts_of
-from coopera.simulation.homes.floorplan import WALL_THICKNESS, Wall
+from coopera.simulation.homes.floorplan import WALL_THICKNESS, Block, Wall, wall_on
 from coopera.simulation.homes.scene import Doorway, Room, Scene, rgb_of
 from coopera.simulation.shapes.kit import WHITE, Colour, shade
+from coopera.simulation.shapes.rotations import about_z
 
 WALL_HEIGHT = 2.4
 LINTEL = 2.06
@@ -22,6 +23,8 @@ _CEILING: Colour = (0.96, 0.955, 0.945)
 _SKIRTING = 0.07
 _STEP = 0.8
 """Floors and walls are divided into pieces no larger, since daylight is reckoned at their corners."""
+_PARALLEL = 0.01
+"""Lines whose slopes differ by less run along each other."""
 _TILED = ("kitchen", "bathroom", "laundry room", "garage")
 
 
@@ -52,24 +55,18 @@ def shell(scene: Scene, room: Room, walls: Sequence[Wall]) -> Shell:
     kind = catalogue().rooms.get(room.kind)
     ground = rgb_of(kind.floor) if kind else (0.7, 0.66, 0.6)
     paint = rgb_of(kind.wall) if kind else WHITE
-    w, d = room.x1 - room.x0, room.y1 - room.y0
-    cx, cy = room.centre
-    grain = 0 if w >= d else 1
+    grain = 0 if room.x1 - room.x0 >= room.y1 - room.y0 else 1
     bare = Material.PLAIN if kind is None else Material.CARPET
     material = Material.TILES if room.kind in _TILED else Material.PLANKS if wooden(ground) else bare
-    low = [("floor", _slab((cx, cy, -0.025), (w / 2, d / 2, 0.025), ground, material, grain))]
-    above = [("ceiling", _slab((cx, cy, WALL_HEIGHT + 0.02), (w / 2, d / 2, 0.02), _CEILING, Material.PAINT, 0))]
+    low = [("floor", _level(room, 0.0, 0.025, ground, material, grain))]
+    above = [("ceiling", _level(room, WALL_HEIGHT, -0.02, _CEILING, Material.PAINT, 0))]
     side = Material.WALL_TILES if room.kind == "bathroom" else Material.PAINT
     for wall in walls:
-        for x, y, along in faces_of(room, wall):
-            half = (along / 2, WALL_THICKNESS / 4) if wall.axis == "x" else (WALL_THICKNESS / 4, along / 2)
-            middle = WALL_HEIGHT / 2
-            low.append(
-                ("wall", _slab((x, y, middle), (*half, middle), paint, side, 2 if side == Material.PAINT else 0))
-            )
+        for face in faces_of(room, wall):
+            low.append(("wall", _wall(face, 0.0, WALL_HEIGHT, paint, side, 2 if side == Material.PAINT else 0)))
             if room.kind not in _TILED:
-                board = (half[0] + 0.006, half[1] + 0.006, _SKIRTING / 2)
-                low.append(("wall", _slab((x, y, _SKIRTING / 2), board, shade(WHITE, 0.97), Material.PLAIN, 0)))
+                board = face._replace(half_x=face.half_x + 0.006, half_y=face.half_y + 0.006)
+                low.append(("wall", _wall(board, 0.0, _SKIRTING, shade(WHITE, 0.97), Material.PLAIN, 0)))
     for door in scene.doors:
         if room.name in door.between:
             above += [("wall", lintel) for lintel in _lintel(room, door, paint)]
@@ -78,12 +75,7 @@ def shell(scene: Scene, room: Room, walls: Sequence[Wall]) -> Shell:
 
 def loose_walls(walls: Sequence[Wall]) -> Mesh:
     """The walls of an imported home, as they stand."""
-    found = []
-    for wall in walls:
-        b, middle = wall.bounds, WALL_HEIGHT / 2
-        half = ((b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, middle)
-        found.append(_slab(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, middle), half, shade(WHITE, 0.94), Material.PAINT, 2))
-    return merged(found)
+    return merged([_wall(wall.block, 0.0, WALL_HEIGHT, shade(WHITE, 0.94), Material.PAINT, 2) for wall in walls])
 
 
 def windows(scene: Scene) -> dict[str, list[Window]]:
@@ -125,39 +117,64 @@ def sunlight(scene: Scene) -> tuple[float, float, float]:
     return math.cos(angle) * math.cos(steep), math.sin(angle) * math.cos(steep), math.sin(steep)
 
 
-def faces_of(room: Room, wall: Wall) -> list[tuple[float, float, float]]:
-    """The room's own half of a wall on its edge: middle of the piece and its length; empty if it is elsewhere."""
-    quarter = WALL_THICKNESS / 4
-    low, high = (room.x0, room.x1) if wall.axis == "x" else (room.y0, room.y1)
-    edges = (room.y0, room.y1) if wall.axis == "x" else (room.x0, room.x1)
-    start, end = max(wall.start, low), min(wall.end, high)
-    if end - start < 0.02:
-        return []
-    found = []
-    for edge, inwards in ((edges[0], 1), (edges[1], -1)):
-        if abs(edge - wall.at) < 0.03:
-            along, across = (start + end) / 2, wall.at + inwards * quarter
-            found.append((along, across, end - start) if wall.axis == "x" else (across, along, end - start))
+def faces_of(room: Room, wall: Wall) -> list[Block]:
+    """The room's own half of a wall on its edge, for each side of the room that it stands on."""
+    quarter, line, found = WALL_THICKNESS / 4, wall.line, []
+    for side, inward, turns_in in room.edges:
+        start, end = max(wall.start, side.start), min(wall.end, side.end)
+        own = side.line
+        if side.axis != wall.axis or end - start < 0.02 or abs(own.slope - line.slope) > _PARALLEL:
+            continue
+        middle = (start + end) / 2
+        if abs(own.across(middle) - line.across(middle)) >= 0.03:
+            continue
+        # where the room goes on around the end of a wall, the corner is filled
+        start -= WALL_THICKNESS / 2 if turns_in[0] and start == side.start else 0.0
+        end += WALL_THICKNESS / 2 if turns_in[1] and end == side.end else 0.0
+        middle, half = (start + end) / 2, (end - start) / 2
+        if wall.axis == "x" and not wall.rise:
+            found.append(Block(middle, wall.at + inward[1] * quarter, half, quarter))
+        elif not wall.rise:
+            found.append(Block(wall.at + inward[0] * quarter, middle, quarter, half))
+        else:
+            x, y, along, _, yaw = wall_on(line, start, end).block
+            found.append(Block(x + inward[0] * quarter, y + inward[1] * quarter, along, quarter, yaw))
     return found
 
 
 def _lintel(room: Room, door: Doorway, paint: Colour) -> list[Mesh]:
     """The room's half of the wall over a door."""
-    half = door.width / 2
-    walls = [
-        Wall("x", room.y0, door.x - half, door.x + half),
-        Wall("x", room.y1, door.x - half, door.x + half),
-        Wall("y", room.x0, door.y - half, door.y + half),
-        Wall("y", room.x1, door.y - half, door.y + half),
-    ]
     found = []
-    for wall in walls:
-        across = abs((door.y if wall.axis == "x" else door.x) - wall.at)
-        for x, y, along in faces_of(room, wall) if across < 0.05 else []:
-            tall = (WALL_HEIGHT - LINTEL) / 2
-            sides = (along / 2, WALL_THICKNESS / 4) if wall.axis == "x" else (WALL_THICKNESS / 4, along / 2)
-            found.append(_slab((x, y, LINTEL + tall), (*sides, tall), paint, Material.PAINT, 2))
+    for line in (edge.wall.line for edge in room.edges):
+        along, half = door.x if line.axis == "x" else door.y, door.width / 2 / math.hypot(1.0, line.slope)
+        over = wall_on(line, along - half, along + half)
+        for face in faces_of(room, over) if line.aside(door.x, door.y) < 0.05 else []:
+            found.append(_wall(face, LINTEL, WALL_HEIGHT, paint, Material.PAINT, 2))
     return found
+
+
+def _level(room: Room, at: float, thick: float, colour: Colour, material: Material, grain: int) -> Mesh:
+    """A floor, or a ceiling where `thick` is negative, its visible side at a height."""
+    triangles = room.triangles(_STEP)
+    if triangles is None:
+        w, d = room.x1 - room.x0, room.y1 - room.y0
+        half = (w / 2, d / 2, abs(thick))
+        return _slab((*room.bounds.middle, at - thick), half, colour, material, grain)
+    corners = np.full((3 * len(triangles), 3), at, dtype=np.float32)
+    corners[:, :2] = triangles[:, :: 1 if thick > 0 else -1].reshape(-1, 2)
+    normal = np.tile(np.array((0.0, 0.0, math.copysign(1.0, thick)), dtype=np.float32), (len(corners), 1))
+    faces = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
+    return painted(Solid(corners, normal, flat_uv(corners, normal, grain), faces), colour, material)
+
+
+def _wall(block: Block, low: float, high: float, colour: Colour, material: Material, grain: int) -> Mesh:
+    """An upright piece of wall from one height to another."""
+    half = (block.half_x, block.half_y, (high - low) / 2)
+    if not block.yaw:
+        return _slab((block.x, block.y, low + half[2]), half, colour, material, grain)
+    return _slab((0.0, 0.0, low + half[2]), half, colour, material, grain).moved(
+        (block.x, block.y, 0.0), about_z(block.yaw)
+    )
 
 
 def _slab(

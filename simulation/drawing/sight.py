@@ -21,16 +21,19 @@ class Pieces(Protocol):
     high: Array
     room: NDArray[np.int64]
     above: NDArray[np.bool_]
+    casts: NDArray[np.bool_]
 
 
-def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces) -> NDArray[np.int64]:
-    """Numbers of the pieces that may be seen, the nearest first."""
+def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces, rooms: set[int] | None) -> NDArray[np.int64]:
+    """Numbers of the pieces that may be seen: the nearest first, and last walls, floors and windows, which are behind.
+
+    `rooms` are those that are looked into: see `rooms_seen`.
+    """
     if not len(pieces.room):
         return np.zeros(0, dtype=np.int64)
     kept = _in_pyramid(lens, pieces.low, pieces.high)
     if camera.eye[2] > WALL_HEIGHT:
         kept &= ~pieces.above
-    rooms = rooms_seen(scene, camera)
     if rooms is not None:
         seen = np.zeros(len(scene.rooms) + 1, dtype=bool)
         seen[[*sorted(rooms), -1]] = True
@@ -39,7 +42,7 @@ def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces) -> NDArra
     eye = np.array(camera.eye)
     nearest = np.clip(eye, pieces.low[chosen], pieces.high[chosen])
     away = np.round(((nearest - eye) ** 2).sum(axis=1), 6)
-    return chosen[np.argsort(away, kind="stable")]
+    return chosen[np.lexsort((away, ~pieces.casts[chosen]))]
 
 
 def _in_pyramid(lens: Array, low: Array, high: Array) -> NDArray[np.bool_]:
@@ -86,10 +89,15 @@ def rooms_seen(scene: Scene, camera: Camera) -> set[int] | None:
 
 def _posts(scene: Scene, room: int, door: Doorway) -> list[tuple[float, float]]:
     """The corners of a doorway's opening in the floor plan, a little wider than it is."""
-    r, half = scene.rooms[room], door.width / 2 + 0.02
-    across = min(abs(door.y - r.y0), abs(door.y - r.y1)) < min(abs(door.x - r.x0), abs(door.x - r.x1))
-    dx, dy = (half, 0.06) if across else (0.06, half)
-    return [(door.x + i * dx, door.y + j * dy) for i in (-1, 1) for j in (-1, 1)]
+    half = door.width / 2 + 0.02
+    wall = min((edge.wall for edge in scene.rooms[room].edges), key=lambda one: one.distance(door.x, door.y))
+    begin, end = wall.ends
+    ux, uy = ((end[i] - begin[i]) / math.dist(begin, end) for i in (0, 1))
+    if wall.axis == "x":
+        (a, b), (c, d) = (half * ux, half * uy), (-0.06 * uy, 0.06 * ux)
+    else:
+        (a, b), (c, d) = (0.06 * uy, -0.06 * ux), (half * ux, half * uy)
+    return [(door.x + i * a + j * c, door.y + i * b + j * d) for i in (-1, 1) for j in (-1, 1)]
 
 
 def _between(

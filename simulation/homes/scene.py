@@ -22,51 +22,24 @@ from coopera.core.foreign.files import load_json, read_text
 from coopera.core.household import ObjectMap, SceneId
 from coopera.core.notebook.cards import card
 from coopera.core.people import Frozen
-from coopera.simulation.homes.floorplan import TOUCH, Bounds, Point, Wall, cut, merge
-from coopera.simulation.homes.plan_card import Footprint, floor_plan
+from coopera.simulation.homes.floorplan import TOUCH, Bounds, Line, Point, Wall, cut, merge, wall_on
+from coopera.simulation.homes.measured import Measured
+from coopera.simulation.homes.plan_card import Area, Footprint, floor_plan
+from coopera.simulation.homes.rooms import Place
+from coopera.simulation.homes.rooms import Room as Room
 
 SHIPPED = Path(__file__).parents[1] / "scenes"
 SCHEMA_VERSION = 1
 DOOR_WIDTH = 0.95
 MOST_ROOMS, MOST_THINGS = 500, 10_000
+_PARALLEL = 0.01
+"""Lines whose slopes differ by less run along each other."""
 
 ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
 """What a home may be called."""
 ObjectKind: TypeAlias = Literal["fixed", "movable"]
 Length = Annotated[float, Field(gt=0, le=20)]
-Place = Annotated[float, Field(ge=-100, le=100)]
 Label = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=80)]
-
-
-class Room(Frozen):
-    """An axis-aligned rectangular room; `kind` is "bedroom" where `name` may be "bedroom 2"."""
-
-    name: str = Field(min_length=1, max_length=60)
-    kind: str = Field(min_length=1, max_length=60)
-    x0: Place
-    y0: Place
-    x1: Place
-    y1: Place
-
-    @model_validator(mode="after")
-    def _has_area(self) -> Room:
-        if self.x1 - self.x0 < 0.8 or self.y1 - self.y0 < 0.8:
-            raise ValueError(f"room {self.name!r} must be at least 0.8 m wide and deep (x0 < x1, y0 < y1)")
-        return self
-
-    @property
-    def bounds(self) -> Bounds:
-        """The room's rectangle."""
-        return Bounds(self.x0, self.y0, self.x1, self.y1)
-
-    @property
-    def centre(self) -> Point:
-        """The middle of the floor."""
-        return (self.x0 + self.x1) / 2, (self.y0 + self.y1) / 2
-
-    def contains(self, x: float, y: float) -> bool:
-        """Whether a point lies in the room, its edge included."""
-        return self.x0 <= x <= self.x1 and self.y0 <= y <= self.y1
 
 
 class Doorway(Frozen):
@@ -90,7 +63,8 @@ class SceneObject(Frozen):
 
     `position` is the centre of the object's base. `size` is (width, depth, height) in the object's own frame.
     `on` names the fixed object under a movable one. A movable object without `on` stands on the floor.
-    `mesh` replaces our own shapes in pictures. For everything else the object is the box of its size.
+    `mesh` replaces our own shapes in pictures. `measured` is what that mesh says about its use, and replaces what the
+    catalogue says of the class. For everything else the object is the box of its size.
     """
 
     id: int = Field(ge=0)
@@ -105,6 +79,7 @@ class SceneObject(Frozen):
     colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
     on: str | None = None
     mesh: list[MeshPart] = Field([], max_length=16)
+    measured: Measured | None = None
 
     @property
     def xy(self) -> Point:
@@ -126,7 +101,13 @@ class SceneObject(Frozen):
         """The main colour, each channel in [0, 1]."""
         return rgb_of(self.colour)
 
-    @property
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the object with some fields changed; what was worked out of the old ones is not carried over."""
+        copied = super().model_copy(update=update, deep=deep)
+        copied.__dict__.pop("bounds", None)
+        return copied
+
+    @cached_property
     def bounds(self) -> Bounds:
         """The axis-aligned rectangle around the turned footprint."""
         cos, sin = abs(math.cos(self.yaw)), abs(math.sin(self.yaw))
@@ -238,7 +219,7 @@ class Scene(Frozen):
     def room_at(self, x: float, y: float) -> Room:
         """The room that holds a point, or else the nearest one (ties: the first listed)."""
         inside = next((room for room in self.rooms if room.contains(x, y)), None)
-        return inside or min(self.rooms, key=lambda room: room.bounds.distance(x, y))
+        return inside or min(self.rooms, key=lambda room: room.distance(x, y))
 
     def object_map(self, kind: ObjectKind) -> ObjectMap:
         """{name: (id, room)} of the initial places, sorted by name."""
@@ -251,16 +232,14 @@ class Scene(Frozen):
         """
         if self.stage is not None:
             return sorted(self.stage)
-        lines: dict[tuple[Literal["x", "y"], float], list[tuple[float, float]]] = {}
-        for room in self.rooms:
-            for at in (room.y0, room.y1):
-                lines.setdefault(("x", round(at, 2)), []).append((room.x0, room.x1))
-            for at in (room.x0, room.x1):
-                lines.setdefault(("y", round(at, 2)), []).append((room.y0, room.y1))
+        lines: dict[Line, list[tuple[float, float]]] = {}
+        for wall in (edge.wall for room in self.rooms for edge in room.edges):
+            line = wall.line
+            lines.setdefault(line._replace(at=round(line.at, 2)), []).append((wall.start, wall.end))
         walls: list[Wall] = []
-        for (axis, at), spans in sorted(lines.items()):
-            gaps = [_gap(door, axis) for door in self.doors if self._stands_on(door, axis, at)]
-            walls += [Wall(axis, at, start, end) for start, end in cut(merge(spans), gaps)]
+        for line, spans in sorted(lines.items()):
+            gaps = [_gap(door, line) for door in self.doors if self._stands_on(door, line)]
+            walls += [wall_on(line, start, end) for start, end in cut(merge(spans), gaps)]
         return walls
 
     def _repr_html_(self) -> str:
@@ -270,26 +249,30 @@ class Scene(Frozen):
             Footprint(f"{one.name}, {one.room}", *one.xy, *one.size[:2], one.yaw, one.colour)
             for one in sorted(self.objects, key=lambda one: one.top)
         ]
-        return card(self.id, about, floor_plan([(one.name, one.bounds) for one in self.rooms], self.walls(), drawn))
+        rooms = [Area(one.name, one.outline, one.centre) for one in self.rooms]
+        return card(self.id, about, floor_plan(rooms, self.walls(), drawn))
 
-    def _stands_on(self, door: Doorway, axis: str, at: float) -> bool:
-        across, along = (door.y, door.x) if axis == "x" else (door.x, door.y)
-        if abs(across - at) > 2 * TOUCH:
-            return False
-        for name in door.between:
-            room = self.room(name)
-            if room is None:
-                return False
-            low, high = (room.x0, room.x1) if axis == "x" else (room.y0, room.y1)
-            edges = (room.y0, room.y1) if axis == "x" else (room.x0, room.x1)
-            if min(abs(edge - at) for edge in edges) > 2 * TOUCH or not low <= along <= high:
-                return False
-        return True
+    def _stands_on(self, door: Doorway, line: Line) -> bool:
+        """Whether a door stands on a line that has a side of both its rooms."""
+        return line.aside(door.x, door.y) <= 2 * TOUCH and all(
+            any(_beside(door, line, edge.wall) for edge in room.edges)
+            for room in map(self.room, door.between)
+            if room is not None
+        )
 
 
-def _gap(door: Doorway, axis: str) -> tuple[float, float]:
-    middle = door.x if axis == "x" else door.y
-    return middle - door.width / 2, middle + door.width / 2
+def _beside(door: Doorway, line: Line, side: Wall) -> bool:
+    """Whether one side of a room lies on a line and goes past a door."""
+    along = door.x if line.axis == "x" else door.y
+    if side.axis != line.axis or not side.start <= along <= side.end:
+        return False
+    own = side.line
+    return abs(own.slope - line.slope) < _PARALLEL and abs(own.across(along) - line.across(along)) <= 2 * TOUCH
+
+
+def _gap(door: Doorway, line: Line) -> tuple[float, float]:
+    middle, half = door.x if line.axis == "x" else door.y, door.width / 2 / math.hypot(1.0, line.slope)
+    return middle - half, middle + half
 
 
 def list_scenes(folders: Sequence[Path] = ()) -> list[str]:
@@ -360,13 +343,18 @@ def dump_scene(scene: Scene) -> str:
         if key == "stage" and value is None:
             continue
         if isinstance(value, list):
-            if key == "objects":
-                value = [{name: field for name, field in row.items() if name != "mesh" or field} for row in value]
+            if key in ("rooms", "objects"):
+                value = [{name: one for name, one in row.items() if name not in _OFTEN_NONE or one} for row in value]
+            elif key == "stage":
+                value = [row if row[-1] else row[:-1] for row in value]
             rows = ",\n".join("    " + json.dumps(row, ensure_ascii=False) for row in value)
             parts.append(f'  "{key}": [\n{rows}\n  ]' if value else f'  "{key}": []')
         else:
             parts.append(f'  "{key}": {json.dumps(value)}')
     return "{\n" + ",\n".join(parts) + "\n}\n"
+
+
+_OFTEN_NONE = ("polygon", "mesh", "measured")
 
 
 def _scene_files(folders: Sequence[Path]) -> dict[str, Path]:

@@ -63,16 +63,7 @@ def furniture_on(scene: Scene, carrier: SceneObject) -> list[Taken]:
     near = [other for other in scene.fixed if other.name != carrier.name and other.bounds.overlaps(around)]
     filled = [taken_by(other) for other in near if other.top > carrier.position[2] + 0.01]
     room = scene.room(carrier.room)
-    return filled if room is None else [*filled, *_outside(room.bounds)]
-
-
-def _outside(room: Bounds) -> list[Taken]:
-    out = room.grown(_OVERHANG)
-    strips = (
-        *(out._replace(x1=room.x0), out._replace(x0=room.x1)),
-        *(out._replace(y1=room.y0), out._replace(y0=room.y1)),
-    )
-    return [Taken(strip, 0.0, math.inf) for strip in strips]
+    return filled if room is None else [*filled, *(Taken(b, 0.0, math.inf) for b in room.outside(around, _OVERHANG))]
 
 
 def spots(
@@ -82,7 +73,7 @@ def spots(
 
     A thing that is larger than a surface may hang over its edge, centred, or towards the front where the carrier has
     a back. Two yaws are tried: the carrier's own and a quarter turn. Nothing is put through the parts of the
-    furniture that it stands on, such as the pole of a lamp; those of imported furniture are not known.
+    furniture that it stands on, such as the pole of a lamp.
 
     Args:
         carrier: The furniture or, for what goes inside, perhaps a thing; it is where its position and yaw say.
@@ -149,6 +140,8 @@ def _local(surface: Surface, half: tuple[float, float]) -> Array:
 
 
 def _parts(carrier: SceneObject) -> Array:
+    if carrier.measured is not None:
+        return np.array(carrier.measured.solids).reshape(-1, 6)
     return _NOTHING if carrier.mesh else _solid(carrier.cls, carrier.size)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,8 +76,7 @@ def _pictured(scene: Scene, camera: Camera, size: tuple[int, int], renderer: Ren
 
 
 def _corners(room: Room) -> list[Point]:
-    b = room.bounds.grown(-_CORNER)
-    return list(product((b.x0, b.x1), (b.y0, b.y1)))
+    return room.corners(_CORNER) or [room.centre]
 
 
 def _outlook(scene: Scene, room: Room, corner: Point) -> float:

@@ -85,11 +85,17 @@ class Kit:
         self.parts: list[Part] = []
 
     def box(
-        self, at: tuple[float, float, float], size: Size, colour: Colour | None = None, *, tilt: float = 0.0
+        self,
+        at: tuple[float, float, float],
+        size: Size,
+        colour: Colour | None = None,
+        *,
+        tilt: float = 0.0,
+        yaw: float = 0.0,
     ) -> None:
-        """Add a box by the centre of its base; `tilt` (radians) leans it about x, its top towards -y."""
+        """Add a box by the centre of its base; `tilt` (radians) leans it about x, its top to -y; or `yaw` turns it."""
         half = (max(size[0] / 2, _THIN), max(size[1] / 2, _THIN), max(size[2] / 2, _THIN))
-        turn = (math.sin(tilt / 2), 0.0, 0.0, math.cos(tilt / 2))
+        turn = (math.sin(tilt / 2), 0.0, math.sin(yaw / 2), math.cos((tilt or yaw) / 2))
         middle = (at[0], at[1], at[2] + half[2])
         self._add("box", middle, turn, colour, half=half)
 
@@ -115,6 +121,20 @@ class Kit:
     ) -> None:
         """Add a capsule by its centre; `length` is from tip to tip."""
         self._add("capsule", at, _TURN[axis], colour, radius=radius, length=length - 2 * radius)
+
+    def bar(
+        self,
+        first: tuple[float, float, float],
+        second: tuple[float, float, float],
+        radius: float,
+        colour: Colour | None = None,
+    ) -> None:
+        """Add a capsule from one point to another that is neither before nor behind it (the same y)."""
+        (x, y, z), (to_x, _, to_z) = first, second
+        lean = math.atan2(to_x - x, to_z - z) / 2
+        turn = (0.0, math.sin(lean), 0.0, math.cos(lean))
+        middle = ((x + to_x) / 2, y, (z + to_z) / 2)
+        self._add("capsule", middle, turn, colour, radius=radius, length=math.hypot(to_x - x, to_z - z))
 
     def ball(self, at: tuple[float, float, float], radius: float, colour: Colour | None = None) -> None:
         """Add a sphere by its centre."""

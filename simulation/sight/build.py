@@ -13,7 +13,7 @@ from pathlib import Path
 from coopera.simulation.drawing.house import WALL_HEIGHT, faces_of
 from coopera.simulation.drawing.scenery import Scenery, parts_mesh, shape_mesh, thing_mesh
 from coopera.simulation.homes.catalogue import catalogue, parts_of
-from coopera.simulation.homes.floorplan import WALL_THICKNESS, Point, Wall
+from coopera.simulation.homes.floorplan import Block, Point, Wall
 from coopera.simulation.homes.meshes import part_file
 from coopera.simulation.homes.scene import Room, Scene, SceneObject, rgb_of
 from coopera.simulation.shapes.kit import MOST_PARTS, WHITE, Colour, Kit, Part, Size, shade
@@ -173,15 +173,16 @@ def _room_body(home: BuiltHome, room: Room, walls: list[Wall]) -> int:
     kind = catalogue().rooms.get(room.kind)
     floor = rgb_of(kind.floor) if kind else (0.7, 0.66, 0.6)
     paint = rgb_of(kind.wall) if kind else WHITE
-    w, d = room.x1 - room.x0, room.y1 - room.y0
-    kit = Kit((w, d, WALL_HEIGHT), paint)
-    kit.box((0, 0, -0.05), (w, d, 0.05), floor)
-    cx, cy = room.centre
+    kit = Kit((room.x1 - room.x0, room.y1 - room.y0, WALL_HEIGHT), paint)
+    cx, cy = room.bounds.middle
+    for b in room.rectangles():
+        x, y = b.middle
+        kit.box((x - cx, y - cy, -0.05), (b.x1 - b.x0, b.y1 - b.y0, 0.05), floor)
     for wall in walls:
-        for piece in faces_of(room, wall):
-            x, y, along = piece
-            size = (along, WALL_THICKNESS / 2) if wall.axis == "x" else (WALL_THICKNESS / 2, along)
-            kit.box((x - cx, y - cy, 0), (*size, WALL_HEIGHT), shade(paint, 0.94 if wall.axis == "x" else 1.0))
+        for face in faces_of(room, wall):
+            _upright(kit, face._replace(x=face.x - cx, y=face.y - cy), shade(paint, 0.94 if wall.axis == "x" else 1.0))
+    for start in range(MOST_PARTS, len(kit.parts), MOST_PARTS):  # a room of many corners is more than one body
+        _boxes(home, kit.parts[start : start + MOST_PARTS], (cx, cy))
     return _boxes(home, kit.parts[:MOST_PARTS], (cx, cy))
 
 
@@ -189,10 +190,14 @@ def _stage_body(home: BuiltHome, walls: list[Wall]) -> int:
     """Some walls of an imported home, as they stand."""
     kit = Kit((1.0, 1.0, WALL_HEIGHT), WHITE)
     for wall in walls:
-        b = wall.bounds
-        paint = shade(WHITE, 0.88 if wall.axis == "x" else 0.94)
-        kit.box(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, 0), (b.x1 - b.x0, b.y1 - b.y0, WALL_HEIGHT), paint)
+        _upright(kit, wall.block, shade(WHITE, 0.88 if wall.axis == "x" else 0.94))
     return _boxes(home, kit.parts, (0.0, 0.0))
+
+
+def _upright(kit: Kit, block: Block, paint: Colour) -> None:
+    """A piece of wall from the floor to the ceiling."""
+    size = (2 * block.half_x, 2 * block.half_y, WALL_HEIGHT)
+    kit.box((block.x, block.y, 0), size, paint, yaw=block.yaw)
 
 
 def _boxes(home: BuiltHome, parts: list[Part], at: Point) -> int:
@@ -202,6 +207,7 @@ def _boxes(home: BuiltHome, parts: list[Part], at: Point) -> int:
         shapeTypes=[pybullet.GEOM_BOX for _ in parts],
         halfExtents=[list(part.half) for part in parts],
         collisionFramePositions=[list(part.position) for part in parts],
+        collisionFrameOrientations=[list(part.orientation) for part in parts],
         physicsClientId=home.client,
     )
     return int(

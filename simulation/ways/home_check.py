@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from coopera.core.errors import SimulationError
 from coopera.simulation.homes.catalogue import FLAT, surfaces
+from coopera.simulation.homes.floorplan import Wall
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Taken, furniture_on, spots, taken_by
 from coopera.simulation.ways.navigation import REACH, Navigator
@@ -17,6 +18,8 @@ FLOOR_REACH = 0.60
 _SLACK = 0.02
 _SMALL = (0.08, 0.08, 0.09)
 _FLOATING = 0.03
+_ON_WALL = 1.0
+"""Furniture whose base is higher hangs on a wall: nobody need walk up to it (metres)."""
 
 
 def check(scene: Scene) -> list[str]:
@@ -35,38 +38,33 @@ def check(scene: Scene) -> list[str]:
 
 
 def _rooms(scene: Scene) -> Iterator[str]:
-    if scene.stage is not None:  # a room that is no rectangle is imported as the rectangle around it
+    if scene.stage is not None:  # a room may be imported as the rectangle around it
         return
     for a, b in combinations(scene.rooms, 2):
-        if a.bounds.overlaps(b.bounds, -_SLACK):
+        if a.overlaps(b, _SLACK):
             yield f"The rooms {a.name} and {b.name} overlap."
 
 
 def _doors(scene: Scene) -> Iterator[str]:
     if scene.stage is not None:
         return
-    without = {(wall.axis, wall.at): wall for wall in scene.model_copy(update={"doors": []}).walls()}
+    lines = {wall.line for wall in scene.model_copy(update={"doors": []}).walls()}
+    walls = scene.walls()
     for door in scene.doors:
         pair = f"The door between {door.between[0]} and {door.between[1]}"
         touching = [
-            room.name
-            for room in scene.rooms
-            if room.bounds.distance(door.x, door.y) < 0.05 and room.name in door.between
+            room.name for room in scene.rooms if room.distance(door.x, door.y) < 0.05 and room.name in door.between
         ]
-        on_wall = any(
-            abs((door.y if axis == "x" else door.x) - at) < 0.05 and not _closed(scene, door.x, door.y)
-            for axis, at in without
-        )
+        on_wall = any(line.aside(door.x, door.y) < 0.05 for line in lines) and not _closed(walls, door.x, door.y)
         if len(touching) < 2 or not on_wall:
             yield f"{pair} does not stand on a wall that both share."
 
 
-def _closed(scene: Scene, x: float, y: float) -> bool:
+def _closed(walls: Sequence[Wall], x: float, y: float) -> bool:
     """Whether a wall still stands where a door should be."""
     return any(
-        abs((y if wall.axis == "x" else x) - wall.at) < 0.05
-        and wall.start + _SLACK < (x if wall.axis == "x" else y) < wall.end - _SLACK
-        for wall in scene.walls()
+        wall.line.aside(x, y) < 0.05 and wall.start + _SLACK < (x if wall.axis == "x" else y) < wall.end - _SLACK
+        for wall in walls
     )
 
 
@@ -75,7 +73,7 @@ def _places(scene: Scene) -> Iterator[str]:
         room = scene.room(thing.room)
         if room is None:  # the schema forbids it
             continue
-        if not room.bounds.encloses(thing.bounds, _SLACK):
+        if not room.encloses(thing.bounds, _SLACK):
             yield f"{thing.name} {'stands' if thing.fixed else 'lies'} outside its room, the {room.name}."
         if thing.position[2] < -_SLACK:
             yield f"{thing.name} is sunk into the floor."
@@ -109,8 +107,8 @@ def _supports(scene: Scene) -> Iterator[str]:
         if abs(x) > carrier.size[0] / 2 + _SLACK or abs(y) > carrier.size[1] / 2 + _SLACK:
             yield f"{thing.name} does not lie over {carrier.name}, which should carry it."
         heights = [carrier.position[2] + surface.z for surface in surfaces(carrier)]
-        if min(abs(thing.position[2] - height) for height in heights) > _FLOATING:
-            known = ", ".join(f"{height:.2f}" for height in heights)
+        if not any(abs(thing.position[2] - height) <= _FLOATING for height in heights):
+            known = ", ".join(f"{height:.2f}" for height in heights) or "none"
             yield f"{thing.name} is at height {thing.position[2]:.2f} m, but {carrier.name} carries things at {known}."
 
 
@@ -119,10 +117,12 @@ def _access(scene: Scene, navigator: Navigator) -> Iterator[str]:
         if not len(navigator.cells_in(room.name)):
             yield f"Nobody can get into the {room.name}."
     for thing in scene.fixed:
+        if thing.position[2] >= _ON_WALL:
+            continue
         stands = navigator.approach(thing, most=60)
         if not stands:
             yield f"Nobody can walk up to {thing.name} in the {thing.room}."
-        elif not any(
+        elif surfaces(thing) and not any(
             math.dist((spot.x, spot.y), (stand.x, stand.y)) <= REACH
             for spot in spots(thing, _SMALL, furniture_on(scene, thing))
             for stand in stands

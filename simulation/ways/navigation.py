@@ -63,9 +63,7 @@ class Stand(NamedTuple):
 def obstacle_boxes(things: Iterable[SceneObject], walls: Iterable[Wall]) -> Array:
     """Return obstacles as rows (x, y, half width, half depth, yaw), shape (n, 5)."""
     rows = [(*thing.xy, thing.size[0] / 2, thing.size[1] / 2, thing.yaw) for thing in things]
-    for wall in walls:
-        b = wall.bounds
-        rows.append(((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, (b.x1 - b.x0) / 2, (b.y1 - b.y0) / 2, 0.0))
+    rows += [wall.block for wall in walls]
     return np.array(rows, dtype=float).reshape(-1, 5)
 
 
@@ -100,8 +98,7 @@ class Navigator:
         self._clear = self._clearances(boxes)
         self._room = np.full(grid_x.shape, -1)
         for index, room in enumerate(scene.rooms):
-            inside = (grid_x >= room.x0) & (grid_x <= room.x1) & (grid_y >= room.y0) & (grid_y <= room.y1)
-            self._room[inside & (self._room < 0)] = index  # on a shared edge the first room counts, as in room_at
+            self._room[room.covers(grid_x, grid_y) & (self._room < 0)] = index  # on a shared edge: as in room_at
         if scene.stage is not None:
             self._fill_doorways(grid_x, grid_y)
         self._clear[self._room < 0] = 0.0
@@ -242,10 +239,7 @@ class Navigator:
 
     def _fill_doorways(self, grid_x: Array, grid_y: Array) -> None:
         """Give what lies between two rooms of an imported home, whose rooms do not touch, to the nearer of them."""
-        edges = np.array([room.bounds for room in self.scene.rooms]).reshape(-1, 4, 1, 1)
-        out_x = np.maximum(np.maximum(edges[:, 0] - grid_x, grid_x - edges[:, 2]), 0.0)
-        out_y = np.maximum(np.maximum(edges[:, 1] - grid_y, grid_y - edges[:, 3]), 0.0)
-        away = np.hypot(out_x, out_y)
+        away = np.array([room.away(grid_x, grid_y) for room in self.scene.rooms])
         between = (self._room < 0) & ((away <= _DOORWAY).sum(axis=0) > 1)
         self._room[between] = away.argmin(axis=0)[between]
 

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 from coopera.core.household import plain
 from coopera.simulation import Scene
+from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.scene import Room
 
 MARGIN = 0.25  # metres around the home
 _SMALL = 0.30  # metres; below it furniture is drawn without a name
@@ -38,8 +40,17 @@ class Dot(NamedTuple):
     known: bool
 
 
+class Area(NamedTuple):
+    """A room: the corners of its floor as SVG writes them, and where its name stands."""
+
+    name: str
+    corners: str
+    x: float
+    y: float
+
+
 class Place(NamedTuple):
-    """A room, or the opening of a door."""
+    """The opening of a door."""
 
     name: str
     x: float
@@ -53,11 +64,17 @@ class Plan(NamedTuple):
 
     width: float
     height: float
-    rooms: list[Place]
+    rooms: list[Area]
     doors: list[Place]
     furniture: list[Box]
     things: list[Dot]
     bodies: list[Dot]
+
+
+def _top(room: Room) -> Point:
+    """Where a room's name stands: below the middle of its highest side."""
+    (x0, y0), (x1, y1) = max((edge.wall.ends for edge in room.edges), key=lambda ends: (ends[0][1] + ends[1][1], ends))
+    return (x0 + x1) / 2, (y0 + y1) / 2 - 0.36
 
 
 def plan_of(
@@ -77,10 +94,14 @@ def plan_of(
     def at(x: float, y: float) -> tuple[float, float]:
         return round(x - left + MARGIN, 3), round(top - y + MARGIN, 3)
 
-    rooms = [Place(one.name, *at(one.x0, one.y1), one.x1 - one.x0, one.y1 - one.y0) for one in scene.rooms]
+    rooms = [
+        Area(one.name, " ".join("{},{}".format(*at(*corner)) for corner in one.outline), *at(*_top(one)))
+        for one in scene.rooms
+    ]
     doors = []
     for door in scene.doors:
-        flat = any(abs(edge - door.y) < 0.05 for room in scene.rooms for edge in (room.y0, room.y1))
+        beside = (edge.wall for room in scene.rooms if room.name in door.between for edge in room.edges)
+        flat = min(beside, key=lambda wall: wall.distance(door.x, door.y)).axis == "x"
         wide, high = (door.width, 0.16) if flat else (0.16, door.width)
         x, y = at(door.x, door.y)
         doors.append(Place(" – ".join(door.between), round(x - wide / 2, 3), round(y - high / 2, 3), wide, high))

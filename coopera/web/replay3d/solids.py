@@ -40,12 +40,15 @@ def home_mesh(scene: Scene) -> Mesh:
     made: list[Mesh] = []
     for room in scene.rooms:
         kind = catalogue().rooms.get(room.kind)
-        size = (room.x1 - room.x0, room.y1 - room.y0, 0.05)
-        made.append(_box(size, (*room.centre, -0.03), rgb_of(kind.floor) if kind else _FLOOR))
+        for b in room.rectangles():
+            size = (b.x1 - b.x0, b.y1 - b.y0, 0.05)
+            made.append(
+                _box(size, ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, -0.03), rgb_of(kind.floor) if kind else _FLOOR)
+            )
     for wall in scene.walls():
-        b = wall.bounds
-        size = (max(b.x1 - b.x0, WALL_THICKNESS), max(b.y1 - b.y0, WALL_THICKNESS), WALLS)
-        made.append(_box(size, ((b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2, WALLS / 2), _PAINT))
+        x, y, half_x, half_y, yaw = wall.block
+        size = (max(2 * half_x, WALL_THICKNESS), max(2 * half_y, WALL_THICKNESS), WALLS)
+        made.append(_placed(_box(size, (0.0, 0.0, 0.0), _PAINT), (x, y, WALLS / 2), _about_z(yaw)))
     for thing in scene.fixed:
         made.append(_placed(thing_mesh(scene, thing), thing.position, _about_z(thing.yaw)))
     return _together(made)
@@ -68,7 +71,7 @@ def robot_links(body: RobotBody) -> dict[int, Mesh]:
         for _, link, kind, size, file, place, turn, colour, *_ in pybullet.getVisualShapeData(
             loaded, physicsClientId=client
         ):
-            mesh = _of_shape(kind, size, file, body.urdf.parent)
+            mesh = _of_shape(kind, size, file)
             links.setdefault(link, []).append(_placed(_coloured(mesh, colour[:3]), place, matrix(turn)))
         return {link: _together(meshes) for link, meshes in links.items()}
     finally:
@@ -110,7 +113,7 @@ def _of_part(part: Part) -> Mesh:
     return _placed(_coloured(mesh, part.rgba[:3]), part.position, matrix(part.orientation))
 
 
-def _of_shape(kind: int, size: Sequence[float], file: bytes, folder: Path) -> Mesh:
+def _of_shape(kind: int, size: Sequence[float], file: bytes) -> Mesh:
     """A visual shape as pybullet tells of it."""
     mesh: Any
     if kind == pybullet.GEOM_BOX:
@@ -123,7 +126,7 @@ def _of_shape(kind: int, size: Sequence[float], file: bytes, folder: Path) -> Me
         mesh = trimesh.creation.capsule(radius=size[1], height=size[0], count=[_SIDES, 8])
         mesh.apply_translation((0, 0, -mesh.bounds.mean(axis=0)[2]))
     else:
-        mesh = _read(folder / file.decode())
+        mesh = _read(Path(file.decode()))
         mesh.apply_scale(list(size))
     made: Mesh = mesh
     return made
