@@ -4,7 +4,7 @@ import os
 import subprocess
 from pathlib import Path
 
-SCRIPT = Path(__file__).parents[1] / "examples" / "slurm" / "grid.sbatch"
+SCRIPT = Path(__file__).parents[2] / "examples" / "slurm" / "grid.sbatch"
 FAKES = {
     "coopera": 'echo "coopera $*" >> "$LOG"',
     "scontrol": "printf 'node-a\\nnode-b\\n'",
