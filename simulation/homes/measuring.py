@@ -100,8 +100,8 @@ def _levels(free: Free, raster: Raster) -> list[tuple[float, Mask]]:
     left = np.ones(len(free.z), bool)
     found: list[tuple[float, Mask]] = []
     least = _LEAST_AREA / raster.step**2
-    while left.any() and len(found) < 2 * MOST_LEVELS:
-        z = np.sort(free.z[left])
+    while left.any() and len(found) < MOST_LEVELS:
+        z = free.z[left]
         until = np.searchsorted(z, z + _LEVEL, side="right")
         most = int((until - np.arange(len(z))).argmax())
         low = float(z[most])
@@ -214,7 +214,7 @@ def _largest_at(free: Free, heights: tuple[float, float], raster: Raster) -> tup
     for _ in range(4):
         if not left.any():
             break
-        z = np.sort(free.z[left])
+        z = free.z[left]
         until = np.searchsorted(z, z + 2 * _SOFT, side="right")
         low = float(z[int((until - np.arange(len(z))).argmax())])
         at = left & (free.z >= low) & (free.z <= low + 2 * _SOFT)
