@@ -27,6 +27,13 @@ class Raster(NamedTuple):
     step: float
     shape: tuple[int, int]
 
+    def holding(self, points: Array) -> Mask:
+        """The lines whose cells hold some of the points, shape (n, 3)."""
+        cells = np.round((points[:, :2] - self.origin) / self.step).astype(int)
+        mask = np.zeros(self.shape, bool)
+        mask[tuple(np.clip(cells, 0, np.array(self.shape) - 1).T)] = True
+        return mask
+
     def x(self, number: int) -> float:
         """Where the lines of a row stand."""
         return self.origin[0] + number * self.step
