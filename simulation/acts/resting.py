@@ -58,6 +58,14 @@ def _seat_on(thing: SceneObject, used: list[Disc]) -> Rest | None:
 
 def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     """The target itself where one sits on it; else the seat of its room that is near and looks at it best."""
+    if used:
+        return _seat_among(ground, target, used)
+    if target.name not in ground.seats:
+        ground.seats[target.name] = _seat_among(ground, target, used)
+    return ground.seats[target.name]
+
+
+def _seat_among(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     own = _seat_on(target, used)
     if own is not None:
         return target, own

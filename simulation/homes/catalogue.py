@@ -29,12 +29,13 @@ from coopera.simulation.shapes.leisure import LEISURE_THINGS
 from coopera.simulation.shapes.lettering import labelled_box
 from coopera.simulation.shapes.pantry import PANTRY_THINGS
 from coopera.simulation.shapes.personal import PERSONAL_THINGS
+from coopera.simulation.shapes.staging import STAGED
 from coopera.simulation.shapes.workshop import WORKSHOP_THINGS
 
 FILE = Path(__file__).parent / "catalogue.yaml"
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
 RECIPES: dict[str, Recipe] = {**FURNITURE, **FIXTURES, **KITCHEN_THINGS, **LEISURE_THINGS, **HOUSEHOLD_THINGS}
-SHAPES: dict[str, Recipe] = {**RECIPES, **PANTRY_THINGS, **WORKSHOP_THINGS, **PERSONAL_THINGS, **CHORE_THINGS}
+SHAPES: dict[str, Recipe] = {**RECIPES, **PANTRY_THINGS, **WORKSHOP_THINGS, **PERSONAL_THINGS, **CHORE_THINGS, **STAGED}
 """All recipes: those of the classes, and those of what comes out of the magic box."""
 FLAT = 0.05
 """Fixed things lower than this (rugs) are walked over."""

@@ -101,7 +101,13 @@ class SceneObject(Frozen):
         """The main colour, each channel in [0, 1]."""
         return rgb_of(self.colour)
 
-    @property
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the object with some fields changed; what was worked out of the old ones is not carried over."""
+        copied = super().model_copy(update=update, deep=deep)
+        copied.__dict__.pop("bounds", None)
+        return copied
+
+    @cached_property
     def bounds(self) -> Bounds:
         """The axis-aligned rectangle around the turned footprint."""
         cos, sin = abs(math.cos(self.yaw)), abs(math.sin(self.yaw))
