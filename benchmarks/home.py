@@ -24,7 +24,7 @@ from coopera.core.errors import SimulationError
 from coopera.core.household import HUMAN, ROBOT, Act, AgentId, FreeMotion, HandOver, PickPlace
 from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts.plans import Walk
-from coopera.simulation.bodies.robot import known_robots
+from coopera.simulation.bodies.robot import usable_robots
 from coopera.simulation.homes.catalogue import blocks
 from coopera.simulation.state.free_places import free_places
 from coopera.simulation.ways.home_check import check
@@ -150,8 +150,8 @@ def main() -> None:
     args = parser.parse_args()
     for scene in args.scenes.split(","):
         if args.commands:
-            commands(scene, HUMAN, args.commands, known_robots()[0])
-            for robot in known_robots():
+            commands(scene, HUMAN, args.commands, usable_robots()[0])
+            for robot in usable_robots():
                 commands(scene, ROBOT, args.commands, robot)
     if args.days:
         days(args.scenes.split(",")[0], args.days)

@@ -27,7 +27,7 @@ from coopera.simulation import World, list_scenes, load_scene
 from coopera.simulation.acts.handing import HANDING
 from coopera.simulation.acts.plans import Give, Handle, Open, Plan, Play, Walk, discs
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.bodies.robot import known_robots
+from coopera.simulation.bodies.robot import usable_robots
 from coopera.simulation.homes.catalogue import blocks, parts_of
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.kit import Part
@@ -296,7 +296,7 @@ def main() -> None:
     """Attack the homes that the arguments name."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", default=",".join(list_scenes()), help="homes, separated by commas")
-    parser.add_argument("--robots", default=",".join(known_robots()), help="robot bodies, separated by commas")
+    parser.add_argument("--robots", default=",".join(usable_robots()), help="robot bodies, separated by commas")
     parser.add_argument("--commands", type=int, default=10_000, help="commands in each home with each robot body")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--shown", type=int, default=20, help="how many violations of each home are shown")

@@ -116,6 +116,11 @@ class Registry(Generic[Value]):
 
 def unknown(what: str, name: str, known: Sequence[str]) -> ConfigError:
     """The error of a name that nothing has, with the nearest one and all there are."""
-    near = difflib.get_close_matches(name, known, n=1)
-    hint = f"did you mean {near[0]}? " if near else ""
+    hint = nearest(name, known)
     return ConfigError(f"{what}: there is no {what} {name!r} ({hint}known are {', '.join(known) or 'none'}).")
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """The question whether the nearest one was meant, with a blank at its end; empty where none is near."""
+    near = difflib.get_close_matches(name, known, n=1)
+    return f"did you mean {near[0]}? " if near else ""

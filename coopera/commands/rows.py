@@ -58,9 +58,9 @@ def _classifiers() -> Rows:
 
 
 def _robots() -> Rows:
-    from coopera.simulation.bodies.robot import known_robots, load_robot
+    from coopera.simulation.bodies.robot import about_robot, known_robots
 
-    return [{"id": name, "about": load_robot(name).about} for name in known_robots()]
+    return [{"id": name, "about": about_robot(name)} for name in known_robots()]
 
 
 def _homes() -> Rows:

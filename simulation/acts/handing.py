@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from coopera.core.household import HUMAN, AgentId, HandOver, plain
-from coopera.simulation.acts.handling import arm_posture, to_body
+from coopera.simulation.acts.handling import arm_posture, to_body, turned_to_work
 from coopera.simulation.acts.plans import APART, Give, Ground, Plan, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.homes.scene import SceneObject
@@ -53,7 +53,7 @@ def give(ground: Ground, plan: Plan, robot: AgentId, person: AgentId, name: str,
         except UnableError:
             plan.rewind(mark)
             continue
-        there = _facing(stand, plan.state.person(person))
+        there = turned_to_work(ground, robot, _facing(stand, plan.state.person(person)))
         point = handing_point(plan.state.person(person), there)
         posture = arm_posture(ground, plan, body, there, to_body(there, point), None)
         if not HANDING[0] - 0.05 <= there.gap <= HANDING[1] or posture is None:

@@ -15,7 +15,7 @@ from coopera.simulation.acts.walking import walk, walk_to_deed
 from coopera.simulation.bodies.humanoid_reach import reaching
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.homes.scene import SceneObject
-from coopera.simulation.shapes.rotations import Array, about_z
+from coopera.simulation.shapes.rotations import Array, about_z, wrapped
 from coopera.simulation.ways.navigation import REACH, Stand
 
 FAR_REACH = 1.0
@@ -51,6 +51,12 @@ def posture_for(ground: Ground, plan: Plan, agent: AgentId, stand: Stand, errand
     target = to_body(stand, errand.point)
     body = ground.robots.get(agent)
     return reaching(target) if body is None else arm_posture(ground, plan, body, stand, target, errand.on)
+
+
+def turned_to_work(ground: Ground, agent: AgentId, stand: Stand) -> Stand:
+    """The same place, with the side on which a robot's arm works best turned to what it faced."""
+    body = ground.robots.get(agent)
+    return stand._replace(yaw=wrapped(stand.yaw - body.side)) if body is not None and body.side else stand
 
 
 def arm_posture(
@@ -104,9 +110,10 @@ def go_to_reach(
     Returns:
         The place, and the posture in which the point is reached; None if there is no such place.
     """
-    for tries, stand in enumerate(stands_for(ground, plan, agent, errand)):
+    for tries, facing in enumerate(stands_for(ground, plan, agent, errand)):
         if tries >= errand.tries:
             break
+        stand = turned_to_work(ground, agent, facing)
         posture = posture_for(ground, plan, agent, stand, errand)
         if posture is None:
             continue

@@ -6,17 +6,18 @@ Frames: x forward, y to the left, z up, the origin on the floor under the base's
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from coopera.core.randomness import rng_at
+from coopera.simulation.bodies.urdf import Hinge
 from coopera.simulation.shapes.rotations import Array, about_x, about_y, about_z, wrapped
 
-_TURNS = {"x": about_x, "y": about_y, "z": about_z}
+_TURNS = (about_x, about_y, about_z)
 _ARRIVED = 0.005
 _RESTARTS = 12
 _STEPS, _SETTLED = 60, 40
@@ -25,41 +26,48 @@ _REMEMBERED = 256
 
 
 class Joint(NamedTuple):
-    """One joint: its frame in that of the joint before it (an offset, then a turn about x), its axis and limits."""
+    """One joint that moves: its frame in that of the joint before it (an offset, then a turn), its axis and limits.
+
+    The turn is None where there is none; the axis, of length 1, is in the joint's own frame.
+    """
 
     name: str
-    origin: tuple[float, float, float]
-    axis: Literal["x", "y", "z"]
+    origin: Array
+    turn: Array | None
+    axis: Array
     low: float
     high: float
-    roll: float = 0.0
     slides: bool = False
 
 
 class Gripper(NamedTuple):
-    """Where the gripper's middle is, how it is turned, the Jacobian (3, n), and the joints' places (n, 3)."""
+    """Where the gripper's middle is, how it is turned, the Jacobian (3, n), and the joints' places and axes (n, 3)."""
 
     place: Array
     turn: Array
     jacobian: Array
     joints: Array
+    axes: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Chain:
     """Joints from the base to the gripper, and the point between its fingers in the last joint's frame.
 
     Attributes:
         joints: In order from the base.
         tip: The gripper's middle in the last joint's frame.
-        pan: Index of the joint that turns the arm to the side, and where its axis stands (x, in the body frame).
-        lift: How far the first joint, where it slides, is raised for a point at a height of 0 (usually negative).
+        end: How the gripper's frame is turned there; None where it is not.
+        pan: Index of the joint that turns the arm to the side, None if none does, and where its axis stands (x, y).
+        lift: How far the first joint, where it slides, is raised for a point at a height of 0; None: as far as the
+            resting posture would have to be.
     """
 
     joints: tuple[Joint, ...]
-    tip: tuple[float, float, float]
-    pan: tuple[int, float]
-    lift: float = 0.0
+    tip: Array
+    end: Array | None = None
+    pan: tuple[int | None, float, float] = (None, 0.0, 0.0)
+    lift: float | None = None
 
     @cached_property
     def low(self) -> Array:
@@ -76,9 +84,14 @@ class Chain:
         return np.array([0.2 if joint.slides else 1.0 for joint in self.joints])
 
     @cached_property
-    def _fixed(self) -> list[tuple[Array, Array | None, int]]:
-        """Of each joint: its offset, the turn before it (None where there is none), and the index of its axis."""
-        return [(np.array(j.origin), about_x(j.roll) if j.roll else None, "xyz".index(j.axis)) for j in self.joints]
+    def _axes(self) -> list[tuple[int | None, float, Callable[[float], Array]]]:
+        """Of each joint: the index of its axis (None if it is oblique), which way it points, and its turns."""
+        found: list[tuple[int | None, float, Callable[[float], Array]]] = []
+        for joint in self.joints:
+            one = int(np.abs(joint.axis).argmax())
+            straight = np.count_nonzero(joint.axis) == 1
+            found.append((one, float(joint.axis[one]), _TURNS[one]) if straight else (None, 1.0, _about(joint.axis)))
+        return found
 
     @cached_property
     def _arrive(self) -> Callable[[bytes, bytes, bytes], Array | None]:
@@ -94,23 +107,25 @@ class Chain:
         """Place the gripper; only the chain's own joints of the posture matter."""
         place, turn = np.zeros(3), np.eye(3)
         starts, axes = [], []
-        for joint, (origin, before, axis), value in zip(self.joints, self._fixed, posture.tolist(), strict=False):
-            place = place + turn @ origin
-            if before is not None:
-                turn = turn @ before
+        for joint, (axis, way, about), value in zip(self.joints, self._axes, posture.tolist(), strict=False):
+            place = place + turn @ joint.origin
+            if joint.turn is not None:
+                turn = turn @ joint.turn
+            along = turn @ joint.axis if axis is None else way * turn[:, axis]
             starts.append(place)
-            axes.append(turn[:, axis])
+            axes.append(along)
             if joint.slides:
-                place = place + turn[:, axis] * value
+                place = place + along * value
             else:
-                turn = turn @ _TURNS[joint.axis](value)
-        end = place + turn @ np.array(self.tip)
+                turn = turn @ about(way * value)
+        end = place + turn @ self.tip
+        turn = turn if self.end is None else turn @ self.end
         at, along = np.array(starts), np.array(axes)
         jacobian = _cross(along, end - at).T
         for i, joint in enumerate(self.joints):
             if joint.slides:
                 jacobian[:, i] = along[i]
-        return Gripper(end, turn, jacobian, at)
+        return Gripper(end, turn, jacobian, at, along)
 
     def servo(self, start: Array, target: Array, rest: Array, stride: float = _STRIDE) -> list[Array] | None:
         """Move the gripper to a point in Cartesian steps, drawn towards a resting posture in the null space.
@@ -149,16 +164,64 @@ class Chain:
         point alone: the same point always gives the same postures.
         """
         rng = rng_at(0, "arm", self.joints[-1].name, *(round(float(value), 3) for value in target))
-        start, (turning, axis_x) = rest.copy(), self.pan
-        side = wrapped(math.atan2(float(target[1]), float(target[0]) - axis_x))
-        start[turning] = min(max(side, self.low[turning]), self.high[turning])
-        if self.joints[0].slides:
-            start[0] = min(max(float(target[2]) + self.lift, self.low[0]), self.high[0])
+        start = self.start(target, rest)
         for _ in range(_RESTARTS):
             found = self._arrive(start.tobytes(), target.tobytes(), rest.tobytes())
             if found is not None:
                 yield found
             start = rng.uniform(self.low, self.high)
+
+    def start(self, target: Array, rest: Array) -> Array:
+        """The resting posture, turned and raised to a point."""
+        start, (turning, x, y) = rest.copy(), self.pan
+        at_rest = self._at_rest(rest.tobytes())
+        if turning is not None:
+            way = self._axes[turning][1]
+            ahead = round(math.atan2(float(at_rest[1]) - y, float(at_rest[0]) - x), 9)
+            side = wrapped(math.atan2(float(target[1]) - y, float(target[0]) - x) - ahead)
+            start[turning] = min(max(rest[turning] + way * side, self.low[turning]), self.high[turning])
+        if self.joints[0].slides:
+            lift = rest[0] - at_rest[2] if self.lift is None else self.lift
+            start[0] = min(max(float(target[2]) + lift, self.low[0]), self.high[0])
+        return start
+
+    @cached_property
+    def _at_rest(self) -> Callable[[bytes], Array]:
+        """Where the gripper is in a resting posture: there are few of them."""
+        return lru_cache(maxsize=_REMEMBERED)(lambda rest: self.forward(np.frombuffer(rest)).place)
+
+
+def chain_of(
+    hinges: Sequence[Hinge], moving: Sequence[str], offset: Sequence[float] = (0.0, 0.0, 0.0)
+) -> tuple[tuple[Joint, ...], Array, Array | None]:
+    """Those joints of a way through a description that move, the others being fixed where they are at 0.
+
+    Args:
+        hinges: The way from the base to a link.
+        moving: Names of joints on it.
+        offset: A point in the link's frame.
+
+    Returns:
+        The joints, the point in the last one's frame, and how the link is turned there (None where it is not).
+    """
+    joints: list[Joint] = []
+    place, turn = np.zeros(3), None
+    for hinge in hinges:
+        place = place + (hinge.place if turn is None else turn @ hinge.place)
+        turn = hinge.turn if turn is None else turn if hinge.turn is None else turn @ hinge.turn
+        if hinge.name in moving:
+            slides = hinge.kind == "prismatic"
+            joints.append(Joint(hinge.name, place, turn, hinge.axis, hinge.low, hinge.high, slides))
+            place, turn = np.zeros(3), None
+    tip = place + (np.array(offset) if turn is None else turn @ np.array(offset))
+    return tuple(joints), tip, turn
+
+
+def _about(axis: Array) -> Callable[[float], Array]:
+    """Turns about an oblique axis, as Rodrigues has them."""
+    x, y, z = axis.tolist()
+    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+    return lambda angle: np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)
 
 
 def _cross(a: Array, b: Array) -> Array:

@@ -1,8 +1,8 @@
 """What a robot's body must offer, and the bodies that there are: a mobile base with an arm and a head camera.
 
-To add a body: NAME.urdf and NAME.yaml in this folder, the latter with its measures (fetch.yaml explains them). The
-tests of tests/simulation/bodies/test_robot.py then hold for it, too. A body may also stand elsewhere and be named by
-the path of its YAML file.
+To add a body: NAME.yaml in this folder (fetch.yaml explains it) and a URDF, beside it or in a package of PyPI. The tests
+of tests/simulation/bodies/test_robot.py then hold for it, too. A body may also stand elsewhere and be named by the path of
+its YAML file.
 """
 
 from __future__ import annotations
@@ -11,10 +11,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
+from coopera.core.errors import ConfigError
 from coopera.core.lazy import made_once
 from coopera.core.registry import unknown
 from coopera.simulation.bodies.arm import Gripper
-from coopera.simulation.bodies.body_file import read_body
+from coopera.simulation.bodies.body_file import about_body, read_body
+from coopera.simulation.bodies.urdf import Urdf
 from coopera.simulation.shapes.rotations import Array
 
 _FOLDER = Path(__file__).parent
@@ -38,13 +40,18 @@ class RobotBody(Protocol):
         ...
 
     @property
-    def urdf(self) -> Path:
-        """Its shapes, with joints of the same names and measures."""
+    def urdf(self) -> Urdf:
+        """Its shapes; the origin is on the floor under its middle."""
         ...
 
     @property
     def joints(self) -> Sequence[str]:
         """Names of all joints that a posture sets."""
+        ...
+
+    @property
+    def side(self) -> float:
+        """Where it works best: the heading of what it reaches for in the body frame, 0 straight ahead."""
         ...
 
     @property
@@ -81,6 +88,25 @@ class RobotBody(Protocol):
 def known_robots() -> list[str]:
     """Names of the bodies that ship, sorted."""
     return sorted(path.stem for path in _FOLDER.glob("*.yaml"))
+
+
+def usable_robots() -> list[str]:
+    """Those of the bodies that ship whose descriptions are here, sorted; of others a package is not installed."""
+    return [name for name in known_robots() if lacking(name) is None]
+
+
+def lacking(name: str) -> str | None:
+    """Why a body that ships cannot be used here; None if it can."""
+    try:
+        _shipped(name)
+    except ConfigError as err:
+        return str(err)
+    return None
+
+
+def about_robot(name: str) -> str:
+    """What a body that ships is, in a line."""
+    return about_body(_FOLDER / f"{name}.yaml")
 
 
 def load_robot(name: str) -> RobotBody:

@@ -1,9 +1,12 @@
-"""Meshes from files, as the robots' descriptions and imported homes bring them: Wavefront OBJ and STL."""
+"""Meshes from files, as the robots' descriptions and imported homes bring them: Wavefront OBJ, STL and COLLADA."""
 
 from __future__ import annotations
 
 from functools import lru_cache
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,9 +23,9 @@ def read_solid(path: Path) -> Solid:
     Raises:
         ConfigError: If it cannot be read, or is of another kind.
     """
-    readers = {".obj": _obj, ".stl": _stl}
+    readers = {".obj": _obj, ".stl": _stl, ".dae": _dae}
     if path.suffix.lower() not in readers:
-        raise ConfigError(f"{path}: the renderer gl reads meshes as .obj or .stl; the renderer tiny reads more kinds.")
+        raise ConfigError(f"{path}: the renderer gl reads meshes as .obj, .stl or .dae.")
     try:
         return readers[path.suffix.lower()](path)
     except (OSError, ValueError, IndexError) as err:
@@ -49,6 +52,15 @@ def _faceted(corners: Floats) -> Solid:
     normals = np.repeat(normal, 3, axis=0).astype(np.float32)
     faces = np.arange(len(at), dtype=np.uint32).reshape(-1, 3)
     return Solid(at, normals, flat_uv(at, normals, 0), faces)
+
+
+def _dae(path: Path) -> Solid:
+    if find_spec("trimesh") is None or find_spec("collada") is None:
+        raise ConfigError(f"{path}: a mesh of this kind needs trimesh and pycollada (pip install trimesh pycollada).")
+    trimesh: Any = import_module("trimesh")
+    mesh = trimesh.load(path, force="mesh")
+    at, normal = mesh.vertices.astype(np.float32), mesh.vertex_normals.astype(np.float32)
+    return Solid(at, normal, flat_uv(at, normal, 0), mesh.faces.astype(np.uint32))
 
 
 def _obj(path: Path) -> Solid:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from importlib import import_module
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 
 from coopera.core.errors import ConfigError
-from coopera.core.foreign.files import read_text
-from coopera.simulation.bodies.body_file import OF_PYBULLET
+from coopera.simulation.bodies.urdf import Urdf
 from coopera.simulation.drawing.files import read_solid
 from coopera.simulation.drawing.geometry import Mesh, Solid, box, capsule, cylinder, merged, painted
 from coopera.simulation.drawing.materials import Material
@@ -21,17 +19,16 @@ from coopera.simulation.shapes.rotations import about_x, about_y, about_z
 _GREY = (0.7, 0.7, 0.7)
 
 
-def links_of(urdf: Path) -> dict[str, Mesh]:
+def links_of(urdf: Urdf) -> dict[str, Mesh]:
     """The visible triangles of each link that has any, in the link's own frame.
 
     Raises:
         ConfigError: If a mesh that the file names cannot be read.
     """
-    root = ElementTree.fromstring(read_text(urdf))
-    colours = {name: rgb for name, rgb in map(_colour, root.findall("material")) if rgb is not None}
+    colours = {name: rgb for name, rgb in map(_colour, urdf.root.findall("material")) if rgb is not None}
     found = {}
-    for link in root.findall("link"):
-        meshes = [_visual(urdf, visual, colours) for visual in link.findall("visual")]
+    for link in urdf.root.findall("link"):
+        meshes = [_visual(urdf.path, visual, colours) for visual in link.findall("visual")]
         if meshes:
             found[link.get("name", "")] = merged(meshes)
     return found
@@ -72,14 +69,8 @@ def _solid(urdf: Path, shape: ElementTree.Element) -> Solid:
         radius, length = (float(shape.get(name) or 0.0) for name in ("radius", "length"))
         return cylinder(radius, length) if shape.tag == "cylinder" else capsule(radius, length)
     if shape.tag == "mesh":
-        return _scaled(read_solid(_file(urdf, shape.get("filename") or "")), _numbers(shape.get("scale"), 3, 1.0))
+        return _scaled(read_solid(Path(shape.get("filename") or "")), _numbers(shape.get("scale"), 3, 1.0))
     raise ConfigError(f"{urdf}: the renderer gl knows no shape {shape.tag!r}.")
-
-
-def _file(urdf: Path, name: str) -> Path:
-    if name.startswith(OF_PYBULLET):
-        return Path(str(import_module("pybullet_data").getDataPath())) / name.removeprefix(OF_PYBULLET)
-    return urdf.parent / name
 
 
 def _scaled(solid: Solid, scale: Sequence[float]) -> Solid:

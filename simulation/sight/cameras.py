@@ -106,11 +106,15 @@ def around(scene: Scene, person: Placed) -> tuple[str, ...]:
 
 def within(scene: Scene, points: Array) -> tuple[str, ...]:
     """Furniture in whose hull a point is, such as a hand over a bed; points of shape (n, 3)."""
-    return tuple(
-        thing.name
-        for thing in scene.fixed
-        if any(thing.bounds.distance(x, y) < _IN and z < thing.top + _IN for x, y, z in points.tolist())
+    boxes = np.array([thing.bounds for thing in scene.fixed]).reshape(-1, 4)[:, :, None]
+    x, y, z = points.T
+    away = np.hypot(
+        np.maximum(np.maximum(boxes[:, 0] - x, x - boxes[:, 2]), 0.0),
+        np.maximum(np.maximum(boxes[:, 1] - y, y - boxes[:, 3]), 0.0),
     )
+    low = z < np.array([thing.top + _IN for thing in scene.fixed])[:, None]
+    inside = ((away < _IN) & low).any(axis=1)
+    return tuple(thing.name for thing, it in zip(scene.fixed, inside.tolist(), strict=True) if it)
 
 
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
@@ -134,15 +138,15 @@ def seen_share(stage: Stage, scene: Scene, eyes: Array, focus: Focus, aim: Lens)
     """
     points, weights = focus.body.points, focus.body.weights
     starts, ends = np.repeat(eyes, len(points), axis=0), np.tile(points, (len(eyes), 1))
-    stage.hide(focus.ignore)
-    hits = stage.rays(starts, ends)
-    stage.unhide(focus.ignore)
-    free = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     bodies = (focus.body, *focus.others)
     balls, radii = (np.concatenate([getattr(body, name) for body in bodies]) for name in ("balls", "radii"))
-    free &= ~behind_balls(starts, ends, balls, radii)
+    free = ~behind_balls(starts, ends, balls, radii)
     free &= aim.shows(starts, ends)
     free &= ~behind_boxes(starts, ends, boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore]))
+    stage.hide(focus.ignore)
+    hits = stage.rays(starts[free], ends[free])
+    stage.unhide(focus.ignore)
+    free[free] = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     share: Array = free.reshape(len(eyes), len(points)) @ weights
     return share
 

@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes.util import find_library
 from importlib import import_module
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from coopera.core.errors import ConfigError
-from coopera.simulation.bodies.body_file import OF_PYBULLET
+from coopera.simulation.bodies.urdf import Urdf
 from coopera.simulation.drawing.context import Renderer
 
 _QUIET = threading.RLock()
@@ -52,31 +52,20 @@ def _quietly(name: str) -> Any:
 pybullet: Any = sys.modules.get("pybullet") or _quietly("pybullet")
 
 
-def load_urdf(path: Path, client: int, *, drawn: bool = True) -> int:
-    """Load a body with a fixed base; a mesh named "pybullet_data/…" comes from what ships with pybullet.
+def load_urdf(urdf: Urdf, client: int, *, drawn: bool = True) -> int:
+    """Load a body with a fixed base.
 
     Raises:
-        ConfigError: If the engine cannot make anything of the file.
+        ConfigError: If the engine cannot make anything of the description.
     """
-    text = path.read_text(encoding="utf-8")
     flags = 0 if drawn else pybullet.URDF_IGNORE_VISUAL_SHAPES
-    given = {"useFixedBase": True, "physicsClientId": client, "flags": flags}
-    if OF_PYBULLET not in text:
-        return _loaded(path, path, given)
-    data = str(import_module("pybullet_data").getDataPath())
     with tempfile.TemporaryDirectory() as folder:
-        whole = Path(folder) / path.name
-        here = path.parent.absolute()
-        text = text.replace('filename="', f'filename="{here}/').replace(f"{here}/{OF_PYBULLET}", f"{data}/")
-        whole.write_text(text, encoding="utf-8")
-        return _loaded(path, whole, given)
-
-
-def _loaded(path: Path, whole: Path, given: Mapping[str, Any]) -> int:
-    try:
-        return int(pybullet.loadURDF(str(whole), **given))
-    except pybullet.error as err:
-        raise ConfigError(f"{path}: pybullet cannot load this URDF; what it prints says why.") from err
+        whole = Path(folder) / urdf.path.name
+        whole.write_text(urdf.text, encoding="utf-8")
+        try:
+            return int(pybullet.loadURDF(str(whole), useFixedBase=True, physicsClientId=client, flags=flags))
+        except pybullet.error as err:
+            raise ConfigError(f"{urdf.path}: pybullet cannot load this URDF; what it prints says why.") from err
 
 
 def start_renderer(name: Renderer, client: int) -> int:

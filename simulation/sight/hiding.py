@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid import SIDES, Frames, forward
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.homes.catalogue import parts_of
+from coopera.simulation.homes.catalogue import solids
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
@@ -31,7 +31,6 @@ _TOUCH = 0.02
 """A ball ends so far from a point that it holds: a hand in the lap is seen from the front."""
 _NEAR = 0.1
 """Parts within this distance of a point hide nothing of it: it lies on them."""
-_OPAQUE = 0.99
 
 
 class Body(NamedTuple):
@@ -150,14 +149,14 @@ class Boxes(NamedTuple):
 
 
 def boxes_of(furniture: Sequence[SceneObject]) -> Boxes:
-    """The opaque parts of furniture; what was imported as a mesh is taken to hide nothing of who is in it."""
+    """The opaque parts of furniture."""
     middles, halves, yaws = [], [], []
     for thing in furniture:
         turn = about_z(thing.yaw)
-        for part in () if thing.mesh else parts_of(thing.cls, thing.size, thing.rgb):
-            if part.rgba[3] > _OPAQUE:
-                middles.append(turn @ np.array(part.position) + np.array(thing.position))
-                halves.append(part.around)
+        for solid in solids(thing):
+            if solid.opaque:
+                middles.append(turn @ np.array(solid.middle) + np.array(thing.position))
+                halves.append(solid.half)
                 yaws.append(thing.yaw)
     return Boxes(np.array(middles).reshape(-1, 3), np.array(halves).reshape(-1, 3), np.array(yaws))
 

@@ -21,6 +21,7 @@ from coopera.simulation.acts.plans import Placed
 from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.bodies.humanoid import JOINTS, SLICES
 from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.bodies.urdf import read_urdf
 from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.renderer import Renderer as Drawer
@@ -68,7 +69,7 @@ class Stage:
         self.renderer = None if name is None else start_renderer(name, self.client)
         drawn = name in ("tiny", "egl")
         self.home = build(scene, self.client, drawn=drawn)
-        self.bodies = {agent: load_urdf(BODIES / "person.urdf", self.client, drawn=drawn) for agent in people}
+        self.bodies = {who: load_urdf(read_urdf(BODIES / "person.urdf"), self.client, drawn=drawn) for who in people}
         self.bodies |= {agent: load_urdf(body.urdf, self.client, drawn=drawn) for agent, body in robots.items()}
         names = dict.fromkeys(people, [name for name, _ in JOINTS])
         names |= {agent: list(body.joints) for agent, body in robots.items()}

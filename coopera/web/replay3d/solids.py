@@ -71,7 +71,7 @@ def robot_links(body: RobotBody) -> dict[int, Mesh]:
         for _, link, kind, size, file, place, turn, colour, *_ in pybullet.getVisualShapeData(
             loaded, physicsClientId=client
         ):
-            mesh = _of_shape(kind, size, file, body.urdf.parent)
+            mesh = _of_shape(kind, size, file)
             links.setdefault(link, []).append(_placed(_coloured(mesh, colour[:3]), place, matrix(turn)))
         return {link: _together(meshes) for link, meshes in links.items()}
     finally:
@@ -113,7 +113,7 @@ def _of_part(part: Part) -> Mesh:
     return _placed(_coloured(mesh, part.rgba[:3]), part.position, matrix(part.orientation))
 
 
-def _of_shape(kind: int, size: Sequence[float], file: bytes, folder: Path) -> Mesh:
+def _of_shape(kind: int, size: Sequence[float], file: bytes) -> Mesh:
     """A visual shape as pybullet tells of it."""
     mesh: Any
     if kind == pybullet.GEOM_BOX:
@@ -126,7 +126,7 @@ def _of_shape(kind: int, size: Sequence[float], file: bytes, folder: Path) -> Me
         mesh = trimesh.creation.capsule(radius=size[1], height=size[0], count=[_SIDES, 8])
         mesh.apply_translation((0, 0, -mesh.bounds.mean(axis=0)[2]))
     else:
-        mesh = _read(folder / file.decode())
+        mesh = _read(Path(file.decode()))
         mesh.apply_scale(list(size))
     made: Mesh = mesh
     return made

@@ -20,7 +20,7 @@ from coopera import Config, RunDir, run_study
 from coopera.core.errors import ConfigError, RunError
 from coopera.people.shipped import find
 from coopera.simulation import load_scene
-from coopera.simulation.bodies.robot import known_robots, load_robot
+from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.people.weights import PARTS
 from tests.coopera.conftest import Said
 from tests.coopera.web.browser import Watched, browsing, needs_browser
@@ -111,7 +111,7 @@ def test_a_home_a_person_and_each_robot_are_whole_meshes_in_colour(tmp_path: Pat
     skin = solids.person_skin(find("amara", tmp_path))
     meshes |= {f"part {number}": mesh for number, mesh in solids.person_parts(skin)}
     assert len(meshes) > 12
-    for robot in known_robots():
+    for robot in usable_robots():
         meshes |= {f"{robot} {link}": mesh for link, mesh in solids.robot_links(load_robot(robot)).items()}
     for name, mesh in meshes.items():
         assert len(mesh.faces) > 3, name

@@ -10,7 +10,7 @@ from benchmarks.frames import looked_at
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid_reach import standing
-from coopera.simulation.bodies.robot import known_robots, load_robot
+from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of, person_body
 from coopera.simulation.sight.labels import Name, labelled
@@ -29,7 +29,8 @@ def home():
 def seen_at_deed(world: World, view: str):
     """What a picture of the deed shows."""
     watcher, recording = world._watcher, world._recording
-    ((moment, cameras),) = watcher._moments(recording, [deed_of(recording)], (view,))
+    ((moment, cameras),) = watcher._takes(recording, [deed_of(recording)], (view,))
+    watcher.drawn.show(recording.state, moment)
     return looked_at(watcher.drawn, moment, cameras[view])
 
 
@@ -61,14 +62,14 @@ def test_the_hands_are_seen_in_the_deed(home, act, view) -> None:
     assert seen.angle < 120
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 def test_a_robots_own_arm_is_not_in_its_pictures_of_a_person(name) -> None:
     with World(flat(), robot=name, renderer="tiny") as world:
         assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
         assert seen_at_deed(world, "robot").robot < 0.02
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 @pytest.mark.parametrize("away", [1.5, 2.5])
 def test_what_a_robot_carries_its_arm_for_is_not_before_its_eyes_when_it_looks_at_somebody(name, away) -> None:
     body = load_robot(name)
@@ -136,10 +137,10 @@ def test_frames_that_follow_each_other_differ_more_than_those_at_equal_times(hom
     recording, watcher = home._recording, home._watcher
 
     def least(ticks) -> float:
-        images = [
-            watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int)
-            for _, cameras in watcher._moments(recording, ticks, ("human",))
-        ]
+        images = []
+        for moment, cameras in watcher._takes(recording, ticks, ("human",)):
+            watcher.drawn.show(recording.state, moment)
+            images.append(watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int))
         return min(float(np.abs(a - b).mean()) for a, b in zip(images, images[1:], strict=False))
 
     evenly = np.linspace(0, recording.ticks - 1, 5).round().astype(int).tolist()
@@ -157,7 +158,7 @@ def test_where_more_frames_are_asked_for_than_there_are_moments_each_moment_is_o
     assert telling_ticks(short, home._ground.robots, 1) == [2]
 
 
-@pytest.mark.parametrize("name", known_robots())
+@pytest.mark.parametrize("name", usable_robots())
 @pytest.mark.parametrize("act", [put("book_1", "dining_table_1"), bring("mug")], ids=lambda act: act.kind)
 def test_pictures_of_a_robots_act_show_the_robot_at_it(name, act) -> None:
     with World(flat(), robot=name, renderer="tiny") as world:
