@@ -311,11 +311,8 @@ class World:
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
         Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter, as NAME-0.webp …. There are fewer only where the recording has fewer moments. Without
-        `wait` they are drawn and written while the home goes on, and `finish_frames` waits for them.
-
-        Raises:
-            SimulationError: If nothing has been recorded, or the folder cannot be written.
+        a `name` only the latter. A short recording has fewer. Without `wait` they are written while the home goes on
+        (`finish_frames`). A `SimulationError` if nothing was recorded, or nothing can be written.
         """
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
@@ -333,7 +330,7 @@ class World:
             self._watcher.finish()
 
     def film(self, path: Path) -> Path:
-        """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.
+        """Write the recording as H.264 video, the robot's view on the left, the third-person view on the right.
 
         Errors as of `frames`, and a `ConfigError` if the extra `video` is not installed.
         """

@@ -136,8 +136,8 @@ def _rectangles(free: Free, at: Mask, height: float, raster: Raster, points: Arr
             if min(wide, deep) < _NARROWEST or wide * deep < _LEAST_AREA:
                 break
             mask[i0 : i1 + 1, j0 : j1 + 1] = False
-            over = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
-            room = min(float(np.quantile(over[np.isfinite(over)], 0.05)), OPEN) if np.isfinite(over).any() else OPEN
+            above = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
+            room = min(float(np.quantile(above[np.isfinite(above)], 0.05)), OPEN) if np.isfinite(above).any() else OPEN
             rows.append(
                 (
                     round(height, 4),
