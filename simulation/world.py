@@ -310,9 +310,8 @@ class World:
     def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
-        Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter. A short recording has fewer. Without `wait` they are written while the home goes on
-        (`finish_frames`). A `SimulationError` if nothing was recorded, or nothing can be written.
+        Files are robot-0.webp … from the robot's eyes and human-0.webp … from across the room; with a `name` only the
+        latter. Without `wait` they are written while the home goes on. A `SimulationError` where nothing can be.
         """
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
