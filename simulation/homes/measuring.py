@@ -136,8 +136,9 @@ def _rectangles(free: Free, at: Mask, height: float, raster: Raster, points: Arr
             if min(wide, deep) < _NARROWEST or wide * deep < _LEAST_AREA:
                 break
             mask[i0 : i1 + 1, j0 : j1 + 1] = False
-            above = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
-            room = min(float(np.quantile(above[np.isfinite(above)], 0.05)), OPEN) if np.isfinite(above).any() else OPEN
+            ceiling = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
+            lower = ceiling[np.isfinite(ceiling)]
+            room = min(float(np.quantile(lower, 0.05)), OPEN) if lower.size else OPEN
             rows.append(
                 (
                     round(height, 4),
