@@ -17,6 +17,7 @@ import numpy as np
 from coopera.core.errors import SimulationError
 from coopera.core.household import SceneId, plain
 from coopera.simulation.homes.catalogue import FLAT, catalogue, surfaces
+from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at, taken_by
 from coopera.simulation.making.procthor.files import Asset, House, Item
@@ -37,6 +38,8 @@ _REACHED = 1.45
 """Things stand no higher: nobody gets at what is on top of a high fridge."""
 _MOVED = 0.15
 """What is shifted by less than this is where the house has it, in metres."""
+_BEFORE_DOOR = 0.7
+"""Furniture keeps this clear of the middle of a door where it can, in metres."""
 _RUN = 0.65
 """Depth of the runs of a counter that goes around a corner."""
 _GREY = ("#8a6d4f", "#6f7f8a", "#9a8f7a", "#7a6a84", "#6d8570", "#a07a62")
@@ -96,6 +99,7 @@ class _Maker:
         self.scene = scene
         self.assets = assets
         self.report = Report()
+        self._doors = [Bounds(door.x, door.y, door.x, door.y).grown(_BEFORE_DOOR) for door in scene.doors]
         self.fixed: list[SceneObject] = []
         self._waiting: list[tuple[_Piece, str]] = []
         self._count: Counter[str] = Counter()
@@ -130,11 +134,10 @@ class _Maker:
         room = self.scene.room_at(*piece.position[:2])
         thing = _object(piece, room, 0, self._name(piece.kind.cls))
         thing = self._lifted(thing)
-        for x, y in _around(thing.xy):
-            moved = thing.model_copy(update={"position": (x, y, thing.position[2])})
-            if self._has_room(moved, room):
-                break
-        else:
+        places = [thing.model_copy(update={"position": (x, y, thing.position[2])}) for x, y in _around(thing.xy)]
+        beside = [one for one in places if not any(one.bounds.overlaps(space) for space in self._doors)]
+        moved = next((one for one in [*beside, *places] if self._has_room(one, room)), None)
+        if moved is None:
             self.report.left_out.append(f"{piece.what}: there is no room for it within {_FARTHEST} m")
             return ""
         away = math.dist(moved.xy, thing.xy)
