@@ -223,7 +223,7 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     from coopera.memory.embeddings import bundled  # noqa: PLC0415
 
     code, base = 70, disk.base
-    rebuild.damage = store.damage = _prober()  # type: ignore[assignment]
+    rebuild.damage = store.damage = _prober()  # type: ignore[attr-defined]
     try:
         code = main(args)
         atexit._run_exitfuncs()

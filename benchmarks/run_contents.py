@@ -1,11 +1,14 @@
 """What a run holds, so that two runs can be compared: every file is of a kind, and a kind says what of it counts.
 
+    python -m benchmarks.run_contents RUN...
+
 Seconds and process numbers differ between equal runs, so records are compared without them. A file of no kind counts
 too: that it is there at all is then what is compared.
 """
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 import json
 import re
@@ -18,8 +21,9 @@ from typing import Any, TypeAlias
 
 from langchain_core.embeddings import Embeddings
 
+from coopera.config.schema import default_data_dir
 from coopera.graphs import build_study_graph
-from coopera.memory import MemoryStream
+from coopera.memory import MemoryStream, bundled
 from coopera.memory.store import Store
 from coopera.rundir.directory import RunDir
 from coopera.studies.standing import THREAD, open_checkpoints
@@ -140,3 +144,17 @@ def _state(file: Path) -> str:
 
 def _sha(data: str | bytes) -> str:
     return hashlib.sha256(data.encode() if isinstance(data, str) else data).hexdigest()
+
+
+def main() -> None:
+    """Print a SHA-256 of each kind of what some runs hold: two versions of the code that agree in it do the same."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("runs", nargs="+", type=Path)
+    embeddings = bundled(default_data_dir() / "embeddings.sqlite")
+    for run in parser.parse_args().runs:
+        for kind, files in contents(run, embeddings).items():
+            print(f"{_sha(json.dumps(files, sort_keys=True))[:16]}  {len(files):4d}  {kind} of {run}")
+
+
+if __name__ == "__main__":
+    main()

@@ -381,3 +381,8 @@ class Example(Frozen):
     counts: float = Field(1.0, gt=0, le=1, exclude_if=lambda counts: counts == 1)
     """How much it still counts, where the person has changed since. Classifiers that cannot weigh leave it out."""
     label: bool | None = None
+
+    def but(self, **changes: Any) -> Example:
+        """Return the example with other values; itself where it has these already, since there are thousands."""
+        same = all(getattr(self, name) == value for name, value in changes.items())
+        return self if same else self.model_copy(update=changes)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 """What moves a terminal's cursor or colours it, turns the direction of writing, or cannot be written at all."""
 
 
+@lru_cache(maxsize=65_536)
 def plain(name: str) -> str:
     """Return an object's name as words: "kitchen_table_2" becomes "kitchen table"."""
     words = name.replace("_", " ").split()

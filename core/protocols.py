@@ -136,11 +136,19 @@ class Home(Protocol):
         """What a perception module reports of the recording, with its errors drawn from `rng`."""
         ...
 
-    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+    def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
         Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter, as NAME-0.webp ….
+        a `name` only the latter, as NAME-0.webp …. Without `wait` the files may come later: see `finish_frames`.
+        """
+        ...
+
+    def finish_frames(self) -> None:
+        """Wait for all files of `frames`.
+
+        Raises:
+            SimulationError: If they cannot be written.
         """
         ...
 

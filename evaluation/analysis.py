@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coopera.evaluation.agreement import l1
-from coopera.evaluation.comparing import Comparison, Of, Unit, clustered_mean, compare
+from coopera.evaluation.comparing import Comparison, Noise, Of, Unit, clustered_mean, compare, noise
 from coopera.evaluation.counts import pool
+from coopera.evaluation.grid import AGAIN, OF, SHARED
 from coopera.evaluation.measuring import find_measure
 from coopera.evaluation.results import Card, Row
 from coopera.evaluation.statistics import Mean
@@ -115,6 +116,54 @@ def late_units(rows: Iterable[Row], measure: str, endpoint: Endpoint = STATED) -
     return _units(rows, measure, endpoint.late_days)
 
 
+def variants(rows: Iterable[Row], word: str) -> list[Row]:
+    """The rows of a variant such as `shared`, under the names of the methods themselves."""
+    ending = f"{OF}{word}"
+    mine = [row for row in rows if row.method.endswith(ending)]
+    return [row.model_copy(update={"method": row.method.removesuffix(ending)}) for row in mine]
+
+
+def plain(rows: Iterable[Row]) -> list[Row]:
+    """The rows of methods as they are, without variants."""
+    return [row for row in rows if OF not in row.method]
+
+
+def control(rows: Sequence[Row], endpoint: Endpoint = STATED) -> dict[str, tuple[Cell, Cell, Comparison]]:
+    """By method that ran with shared common sense, too: with its own, with the shared, and what it gains by it."""
+    own = late_units(plain(rows), endpoint.measure, endpoint)
+    shared = late_units(variants(rows, SHARED), endpoint.measure, endpoint)
+    found = {}
+    for method, each in shared.items():
+        if compared := compare(own.get(method, {}), {method: each}, test=endpoint.test, correction="none"):
+            found[method] = (_cells(own)[method], _cells(shared)[method], compared[0])
+    return found
+
+
+def noise_floors(rows: Sequence[Row], endpoint: Endpoint = STATED) -> dict[str, Noise]:
+    """By method the noise floor of the endpoint between seeds, where there are several."""
+    found = late_units(plain(rows), endpoint.measure, endpoint)
+    return {method: floor for method, each in found.items() if (floor := noise(each))}
+
+
+def sampling_floors(rows: Sequence[Row], endpoint: Endpoint = STATED) -> dict[str, Noise]:
+    """By method that met the same days several times: the endpoint's noise floor between single samples of models."""
+    words: dict[str, set[str]] = defaultdict(set)
+    for method, _, word in (row.method.partition(OF) for row in rows):
+        if word.startswith(AGAIN):
+            words[method].add(word)
+    found = {}
+    once = late_units(plain(rows), endpoint.measure, endpoint)
+    for method, again in words.items():
+        samples: dict[Of, Unit] = {}
+        repeated = [late_units(variants(rows, word), endpoint.measure, endpoint) for word in sorted(again)]
+        for number, each in enumerate([once, *repeated]):
+            for (setting, collab, *episode), unit in each.get(method, {}).items():
+                samples[setting, collab, number, *episode] = unit  # a sample where a seed stands
+        if floor := noise(samples, once.get(method)):
+            found[method] = floor
+    return found
+
+
 def growth(rows: Sequence[Row], measure: str, endpoint: Endpoint = STATED) -> dict[str, Cell]:
     """Each method's growth from the early to the late days, over the people who have both."""
     early, late = _units(rows, measure, endpoint.early_days), late_units(rows, measure, endpoint)
@@ -181,8 +230,11 @@ def comparisons(
     """Each method against the reference on the same days: the last ones, or the late ones of an endpoint.
 
     With an endpoint its test and its correction hold, the latter for the methods that it names; the others follow and
-    have no corrected p.
+    have no corrected p. Variants are none of the methods. Where there is a single seed, and the reference's models were
+    sampled again and did answer otherwise, the noise floor is that of two such samples.
     """
+    sampled = sampling_floors(rows, late).get(reference) if late else None
+    rows = plain(rows)
     if late is None:
         found = units(rows, measure)
         return compare(found.pop(reference, {}), found)
@@ -191,10 +243,12 @@ def comparisons(
     named = found if late.against is None else {name: found[name] for name in late.against if name in found}
     others = {name: each for name, each in found.items() if name not in named}
     explored = compare(base, others, test=late.test, correction="none")
-    return [
+    compared = [
         *compare(base, named, test=late.test, correction=late.correction),
         *(one._replace(p_corrected=None) for one in explored),
     ]
+    two = sampled._replace(floor=2**0.5 * sampled.floor) if sampled and sampled.sd else None
+    return [one._replace(noise=one.noise or two) for one in compared]
 
 
 def curve(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Sequence
 from itertools import product
 from typing import NamedTuple, TypeAlias
@@ -28,6 +29,7 @@ _AT_ONCE = 250  # studies, so that a table of their permutations stays small
 
 Of: TypeAlias = tuple[Hashable, ...]
 """What a unit is of: setting, type, seed, episode and person."""
+_SEED = 2
 
 
 class Unit(NamedTuple):
@@ -39,6 +41,22 @@ class Unit(NamedTuple):
     value: float
 
 
+class Noise(NamedTuple):
+    """How much a figure moves with the seed, with nothing else changed.
+
+    Attributes:
+        sd: Standard deviation between seeds of one person's figure in one episode, pooled, with its 95 % interval.
+        freedom: Degrees of freedom of it.
+        floor: What the mean over people moves by under other seeds: 95 % of such studies stay within it.
+    """
+
+    sd: float
+    low: float
+    high: float
+    freedom: int
+    floor: float
+
+
 class Comparison(NamedTuple):
     """A method against the reference, on the same days.
 
@@ -47,6 +65,7 @@ class Comparison(NamedTuple):
         p: Of a test over people, two-sided; 1 where there is nothing to test.
         p_corrected: After the correction among the methods compared; None for one that no hypothesis names.
         people: How many people are tested; the smallest p that the sign-flip test can give is 2 / 2^people.
+        noise: Its noise floor; None with a single seed.
         detectable: The difference that a t test of so many people at this scatter finds with 80 % power; None where
             the permutation test can give no p below 0.05.
     """
@@ -57,6 +76,12 @@ class Comparison(NamedTuple):
     p_corrected: float | None
     people: int
     detectable: float | None
+    noise: Noise | None = None
+
+    @property
+    def below_noise(self) -> bool:
+        """Whether other seeds alone could have made it."""
+        return self.noise is not None and abs(self.difference.mean) < self.noise.floor
 
 
 def person_means(units: Sequence[Unit]) -> list[float]:
@@ -73,6 +98,30 @@ def clustered_mean(units: Sequence[Unit], *, level: float = 0.95) -> Mean:
         level: Coverage in (0, 1).
     """
     return mean_over_people(person_means(units), level=level)
+
+
+def noise(units: dict[Of, Unit], of: dict[Of, Unit] | None = None, *, level: float = 0.95) -> Noise | None:
+    """The noise floor of the mean over people, from what the same people had in the same episode under several seeds.
+
+    Seeds are drawn anew for each person, so that their noise averages out over people.
+
+    Args:
+        units: What they had; with a single seed there is no floor.
+        of: The units whose mean the floor is of; by default the same.
+        level: Share of such studies that stay within the floor.
+    """
+    groups: dict[Of, list[float]] = defaultdict(list)
+    for key, unit in units.items():
+        groups[(*key[:_SEED], *key[_SEED + 1 :])].append(unit.value)
+    freedom = sum(len(values) - 1 for values in groups.values())
+    if not freedom:
+        return None
+    squares = sum(float(np.var(values)) * len(values) for values in groups.values())
+    met = Counter(unit.person for unit in (of or units).values())
+    share = sum(1 / times for times in met.values()) / len(met) ** 2
+    sd = math.sqrt(squares / freedom)
+    low, high = (sd * math.sqrt(freedom / float(stats.chi2.ppf(at, freedom))) for at in (0.975, 0.025))
+    return Noise(sd, low, high, freedom, float(stats.t.ppf((1 + level) / 2, freedom)) * sd * math.sqrt(share))
 
 
 def sign_flip(differences: Sequence[float]) -> float:
@@ -189,14 +238,15 @@ def compare(
     Returns:
         One comparison per method that shares a unit with the reference.
     """
-    found: list[tuple[str, list[float]]] = []
+    found: list[tuple[str, list[float], Noise | None]] = []
     for method, units in others.items():
         if shared := paired(reference, units):
-            found.append((method, person_means(list(shared.values()))))
-    p_values = np.array([[TESTS[test](np.array([means]))[0] for _, means in found]])
+            found.append((method, person_means(list(shared.values())), noise(shared)))
+    p_values = np.array([[TESTS[test](np.array([means]))[0] for _, means, _ in found]])
+    corrected = CORRECTIONS[correction](p_values)[0]
     return [
-        Comparison(method, mean_over_people(means), float(p), float(corrected), len(means), detectable(means))
-        for (method, means), p, corrected in zip(found, p_values[0], CORRECTIONS[correction](p_values)[0], strict=True)
+        Comparison(method, mean_over_people(means), float(p), float(q), len(means), detectable(means), floor)
+        for (method, means, floor), p, q in zip(found, p_values[0], corrected, strict=True)
     ]
 
 

@@ -23,6 +23,11 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_+-]{0,39}$")]
 Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
 
 
+OF = "+"
+"""Between a method and its variant."""
+SHARED, AGAIN = "shared", "again"
+
+
 class Schedule(Frozen):
     """An order of days of one's own, by position: person 0, 1, … and home 0, 1, … of an episode, one pair a day."""
 
@@ -75,7 +80,7 @@ class Grid(Frozen):
         methods: Names, in the order in which they are run in each life.
         settings: Names in `SCHEDULES` or `schedules`.
         collab: Collaboration types.
-        seeds: How many seeds, from 0.
+        seeds: How many seeds, from 0; or which.
         humans: People in the order in which they take part; a number takes so many of those there are.
         scenes: Homes, likewise.
         episodes: At most so many episodes of each setting; by default the paper's number.
@@ -84,6 +89,9 @@ class Grid(Frozen):
             the homes `in_turn`.
         hours: Hours of each day.
         schedules: Orders of days of one's own, by name.
+        with_shared: Methods that are run with shared common sense, too, as a control of how much a robot gains by
+            reading the person's household file: `all`, or by default the endpoint's reference.
+        noise: How often the endpoint's reference meets each life again, its models sampled anew.
         endpoint: The measure of the primary endpoint, and how methods are compared in it.
         late_days: The primary endpoint is the mean of so many of each person's last days of an episode; by default of
             the last third of them, rounded up (of 15 days the last 5).
@@ -94,7 +102,7 @@ class Grid(Frozen):
     methods: Annotated[list[str], Field(min_length=1)] = ["ours"]
     settings: Annotated[list[Name], Field(min_length=1)] = ["1"]
     collab: Annotated[list[Literal[1, 2]], Field(min_length=1)] = [2]
-    seeds: Count = 1
+    seeds: Count | Annotated[list[Annotated[int, Field(strict=True, ge=0, lt=2**63)]], Field(min_length=1)] = 1
     humans: Annotated[list[str], Field(min_length=1)] | Count | None = None
     scenes: Annotated[list[str], Field(min_length=1)] | Count | None = None
     episodes: Count | None = None
@@ -102,10 +110,39 @@ class Grid(Frozen):
     pairing: Literal["every", "in_turn"] = "every"
     hours: Annotated[int, Field(strict=True, ge=1, le=15)] = HOURS_PER_DAY
     schedules: dict[Name, Schedule] = {}
+    with_shared: Literal["all"] | list[str] | None = None
+    noise: Annotated[int, Field(strict=True, ge=0, le=100)] = 0
     endpoint: Primary = Primary()
     late_days: Count | None = None
     early_days: tuple[Count, Count] = (2, 5)
     run: dict[str, Any] = {}
+
+    @property
+    def seed_list(self) -> Sequence[int]:
+        """The seeds themselves."""
+        return self.seeds if isinstance(self.seeds, list) else range(self.seeds)
+
+    @property
+    def variants(self) -> list[Variant]:
+        """What runs beside the methods; it enters no comparison of methods."""
+        reference = [self.endpoint.reference] if self.endpoint.reference in self.methods else []
+        chosen = {None: reference, "all": self.methods}
+        shared = self.with_shared if isinstance(self.with_shared, list) else chosen[self.with_shared]
+        again = [Variant(name, f"{AGAIN}{n}", n) for name in reference for n in range(1, self.noise + 1)]
+        return [*(Variant(name, SHARED) for name in shared), *again]
+
+
+class Variant(NamedTuple):
+    """A method under another condition: with shared common sense, or with its models sampled once more."""
+
+    method: str
+    word: str
+    sample: int = 0
+
+    @property
+    def name(self) -> str:
+        """As the column `method` of tables has it."""
+        return f"{self.method}{OF}{self.word}"
 
 
 class Life(NamedTuple):
@@ -147,13 +184,18 @@ def read_grid(data: Mapping[str, Any], source: str) -> Grid:
         raise ConfigError(f"{source}: {field} cannot be {first['input']!r} ({first['msg'].lower()}).") from None
 
 
-def check_endpoint(grid: Grid) -> None:
-    """Refuse an endpoint that this grid cannot have.
+def check_names(grid: Grid) -> None:
+    """Refuse an endpoint and controls that this grid cannot have.
 
     Raises:
-        ConfigError: If its measure is unknown, or it names methods that the grid has not.
+        ConfigError: If a measure is unknown, or methods are named that the grid has not.
     """
     stated = grid.endpoint
+    if odd := [name for name in grid.methods if OF in name]:
+        raise ConfigError(f"methods: {odd[0]}: the name of a method in a benchmark has no {OF}.")
+    asked = grid.with_shared if isinstance(grid.with_shared, list) else []
+    if odd := [name for name in asked if name not in grid.methods]:
+        raise ConfigError(f"with_shared: {odd[0]} is none of the grid's methods ({', '.join(grid.methods)}).")
     find_measure(stated.measure)
     # a grid of baselines alone has nothing to compare, unless it says so
     named = [stated.reference] if "reference" in stated.model_fields_set else []
@@ -180,7 +222,7 @@ def lives(grid: Grid, people: Sequence[str], scenes: Sequence[str]) -> list[Life
     for setting in grid.settings:
         if setting not in known:
             raise ConfigError(f"settings: there is no setting {setting!r} (known are {', '.join(known)}).")
-        for place, (collab, seed) in enumerate(product(grid.collab, range(grid.seeds))):
+        for place, (collab, seed) in enumerate(product(grid.collab, grid.seed_list)):
             for number, days in enumerate(_episodes(setting, known[setting], people, scenes, grid)):
                 found.append((seed, number, place, Life(setting, collab, seed, number, days)))
     return [life for *_, life in sorted(found, key=lambda entry: entry[:3])]

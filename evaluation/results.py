@@ -139,6 +139,28 @@ class Standing(Frozen):
     words: str
 
 
+class Fingerprints(Frozen):
+    """SHA-256 of what a benchmark's runs were made with.
+
+    Attributes:
+        person: The person's model with its prompts and the settings of how people live and answer.
+        judge: The judge's model with its prompts.
+        household: The household files of person, robot and judge, and whether they share one.
+        robot: The robot's model, body and classifier.
+        prompts: All prompts.
+        code: Modules, prompts and knowledge files of coopera.
+        mixed: Which of these are not the same in all runs.
+    """
+
+    person: str
+    judge: str
+    household: str
+    robot: str
+    prompts: str
+    code: str
+    mixed: list[str] = []
+
+
 class Card(Frozen):
     """What results.json says of a table."""
 
@@ -156,7 +178,10 @@ class Card(Frozen):
     sha256: str
     grid: dict[str, Any]
     endpoint: Standing | None = None
-    """None in results of before endpoints were stamped."""
+    """None in results of before endpoints were stamped, as are those below."""
+    fingerprints: Fingerprints | None = None
+    config: dict[str, Any] | None = None
+    """What the runs shared, so far as it is not the default of settings."""
 
 
 def rows_of(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from coopera.core.success import Counts
 from coopera.evaluation import paper
@@ -13,59 +12,40 @@ from coopera.evaluation.analysis import (
     Endpoint,
     agreement,
     comparisons,
+    control,
     curve,
     effort,
     generalisation,
     growth,
     last_day,
     late_days,
+    noise_floors,
+    plain,
+    sampling_floors,
     score,
 )
 from coopera.evaluation.comparing import ALPHA, Comparison, people_needed
 from coopera.evaluation.measuring import all_measures, find_measure
 from coopera.evaluation.results import Row
-from coopera.evaluation.statistics import FEWEST, Mean
+from coopera.evaluation.statistics import FEWEST
+from coopera.evaluation.table import NONE, Table, cell, signed
 
 REFERENCE = "ours"
 PRIMARY = "help"
 """Need F1 is shown whatever the endpoint is."""
 FRESH = "untrained"
-NONE = "–"
 _TYPES = {1: "type 1", 2: "type 2"}
-
-
-class Table(NamedTuple):
-    """A table: cells are text, the first column names the row."""
-
-    name: str
-    title: str
-    columns: list[str]
-    rows: list[list[str]]
-    note: str = ""
-
-    def markdown(self) -> str:
-        """As Markdown."""
-        lines = [f"### {self.title}", "", _line(self.columns), "|" + "---|" * len(self.columns)]
-        lines += [_line(row) for row in self.rows]
-        return "\n".join([*lines, "", *([self.note, ""] if self.note else [])])
-
-    def latex(self) -> str:
-        """As a LaTeX table for the package booktabs."""
-        body = [" & ".join(map(_tex, row)) + r" \\" for row in self.rows]
-        head = " & ".join(map(_tex, self.columns)) + r" \\"
-        parts = [r"\begin{table}[t]", r"\centering\footnotesize", rf"\caption{{{_tex(self.title)}. {_tex(self.note)}}}"]
-        parts += [rf"\begin{{tabular}}{{@{{}}l{'c' * (len(self.columns) - 1)}@{{}}}}", r"\toprule", head, r"\midrule"]
-        return "\n".join(
-            [*parts, *body, r"\bottomrule", r"\end{tabular}", rf"\label{{tab:{self.name}}}", r"\end{table}", ""]
-        )
 
 
 def all_tables(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> list[Table]:
     """Every table that the rows allow, methods in the given order and the primary endpoint first."""
+    every, rows = rows, plain(rows)
     tables = [
         late_table(rows, methods, endpoint),
         growth_table(rows, methods, endpoint),
-        comparison_table(rows, methods, endpoint),
+        comparison_table(every, methods, endpoint),
+        control_table(every, methods, endpoint),
+        noise_table(every, methods, endpoint),
         need_table(rows, methods),
         *[last_day_table(rows, methods, measure) for measure in _measures(rows)],
         paper_table(rows, methods),
@@ -177,13 +157,15 @@ def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint
     stated = late or _PAPERS
     found = comparisons(rows, stated.reference, stated.measure, late)
     family = [one for one in found if one.p_corrected is not None]
+    floors = any(one.noise is not None for one in found)
     lines = [
         [
             one.method,
-            f"{one.difference.mean:+.3f} {_signed(one.difference)}",
+            signed(one.difference),
             f"{one.p:.4f}",
             NONE if one.p_corrected is None else f"{one.p_corrected:.4f}",
             str(one.people),
+            *([_floor(one)] if floors else []),
             *([NONE if one.detectable is None else f"{one.detectable:.3f}"] if _testable(found) else []),
         ]
         for one in sorted(found, key=lambda one: (one.p_corrected is None, list(methods).index(one.method)))
@@ -202,21 +184,79 @@ def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint
             else []
         ),
         *(["Rows without a corrected p were not among the stated comparisons."] if len(family) < len(found) else []),
+        *([_FLOOR] if floors else []),
         *(["Detectable: the true difference found with 80 % power at this scatter."] if _testable(found) else []),
     ]
     corrected = "p (Holm)" if stated.correction == "holm" else "p (stated)"
     return Table(
         "comparisons_late" if late else "comparisons",
         f"Difference to {stated.reference} in {what}",
-        ["method", "difference", "p", corrected, "people", *(["detectable"] if _testable(found) else [])],
+        [
+            "method",
+            "difference",
+            "p",
+            corrected,
+            "people",
+            *(["noise floor"] if floors else []),
+            *(["detectable"] if _testable(found) else []),
+        ],
         lines,
         " ".join(notes),
     )
 
 
+_FLOOR = (
+    "Noise floor: so large a difference can come from other seeds alone (with a single seed, from other samples of the "
+    "models' replies); a smaller one is marked (below)."
+)
 _PAPERS = Endpoint(measure="predicate", late=1)
 _TESTS = {"sign_flip": "sign-flip permutation test", "t": "t test"}
 _CORRECTIONS = {"holm": "Holm's correction", "none": "no correction"}
+
+
+def control_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
+    """What a robot gains by reading the person's household file."""
+    found = control(rows, endpoint)
+    lines = [
+        [method, cell(own), cell(shared), signed(compared.difference), f"{compared.p:.4f}"]
+        for method, (own, shared, compared) in sorted(found.items(), key=lambda item: list(methods).index(item[0]))
+    ]
+    return Table(
+        "control_shared",
+        f"Control, {endpoint.title} in the late days: the robot's common sense its own, and shared with the person",
+        ["method", "its own (as run)", "shared", "gain by sharing", "p"],
+        lines,
+        f"The same days, all settings and types together; p uncorrected. {_MEANS}",
+    )
+
+
+def noise_table(rows: Sequence[Row], methods: Sequence[str], endpoint: Endpoint = STATED) -> Table:
+    """How much the endpoint moves with nothing changed but the seed, or but the models' samples."""
+    kinds = {
+        "other seeds": noise_floors(rows, endpoint),
+        "same days, replies sampled anew": sampling_floors(rows, endpoint),
+    }
+    lines = [
+        [method, kind, f"{found[method].sd:.3f} [{found[method].low:.3f}, {found[method].high:.3f}]",
+         str(found[method].freedom), f"{found[method].floor:.3f}"]
+        for kind, found in kinds.items()
+        for method in methods
+        if method in found
+    ]  # fmt: skip
+    return Table(
+        "noise",
+        f"Noise floor of {endpoint.title} in the late days",
+        ["method", "nothing changed but", "SD of a person's episode", "degrees of freedom", "floor of the mean"],
+        lines,
+        "SD with its 95 % chi-square interval, of the same people in the same episodes. Floor: what the mean over all "
+        "people and episodes moves by; 95 % of such repetitions stay within it.",
+    )
+
+
+def _floor(one: Comparison) -> str:
+    if one.noise is None:
+        return NONE
+    return f"{one.noise.floor:.3f}{' (below)' if one.below_noise else ''}"
 
 
 def _testable(found: Sequence[Comparison]) -> bool:
@@ -232,7 +272,7 @@ def order_table(rows: Sequence[Row]) -> Table:
         for found in comparisons(pair, worse):
             agrees = "yes" if found.difference.mean > 0 else "no"
             sure = "" if found.p < 0.05 else " (not significant)"
-            gap = f"{found.difference.mean:+.3f} {_signed(found.difference)}"
+            gap = signed(found.difference)
             lines.append([f"{better} > {worse}", where, gap, f"{found.p:.4f}", agrees + sure])
     return Table(
         "order",
@@ -258,7 +298,7 @@ def generalisation_table(rows: Sequence[Row]) -> Table:
         found = generalisation(rows, setting, REFERENCE, FRESH)
         if found:
             theirs = paper.GENERALISATION[what]
-            lines.append([what, _cell(found[0]), _cell(found[1]), f"{theirs[0]:.3f}", f"{theirs[1]:.3f}"])
+            lines.append([what, cell(found[0]), cell(found[1]), f"{theirs[0]:.3f}", f"{theirs[1]:.3f}"])
     return Table(
         "generalisation",
         "Generalisation: a fresh robot, and one that has learned elsewhere, on the same unseen day",
@@ -323,33 +363,9 @@ def _place(place: tuple[str, int]) -> str:
 
 def _lines(methods: Sequence[str], found: Sequence[Mapping[str, Cell]]) -> list[list[str]]:
     """A row per method, a cell per place; none where no place has any method."""
-    lines = [[method, *(_cell(cells.get(method)) for cells in found)] for method in methods]
+    lines = [[method, *(cell(cells.get(method)) for cells in found)] for method in methods]
     return lines if any(found) else []
 
 
 def _upper(title: str) -> str:
     return title[:1].upper() + title[1:]
-
-
-def _cell(cell: Cell | None) -> str:
-    if cell is None:
-        return NONE
-    found = cell.interval
-    return f"{found.mean:.3f} ({cell.n})" if found.low is None else f"{found} ({cell.n})"
-
-
-def _signed(found: Mean) -> str:
-    """An interval of a difference."""
-    if found.low is None or found.high is None:
-        return found.interval
-    return f"[{found.low:+.3f}, {found.high:+.3f}]"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
-
-
-def _tex(text: str) -> str:
-    for char in "&%_#$":
-        text = text.replace(char, f"\\{char}")
-    return text.replace("–", "--").replace("^", r"\^{}").replace(">", "$>$").replace("<", "$<$")

@@ -162,6 +162,7 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     if robot:
         remember_guess(services, plan, clock, robot)
     world = services.home(plan.scene).snapshot()
+    services.home(plan.scene).finish_frames()  # an hour that stands has all its pictures
     success = state.get("success")
     services.recorder.write_hour(
         HourRecord(
@@ -237,7 +238,7 @@ def _filming(services: Services, home: Home, view: RobotView) -> Callable[[int],
         return None
 
     def film(number: int) -> None:
-        home.frames(services.help_frames, view.pictures[0].parent, f"help-{number}")
+        home.frames(services.help_frames, view.pictures[0].parent, f"help-{number}", wait=False)
 
     return film
 

@@ -39,7 +39,8 @@ class LivedNow:
         frames = []
         if services.frames:
             folder = services.recorder.frames_folder(plan.day, clock.hour)
-            frames = [services.relative(path) for path in home.frames(services.frames, folder)]
+            taken = home.frames(services.frames, folder, wait=services.looks_at_frames)
+            frames = [services.relative(path) for path in taken]
         if services.video:
             home.film(services.recorder.video_file(plan.day, clock.hour))
         blind = not services.ask.sees("robot")

@@ -147,6 +147,11 @@ class Services(GivenByCode):
         return replace(self, player=self.player.present())
 
     @property
+    def looks_at_frames(self) -> bool:
+        """Whether the robot may look at the hour's pictures: they are then there before it thinks."""
+        return self.own is not None or self.ask.sees("robot")
+
+    @property
     def pupil(self) -> Learner | OwnRobot:
         """Who learns in the evening."""
         return self.own or self.learner

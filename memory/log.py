@@ -18,12 +18,13 @@ from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.scan import BLOCK, Block
+from coopera.memory.vectors import Vectors, repeated
 
 if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's
+_BLOCKS_IN_RAM = 4  # 3 MB of MiniLM's, where no text is said twice
 _TEXTS_IN_RAM = 8 * BLOCK  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
 
@@ -42,12 +43,15 @@ class Log:
     Implements `scan.Rows`. Calls come under `lock`.
     """
 
-    def __init__(self, reach: Callable[[], Collection], where: str, *, exclusive: bool) -> None:
+    def __init__(
+        self, reach: Callable[[], Collection], where: str, vectors: Vectors | None, *, exclusive: bool
+    ) -> None:
         """Find the end of the log.
 
         Args:
             reach: Gets the stream's collection as it now is.
             where: Store and stream, for messages.
+            vectors: Where the texts' vectors are; None where the collection itself has them.
             exclusive: Whether no one else can write; if not, each write is read back.
 
         Raises:
@@ -56,6 +60,7 @@ class Log:
         self.lock = threading.RLock()
         self.where = where
         self._reach = reach
+        self._vectors = vectors
         self._exclusive = exclusive
         self._collection = reach()
         self._numbering = Numbering()
@@ -87,10 +92,9 @@ class Log:
             return Block(self._tail.start, self._tail.vectors[:filled], self._tail.hours[:filled])
         block = self._blocks.pop(number, None)
         if block is None:
-            block = self._read(number * BLOCK, min((number + 1) * BLOCK, self._length))
-        self._blocks[number] = block
-        if len(self._blocks) > _BLOCKS_IN_RAM:
-            self._blocks.popitem(last=False)
+            vectors, hours = self._read(number * BLOCK, min((number + 1) * BLOCK, self._length))
+            block = Block(number * BLOCK, repeated(vectors), hours)
+        self._keep_block(number, block)
         return block
 
     def first_at(self, hour: int) -> int:
@@ -152,6 +156,11 @@ class Log:
         self._keep(found)
         return [found[position] for position in positions]
 
+    def _keep_block(self, number: int, block: Block) -> None:
+        self._blocks[number] = block
+        if len(self._blocks) > _BLOCKS_IN_RAM:
+            self._blocks.popitem(last=False)
+
     def _read_records(self, positions: Sequence[int]) -> dict[int, Record]:
         """Return records by position from the store, up to `_PER_CALL` of them."""
         with translated(self.where):
@@ -194,10 +203,12 @@ class Log:
                 entry["metadata"] = own_json
             entries.append(entry)
         try:
+            if self._vectors is not None:
+                self._vectors.add(texts, vectors)
             with translated(self.where):
                 self._collection.add(
                     ids=ids,
-                    embeddings=vectors,
+                    embeddings=vectors if self._vectors is None else np.ones((len(texts), 1), np.float32),
                     documents=list(texts),
                     metadatas=entries,  # type: ignore[arg-type]
                 )
@@ -228,7 +239,8 @@ class Log:
             if filled == 0:
                 self._tail = _empty(0, vectors.shape[1])
             elif filled == BLOCK:
-                self._blocks[self._tail.start // BLOCK] = self._tail
+                full = self._tail
+                self._keep_block(full.start // BLOCK, Block(full.start, repeated(full.vectors), full.hours))
                 self._tail = _empty(self._length, vectors.shape[1])
                 filled = 0
             self._tail.vectors[filled] = vector
@@ -249,10 +261,10 @@ class Log:
         if length == 0:
             return
         start = (length - 1) // BLOCK * BLOCK
-        block = self._read(start, length)
-        self._tail = _empty(start, block.vectors.shape[1])
-        self._tail.vectors[: length - start] = block.vectors
-        self._tail.hours[: length - start] = block.hours
+        vectors, hours = self._read(start, length)
+        self._tail = _empty(start, vectors.shape[1])
+        self._tail.vectors[: length - start] = vectors
+        self._tail.hours[: length - start] = hours
         self._length = length
 
     def _find_length(self) -> int:
@@ -265,14 +277,15 @@ class Log:
             raise DamagedMemoryError(self.where, f"its {length} records are not numbered 0 to {length - 1}")
         return length
 
-    def _read(self, start: int, stop: int) -> Block:
+    def _read(self, start: int, stop: int) -> tuple[Vector, npt.NDArray[np.int64]]:
         """Read the vectors and hours of some records, checking each against its check sum."""
         ids = self._ids(range(start, stop))
         from chromadb.errors import InternalError  # noqa: PLC0415 - heavy
 
+        what = "embeddings" if self._vectors is None else "documents"
         try:
             with translated(self.where):
-                rows = self._collection.get(ids=ids, include=["embeddings", "metadatas"])
+                rows = self._collection.get(ids=ids, include=[what, "metadatas"])
         except MemoryStoreError as err:
             if isinstance(err.__cause__, InternalError):
                 raise DamagedMemoryError(
@@ -285,8 +298,12 @@ class Log:
             )
         order = np.argsort(rows["ids"])
         metadatas: Any = rows["metadatas"]
-        vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
         hours = np.array([metadatas[place]["hour"] for place in order], np.int64)
+        if self._vectors is None:
+            vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
+        else:
+            texts: Any = rows["documents"]
+            vectors = self._vectors_of([(texts[place], metadatas[place]) for place in order], start)
         for offset, place in enumerate(order):
             if metadatas[place].get("vector_sum") != _vector_sum(vectors[offset], int(hours[offset])):
                 raise DamagedMemoryError(
@@ -294,7 +311,15 @@ class Log:
                 )
         if (np.diff(hours) < 0).any():
             raise DamagedMemoryError(self.where, f"the hours of records {start} to {stop - 1} go backwards")
-        return Block(start, vectors, hours)
+        return vectors, hours
+
+    def _vectors_of(self, stored: Sequence[tuple[str | None, Mapping[str, Any]]], start: int) -> Vector:
+        """Return the vectors of stored texts, once each is known to be what was written."""
+        assert self._vectors is not None
+        for position, (text, meta) in enumerate(stored, start):
+            if not restored(text, meta)[1]:
+                raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
+        return self._vectors.of([str(text) for text, _ in stored])
 
     def _start_hours(self, numbers: Sequence[int]) -> dict[int, int]:
         """Return the first hour of some full blocks, by block number."""
@@ -310,8 +335,16 @@ class Log:
         return self._tail.hours[: self._length - self._tail.start]
 
 
-def _empty(start: int, dimension: int) -> Block:
-    return Block(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
+class _Tail(NamedTuple):
+    """The newest block, which is not full."""
+
+    start: int
+    vectors: Vector
+    hours: npt.NDArray[np.int64]
+
+
+def _empty(start: int, dimension: int) -> _Tail:
+    return _Tail(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
 
 
 def restored(text: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, bool]:

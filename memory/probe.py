@@ -53,9 +53,9 @@ def _check_index(folder: Path) -> None:
 def _main(folder: str, *, everything: bool) -> None:
     """Read the store."""
     _check_index(Path(folder))
-    store = Store(open_client(Path(folder)), folder, folder, None)
+    store = Store(open_client(Path(folder)), "the store", folder, None)
     for name in store.streams():
-        log = Log(partial(store.raw, name), f"the memory stream {name!r}", exclusive=True)
+        log = Log(partial(store.raw, name), f"the memory stream {name!r}", store.vectors(name), exclusive=True)
         last = (len(log) - 1) // BLOCK
         for number in range(last + 1) if everything else {0, max(0, last - 1)} if len(log) else ():
             log.block(number)

@@ -24,10 +24,16 @@ class RamCollection:
     _rows: dict[str, tuple[Vector, str, dict[str, Any]]] = field(default_factory=dict)
 
     def add(
-        self, *, ids: Sequence[str], embeddings: Vector, documents: Sequence[str], metadatas: Sequence[dict[str, Any]]
+        self,
+        *,
+        ids: Sequence[str],
+        embeddings: Vector,
+        documents: Sequence[str] | None = None,
+        metadatas: Sequence[dict[str, Any]] | None = None,
     ) -> None:
         """Add rows; one whose id is there stays as it is, as in Chroma."""
-        for key, *row in zip(ids, embeddings, documents, metadatas, strict=True):
+        texts, about = documents or [""] * len(ids), metadatas or [{}] * len(ids)
+        for key, *row in zip(ids, embeddings, texts, about, strict=True):
             self._rows.setdefault(key, (np.array(row[0], np.float32), row[1], dict(row[2])))
 
     def get(self, *, ids: Sequence[str], include: Sequence[str]) -> dict[str, Any]:

@@ -152,7 +152,8 @@ def _rebuild(folder: Path, salvage: _Salvage, embeddings: Embeddings) -> None:
     store = Store.open(folder)
     try:
         store.collection(salvage.stream, salvage.model)
-        log = Log(lambda: store.raw(salvage.stream), f"{folder}: {salvage.stream!r}", exclusive=True)
+        where, vectors_of = f"{folder}: {salvage.stream!r}", store.vectors(salvage.stream)
+        log = Log(lambda: store.raw(salvage.stream), where, vectors_of, exclusive=True)
         for start in range(0, len(salvage.records), _PAGE):
             page = salvage.records[start : start + _PAGE]
             texts = [record.text for record in page]

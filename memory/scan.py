@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from coopera.memory.minilm import Vector
+from coopera.memory.vectors import Repeated
 
 BLOCK = 512
 """Records per block: what is read at once."""
@@ -27,6 +28,14 @@ _MARGIN = 1e-4
 
 class Block(NamedTuple):
     """Records start, start + 1, …: unit vectors (n, d) float32 and hours (n,) int64, non-decreasing."""
+
+    start: int
+    vectors: Vector | Repeated
+    hours: npt.NDArray[np.int64]
+
+
+class _Part(NamedTuple):
+    """Some records of a block."""
 
     start: int
     vectors: Vector
@@ -115,7 +124,7 @@ def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int
         block = rows.block((position - 1) // BLOCK)
         start = max(low, block.start, position - STEP)
         part = slice(start - block.start, position - block.start)
-        window.take(Block(start, block.vectors[part], block.hours[part]))
+        window.take(_Part(start, block.vectors[part], block.hours[part]))
         position = start
     return Hits(window.best(), high - position)
 
@@ -128,13 +137,13 @@ class _Window:
         self._k = k
         self._decay = decay
         self._newest = newest
-        self._kept: list[tuple[npt.NDArray[np.float64], Block, npt.NDArray[np.int64]]] = []
+        self._kept: list[tuple[npt.NDArray[np.float64], _Part, npt.NDArray[np.int64]]] = []
         self._best = np.empty(0)
         self._floor = -np.inf
         self.complete = False
         """Whether no record before those taken can be among the k best."""
 
-    def take(self, block: Block) -> None:
+    def take(self, block: _Part) -> None:
         """Roughly score some records, in float32."""
         recency = np.power(self._decay, (self._newest - block.hours).astype(np.float64))
         scores = recency * (block.vectors @ self._query)
@@ -145,7 +154,7 @@ class _Window:
             self._floor = kth - _MARGIN
             self.complete = bool(recency[0] * (1 + _MARGIN) < self._floor)  # recency[0]: nothing before is newer
         rows = np.flatnonzero(scores >= self._floor)
-        kept = Block(block.start, block.vectors[rows], block.hours[rows])
+        kept = _Part(block.start, block.vectors[rows], block.hours[rows])
         self._kept.append((scores[rows], kept, rows))
 
     def best(self) -> list[Hit]:

@@ -18,6 +18,7 @@ from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.client import connect, disconnect, open_client, translated
 from coopera.memory.damage import damage
 from coopera.memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal, unseal, was_closed
+from coopera.memory.vectors import Vectors
 
 if TYPE_CHECKING:
     from chromadb.api import ClientAPI
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
 
 _SPACE = "ip"
 _INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
-_FORMAT = 1
+_FORMAT, _FORMATS = 2, (1, 2)
+"""A stream of format 1 has its vectors in its own collection, as of now in that of all streams of its model."""
 MAX_NAME = 200
 
 _Shared = TypeVar("_Shared")
@@ -55,6 +57,7 @@ class Store:
         self._holding = holding
         self._users = 0
         self._shared: dict[str, tuple[int, Any]] = {}
+        self._vectors: dict[str, Vectors] = {}
 
     @classmethod
     def open(cls, where: Path | str | ClientAPI | RamClient, *, create: bool = True) -> Store:
@@ -154,6 +157,24 @@ class Store:
         with translated(self.where):
             return self._client.get_collection(collection_name(name), embedding_function=None)
 
+    def vectors(self, name: str) -> Vectors | None:
+        """Where the vectors of an existing stream's texts are; None where its collection has them itself."""
+        about = self.raw(name).metadata or {}
+        model = str(about.get("model"))
+        if about.get("format") == 1:
+            return None
+        with Store._guard:
+            if model not in self._vectors:
+                with translated(self.where):
+                    collection = self._client.get_or_create_collection(
+                        f"vectors-{_digest(model)}",
+                        configuration=_INDEX,  # type: ignore[arg-type]
+                        metadata={"model": model, "format": _FORMAT},
+                        embedding_function=None,
+                    )
+                self._vectors[model] = Vectors(collection, self.where)
+            return self._vectors[model]
+
     def share(self, name: str, make: Callable[[], _Shared]) -> _Shared:
         """Return what `make` made at the first call for this name, to all who ask until all have let go of it."""
         with Store._guard:
@@ -173,7 +194,7 @@ class Store:
         found = collection.metadata or {}
         space = (collection.configuration_json.get("hnsw") or {}).get("space")
         at = f"{self.where}: the memory stream {name!r}"
-        if found.get("stream") != name or found.get("format") != _FORMAT:
+        if found.get("stream") != name or found.get("format") not in _FORMATS:
             raise MemoryStoreError(f"{at} was not written by this version of coopera (format {found.get('format')!r})")
         if found.get("model") != model:
             raise MemoryStoreError(f"{at} was written with the embeddings {found.get('model')!r}, not {model!r}")
@@ -200,4 +221,8 @@ atexit.register(Store.close_all)
 
 def collection_name(stream: str) -> str:
     """Return the Chroma collection's name for a stream; Chroma takes no free text as a name."""
-    return "stream-" + hashlib.sha256(stream.encode("utf-8", "surrogatepass")).hexdigest()[:40]
+    return f"stream-{_digest(stream)}"
+
+
+def _digest(name: str) -> str:
+    return hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:40]

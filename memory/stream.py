@@ -118,7 +118,9 @@ class MemoryStream:
         try:
             store.collection(name, identity(embeddings), create=create)
             where = f"{store.where}: the memory stream {name!r}"
-            log = store.share(name, lambda: Log(lambda: store.raw(name), where, exclusive=store.exclusive))
+            log = store.share(
+                name, lambda: Log(lambda: store.raw(name), where, store.vectors(name), exclusive=store.exclusive)
+            )
         except (ConfigError, MemoryStoreError):
             store.close()
             raise

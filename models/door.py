@@ -78,6 +78,7 @@ def open_door(  # noqa: PLR0913 - one parameter for each thing that a run decide
     backends = open_backends(model, embeddings, base_url, chosen, check, household)
     cacheable = any(not backend.reads_variables and backend.past is None for backend in backends.values())
     replies = ReplyCache(cache, shared) if cache is not None and cacheable else None
+    seed = seed_at(seed, "sample", chosen.sample) if chosen.sample else seed
     return Door(prompts=prompts, backends=backends, seed=seed, cache=replies, meter=meter, settings=chosen, root=root)
 
 

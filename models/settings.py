@@ -61,6 +61,11 @@ class CallSettings(Frozen):
         Field(strict=True, ge=1, le=10),
         Setting("Answers asked for before a bad one is an error; the model is shown what was wrong with the last."),
     ] = 3
+    sample: Annotated[
+        int,
+        Field(strict=True, ge=0, le=1_000_000),
+        Setting("Which of repeated samples: another number asks for all replies anew, with nothing else changed."),
+    ] = 0
     max_tokens: Annotated[int, Field(strict=True, ge=64, le=1_000_000), Setting("Most tokens of one reply.")] = 2048
     max_bytes: Annotated[
         int,

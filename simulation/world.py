@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, PerceptErrors
 from coopera.core.people import Persona
 from coopera.simulation.acts import primitives
-from coopera.simulation.acts.activity import free_motion, stay
+from coopera.simulation.acts.activity import stay
 from coopera.simulation.acts.first_places import first_states
-from coopera.simulation.acts.fitting import check_hands_over, check_moves
 from coopera.simulation.acts.meaning import misfit
+from coopera.simulation.acts.planning import planned
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
+from coopera.simulation.acts.skills import set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
@@ -34,7 +34,7 @@ from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import Recording
 from coopera.simulation.sight.timing import TICKS
-from coopera.simulation.sight.video import FPS, write_frames, write_video
+from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.views import view
 from coopera.simulation.sight.watching import Onlooker, Viewpoint, Watcher, onlooker, recorded
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
@@ -258,11 +258,11 @@ class World:
     def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
         self.state.agent(agent)
         try:
-            planned = plan()
+            made = plan()
         except UnableError as unable:
             return Result(ok=False, reason=unable.sentence)
-        self.state = planned.state
-        return Result(ok=True, metres=round(planned.metres, 3))
+        self.state = made.state
+        return Result(ok=True, metres=round(made.metres, 3))
 
     def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
@@ -289,13 +289,7 @@ class World:
         if watch is None and ready is not None and ready[0] is self.state and ready[1] == act:
             return ready[2]
         seen = watch if agent in self._ground.people else None
-        if isinstance(act, PickPlace):
-            return pick_place(self._ground, self.state, agent, act, seen)
-        if isinstance(act, HandOver):
-            check_hands_over(self._ground, self.state, agent, act.object)
-            return hand_over(self._ground, self.state, agent, act)
-        check_moves(self._ground, agent)
-        return free_motion(self._ground, self.state, agent, act, seen)
+        return planned(self._ground, self.state, agent, act, seen)
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
@@ -303,36 +297,39 @@ class World:
         return self._watcher
 
     def percept(self, rng: np.random.Generator) -> Percept:
-        """What a perception module reports of the recording, with its errors drawn from `rng`.
+        """What a perception module reports of the `recording`, with its errors drawn from `rng`."""
+        recording, stage, library = self.recording, self._watching().stage, self._library
+        return perceive(stage, self.layout, recording, library, errors=self.errors, class_of=self.class_of, rng=rng)
 
-        Raises:
-            SimulationError: If nothing has been recorded since the start or the last `restore`.
-        """
-        recording, stage = self.recording, self._watching().stage
-        return perceive(
-            stage, self.layout, recording, self._library, errors=self.errors, class_of=self.class_of, rng=rng
-        )
-
-    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+    def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
         Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter, as NAME-0.webp …. There are fewer only where the recording has fewer moments.
+        a `name` only the latter, as NAME-0.webp …. There are fewer only where the recording has fewer moments. Without
+        `wait` they are drawn and written while the home goes on, and `finish_frames` waits for them.
 
         Raises:
             SimulationError: If nothing has been recorded, or the folder cannot be written.
         """
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
-        watcher = self._watching()
-        pictures = watcher.film(self.recording, count, self.frame_size, views=tuple(views), labels=self.labels)
-        return write_frames(Path(folder), {stem: pictures[whose] for whose, stem in views.items()})
+        files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
+        if wait:
+            self.finish_frames()
+        return files
+
+    def frame_views(self, count: int) -> dict[str, View]:
+        """What `frames` shows, as data, by the names of the files; errors as of `frames` and `view`."""
+        return self._watching().views(self.recording, count, self.frame_size)
+
+    def finish_frames(self) -> None:
+        """Wait for the files of `frames` that nobody has waited for; a `SimulationError` if they cannot be written."""
+        if self._watcher is not None:
+            self._watcher.finish()
 
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.
 
-        Raises:
-            SimulationError: If nothing has been recorded, or the file cannot be written.
-            ConfigError: If the extra `video` is not installed.
+        Errors as of `frames`, and a `ConfigError` if the extra `video` is not installed.
         """
         return write_video(Path(path), self.filmed())
 
@@ -359,6 +356,7 @@ class World:
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         """Draw a person of the home as somebody from now on; nothing but pictures changes."""
+        self.finish_frames()
         self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
 
     def snapshot(self) -> dict[str, Any]:
@@ -371,6 +369,7 @@ class World:
         Raises:
             SimulationError: If the snapshot is damaged, cannot be true, or is of another home.
         """
+        self.finish_frames()
         self.state = read_snapshot(self.layout, self._start, snapshot, self.motions)
         self._recording = None
 

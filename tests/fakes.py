@@ -61,6 +61,8 @@ class FakeHome:
         self.inhabitants: list[tuple[AgentId, PersonId]] = []
         self.said: dict[str, str] = {}
         self.unfit: set[tuple[str, str]] = set()
+        self.late: list[Path] = []
+        """Pictures that are there only once somebody has waited for them."""
 
     def objects(self, kind: Literal["fixed", "movable"]) -> ObjectMap:
         return dict(sorted((self.fixed if kind == "fixed" else self.movable).items()))
@@ -108,13 +110,19 @@ class FakeHome:
     def percept(self, rng: np.random.Generator) -> Percept:
         return Percept(room="kitchen", near=["stove_1"], motion="stirring", in_hand=None, visible=["mug_1"])
 
-    def frames(self, count: int, folder: Path, name: str | None = None) -> list[Path]:
+    def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         views = ("robot", "human") if name is None else (name,)
         paths = [folder / f"{view}-{n}.webp" for view in views for n in range(count)]
-        for path in paths:
-            path.write_bytes(b"picture")
+        self.late += paths
+        if wait:
+            self.finish_frames()
         return paths
+
+    def finish_frames(self) -> None:
+        for path in self.late:
+            path.write_bytes(b"picture")
+        self.late = []
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         self.inhabitants.append((agent, person.id))
@@ -143,6 +151,7 @@ class ScriptedAsk:
         self.answers = answers
         self.asked: list[tuple[str, Address, dict[str, Any]]] = []
         self.slow: set[Role] = set()
+        self.seeing: set[Role] = set()
         self._calls: list[tuple[Address, ModelCall]] = []
 
     def __call__(
@@ -164,7 +173,7 @@ class ScriptedAsk:
         return answer
 
     def sees(self, role: Role) -> bool:
-        return False
+        return role in self.seeing
 
     def instant(self, role: Role) -> bool:
         return role not in self.slow

@@ -15,7 +15,7 @@ from coopera.simulation.goals.files import read_goals
 from coopera.simulation.homes.glb import read_glb
 from coopera.simulation.homes.meshes import look_of, part_file
 from coopera.simulation.homes.scene import MeshPart, dump_scene, load_scene
-from coopera.simulation.making.hssd.files import Folder
+from coopera.simulation.making.habitat.files import Folder
 from tests.simulation.synthetic_hssd import SCENE, boxes_document, write_glb, write_hssd
 
 
@@ -30,7 +30,7 @@ def _hssd(name: str) -> Callable[[Path], Target]:
 def _read_hssd(root: Path) -> object:
     hssd = Folder(root)
     scene = hssd.scene(SCENE)
-    regions = [(one.title, one.floor, one.x0, one.x1, one.z0, one.z1) for one in hssd.regions(SCENE, required=True)]
+    regions = [(one.title, one.floor, one.x0, one.x1, one.z0, one.z1) for one in hssd.regions(SCENE)]
     made: list[tuple[object, object, bool]] = []
     for number, one in enumerate(scene.object_instances):
         try:

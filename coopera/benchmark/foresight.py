@@ -56,9 +56,9 @@ def foresight(bench: Benchmark, results: Path | None = None) -> Foresight:
     known = _seen(results, endpoint, others) if results else {}
     scatters = {name: known[name].scatter if name in known else ASSUMED for name in others}
     sample = _sample(bench, endpoint)
-    how = {"test": endpoint.test, "correction": endpoint.correction}
-    forecast = foresee(sample, scatters, **how, results=known)
-    sizes = by_people(sample, list(scatters.values()), **how)
+    test, correction = endpoint.test, endpoint.correction
+    forecast = foresee(sample, scatters, test=test, correction=correction, results=known)
+    sizes = by_people(sample, list(scatters.values()), test=test, correction=correction)
     days = [late for each in sample.lives for late in each]
     assumed = [name for name in others if name not in known]
     parts = [f"scatter of {', '.join(known)} from {results}"] if known else []

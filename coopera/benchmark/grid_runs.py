@@ -22,11 +22,14 @@ from coopera.core.errors import ConfigError, RunError
 from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
-from coopera.evaluation.grid import Grid, Life, check_endpoint, lives, read_grid
+from coopera.evaluation.grid import OF, Grid, Life, Variant, check_names, lives, read_grid
+from coopera.evaluation.grid import SHARED as WITH_SHARED
 from coopera.evaluation.latency import robot_seconds
 from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
+from coopera.models.settings import SHARED
 from coopera.rundir import claim
 from coopera.rundir.directory import RunDir
+from coopera.rundir.fingerprints import fingerprints
 from coopera.rundir.trace_files import damaged, read_json
 from coopera.studies.catalogues import load_catalogues, resolve
 from coopera.studies.own_files import names_file
@@ -37,6 +40,9 @@ NOBODY = "none"
 
 ROWS = "rows.json"
 _DECIDES = {"models", "household", "classifier", "prompts", "person_model", "intentions"}
+_OF_THE_GRID = {"setting", "schedule", "collab", "humans", "scenes", "days", "hours"}
+_OF_THE_GRID |= {"method", "seed", "out", "earlier_life"}
+_OF_A_RUN = _OF_THE_GRID | {"data_dir", "cache", "files", "base_url", "prompts"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,14 +92,18 @@ def plan(grid: Grid, out: Path, config: Config) -> Benchmark:
     methods = [name for name in grid.methods if name != NOBODY]
     if len(set(methods)) < len(methods):
         raise ConfigError("methods: each may stand once.")
-    check_endpoint(grid)
+    check_names(grid)
     jobs: list[RunJob] = []
+    beside = _variants(grid, config)
     for life in lives(grid, people, scenes):
         base = _life_config(life, grid, config)
         home = out / "lives" / life.name
         jobs.append(_job(life, NOBODY, home, None, base))
         for method in methods:
             jobs.append(_job(life, method, out / "runs" / life.name / method, home, base))
+        for one, changed in beside:
+            varied = base.model_copy(update=changed)
+            jobs.append(_job(life, one.method, out / "runs" / life.name / one.name, home, varied, one.name))
     for job in {(job.config.method, job.labels["setting"], job.labels["episode"]): job for job in jobs}.values():
         resolve(job.config.model_copy(update={"out": None, "earlier_life": None}), known)
     return Benchmark(out, grid, jobs)
@@ -154,7 +164,8 @@ def _check_grid(bench: Benchmark) -> dict[str, Any] | None:
     for one in (before, now):  # what `shared` says of these counts, however it was asked for
         one["run"] = {name: value for name, value in one["run"].items() if name not in _DECIDES}
     # methods, seeds and settings may be added to what was run
-    fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules")
+    fixed = ("hours", "days", "run", "shared", "humans", "scenes", "schedules", "pairing")
+    before.setdefault("pairing", "every")
     if odd := [name for name in fixed if before.get(name) != now.get(name)]:
         raise ConfigError(f"out: {bench.root} holds a grid with other {odd[0]}; choose another folder.")
     of_the_endpoint: dict[str, Any] = {
@@ -248,6 +259,10 @@ def gather(bench: Benchmark) -> tuple[list[Row], Card, dict[str, list[float]]]:
         sha256=sha256(to_csv(rows)),
         grid=bench.grid.model_dump(mode="json"),
         endpoint=standing(read_statements(bench.root)),
+        fingerprints=fingerprints(
+            RunDir.open(job.folder) for job in whole if job.after and _is_done(job) and OF not in job.labels["method"]
+        ),
+        config=bench.jobs[0].config.model_dump(mode="json", exclude=_OF_A_RUN, exclude_defaults=True),
     )
     return rows, card, seconds
 
@@ -298,10 +313,8 @@ def _cut(grid: Grid) -> Grid:
         update={
             "settings": grid.settings[: most.settings],
             "methods": grid.methods[: most.methods],
-            **{
-                name: smaller(getattr(grid, name), getattr(most, name))
-                for name in ("episodes", "days", "hours", "seeds")
-            },
+            "seeds": grid.seeds[: most.seeds] if isinstance(grid.seeds, list) else smaller(grid.seeds, most.seeds),
+            **{name: smaller(getattr(grid, name), getattr(most, name)) for name in ("episodes", "days", "hours")},
         }
     )
 
@@ -309,19 +322,7 @@ def _cut(grid: Grid) -> Grid:
 def shared_config(grid: Grid, file: Path | None, flags: dict[str, Any]) -> Config:
     """What all runs of a grid share: its field `run`, and flags over it."""
     for name in grid.run:
-        if name in (
-            "setting",
-            "schedule",
-            "collab",
-            "humans",
-            "scenes",
-            "days",
-            "hours",
-            "method",
-            "seed",
-            "out",
-            "earlier_life",
-        ):
+        if name in _OF_THE_GRID:
             raise ConfigError(f"{file or 'run'}: run.{name}: the grid itself decides this.")
     return load_config(None, {**{"pictures": "none"}, **grid.run, **flags})
 
@@ -333,16 +334,29 @@ def _life_config(life: Life, grid: Grid, config: Config) -> Config:
     )
 
 
-def _job(life: Life, method: str, folder: Path, lived: Path | None, base: Config) -> RunJob:
+def _variants(grid: Grid, config: Config) -> list[tuple[Variant, dict[str, Any]]]:
+    """Each variant with the settings that make it; none with shared common sense where the robot has no other."""
+    apart = config.household != SHARED and config.models.robot.startswith("offline")
+    found: list[tuple[Variant, dict[str, Any]]] = []
+    for one in grid.variants:
+        if one.word != WITH_SHARED:
+            again = config.calls.model_copy(update={"sample": config.calls.sample + one.sample})
+            found.append((one, {"calls": again}))
+        elif apart:
+            found.append((one, {"household": SHARED}))
+    return found
+
+
+def _job(life: Life, method: str, folder: Path, lived: Path | None, base: Config, name: str | None = None) -> RunJob:
     config = base.model_copy(update={"method": method, "out": folder, "earlier_life": lived})
     labels = {
-        "method": method,
+        "method": name or method,
         "setting": life.setting,
         "collab": life.collab,
         "seed": life.seed,
         "episode": life.episode,
     }
-    return RunJob(f"{life.name}/{method}", f"{life.name}/{NOBODY}" if lived else None, folder, config, labels)
+    return RunJob(f"{life.name}/{name or method}", f"{life.name}/{NOBODY}" if lived else None, folder, config, labels)
 
 
 def _chosen(field: str, wanted: Sequence[str] | int | None, known: Sequence[str]) -> list[str]:

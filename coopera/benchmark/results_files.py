@@ -12,10 +12,11 @@ from coopera.benchmark.results_page import CARD, TABLE, shown
 from coopera.benchmark.stated import FILE
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.core.errors import RunError
-from coopera.evaluation.analysis import endpoint_of
+from coopera.evaluation.analysis import endpoint_of, plain
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.results import Card, Row, to_csv, unpaired
-from coopera.evaluation.tables import Table, all_tables
+from coopera.evaluation.table import Table
+from coopera.evaluation.tables import all_tables
 from coopera.report.environment import environment
 from coopera.report.look import TEMPLATES, style_with
 from coopera.report.policy import content_policy
@@ -52,7 +53,7 @@ def write_views(folder: Path, card: Card, rows: list[Row], *, left: int = 0, tot
     Raises:
         OSError: If the folder cannot be written.
     """
-    tables, figures = all_tables(rows, card.methods, endpoint_of(card)), all_figures(rows, card.methods)
+    tables, figures = all_tables(rows, card.methods, endpoint_of(card)), all_figures(plain(rows), card.methods)
     head = f"# Results of {card.name}\n\n{_coverage(card, rows, left, total)}\n\n"
     drawn = "".join(f"![{name}](figures/{name}.svg)\n\n" for name in figures)
     write_atomic(folder / "tables.md", head + drawn + "\n".join(table.markdown() for table in tables))

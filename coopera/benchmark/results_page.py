@@ -11,9 +11,10 @@ from markupsafe import Markup
 from coopera.core.clock import hour_label
 from coopera.core.errors import ConfigError, RunError
 from coopera.core.foreign.files import read_text
-from coopera.evaluation.analysis import curve, endpoint_of
+from coopera.evaluation.analysis import curve, endpoint_of, plain
 from coopera.evaluation.results import Card, Row, check_card, from_csv
-from coopera.evaluation.tables import Table, all_tables
+from coopera.evaluation.table import Table
+from coopera.evaluation.tables import all_tables
 from coopera.report import charts
 from coopera.rundir.trace_files import read_json
 
@@ -49,7 +50,7 @@ def read_results(folder: Path) -> tuple[Card, list[Row]]:
 def shown(card: Card, rows: Sequence[Row], tables: Sequence[Table] | None = None) -> dict[str, Any]:
     """What the page of a benchmark shows of its results."""
     made = all_tables(rows, card.methods, endpoint_of(card)) if tables is None else tables
-    return {"card": card, "tables": made, "figures": figures(rows, card.methods)}
+    return {"card": card, "tables": made, "figures": figures(plain(rows), card.methods)}
 
 
 def figures(rows: Sequence[Row], methods: Sequence[str]) -> list[Figure]:

@@ -44,6 +44,15 @@ def benchmark(
     episodes: Annotated[int | None, typer.Option(help="Episodes of each setting. [default: as the paper]")] = None,
     days: Annotated[int | None, option("days")] = None,
     hours: Annotated[int | None, option("hours")] = None,
+    household: Annotated[str | None, option("household")] = None,
+    with_shared: Annotated[
+        str | None,
+        typer.Option(metavar="NAME,…|all|none", help="Run with shared common sense, too. [default: the reference]"),
+    ] = None,
+    noise: Annotated[
+        int | None,
+        typer.Option(help="How often the reference meets the same days again, its models sampled anew. [default: 0]"),
+    ] = None,
     workers: Annotated[int, typer.Option(min=1, max=256, help="Processes on this machine.")] = 1,
     ray: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A Ray cluster; `local` starts one here. [default: none]")
@@ -87,16 +96,20 @@ def benchmark(
         "episodes": episodes,
         "days": days,
         "hours": hours,
+        "noise": noise,
+        "with_shared": {"all": "all", "none": []}.get(with_shared or "", as_list(with_shared)),
     }
     found = bench.load_grid(grid, flags)
-    shared = nested({"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier})
+    shared = nested(
+        {"models": model, "base_url": base_url, "prompts": prompts, "classifier": classifier, "household": household}
+    )
     planned = bench.plan(found, out, bench.shared_config(found, grid, shared))
     if power or scatter:
         _foresee(planned, scatter, as_json=as_json)
         return
     with bench.claimed_folder(planned, restate=restate) as stated:
         typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
-        failures = _carry_out(planned, workers=workers, ray=ray, limit=limit)
+        failures = carry_out_in_words(planned, workers=workers, ray=ray, limit=limit)
         summary = write_results(planned)
     if as_json:
         typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
@@ -119,7 +132,7 @@ def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:
         typer.echo(line)
 
 
-def _carry_out(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
+def carry_out_in_words(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
     """Work through what is left with a line per run; returns the runs that failed, with the reason."""
     from coopera.benchmark.grid_runs import carry_out
 

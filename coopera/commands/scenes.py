@@ -12,6 +12,7 @@ import typer
 from coopera.commands.listing import show_rows
 from coopera.commands.options import AsJson, DataFolder
 from coopera.commands.rows import rows_of
+from coopera.core.errors import ConfigError
 from coopera.core.naming import printable
 
 app = typer.Typer(help="The homes there are.", no_args_is_help=True)
@@ -77,30 +78,43 @@ def check(scene: Home, as_json: AsJson = False) -> None:
 
 @app.command()
 def generate(
-    rooms: Annotated[int, typer.Option(metavar="N", help="How many rooms.")] = 7,
+    rooms: Annotated[
+        int | None, typer.Option(metavar="N", help="How many rooms. [default: 7; of each with --count, 3 to 11]")
+    ] = None,
     seed: Annotated[int, typer.Option(metavar="N", help="The same seed gives the same home.")] = 0,
-    id: Annotated[str | None, typer.Option(metavar="ID", help="Its id. [default: home-<rooms>-<seed>]")] = None,
+    id: Annotated[
+        str | None, typer.Option(metavar="ID", help="Its id. [default: home-<rooms>-<seed>; with --count, home]")
+    ] = None,
     things: Annotated[
         int | None, typer.Option(metavar="N", help="How many movable things. [default: 8.5 for each room]")
+    ] = None,
+    count: Annotated[
+        int | None, typer.Option(metavar="N", help="Make so many different homes, <id>-0000 on, and a card of them.")
     ] = None,
     out: DataFolder = None,
     png: Png = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Make a home from a seed and store it, so that its id works everywhere."""
-    from coopera.config.files import write_output
-    from coopera.homes.stored import figures, place_for, write_picture
-    from coopera.simulation.homes.scene import dump_scene
-    from coopera.simulation.making.generate import generate as make
-    from coopera.simulation.making.proof import prove as problems_of
+    """Make a home from a seed, or with --count many that differ, and store them, so that their ids work everywhere."""
+    from coopera.homes.generated import Wanted, make_many, make_one
+    from coopera.homes.stored import figures
 
-    id = id or f"home-{rooms}-{seed}"
-    file = place_for(id, _scenes(out), force=force)
-    home = make(seed, rooms, id, things=things)
-    problems = problems_of(home)
-    write_output(file, dump_scene(home))
+    if count is not None:
+        if png is not None:
+            raise ConfigError("--png: a picture is drawn of one home; leave --count out, or use `coopera scenes show`.")
+        wanted = Wanted(rooms, things)
+        made = make_many(count, seed, id or "home", _scenes(out), wanted=wanted, force=force, say=_progress)
+        if as_json:
+            typer.echo(json.dumps({"card": str(made.card), "homes": [figures(home) for home in made.homes]}))
+            return
+        typer.echo(f"{len(made.homes)} homes: {made.files[0]} to {made.files[-1].name}")
+        typer.echo(f"Card: {made.card}")
+        return
+    rooms = 7 if rooms is None else rooms
+    home, file, problems = make_one(rooms, seed, id or f"home-{rooms}-{seed}", _scenes(out), things=things, force=force)
     if png is not None:
+        from coopera.homes.stored import write_picture
         from coopera.simulation.making.overview import overview
 
         write_picture(png, overview(home))
@@ -113,10 +127,18 @@ def generate(
     typer.echo(f"Stored: {file}")
 
 
+def _progress(line: str) -> None:
+    typer.echo(line, err=True)
+
+
 @app.command("import")
 def import_homes(
     path: Annotated[
-        Path, typer.Argument(metavar="PATH", help="An HSSD folder, one *.scene_instance.json of it, or a home's JSON.")
+        Path,
+        typer.Argument(
+            metavar="PATH",
+            help="A folder of HSSD or in Habitat's layout, one *.scene_instance.json, a house of ProcTHOR, or a home.",
+        ),
     ],
     scene: Annotated[
         list[str] | None, typer.Option(metavar="ID", help="A scene of the folder; may be repeated. [default: all]")
@@ -125,26 +147,24 @@ def import_homes(
     skip_missing: Annotated[
         bool, typer.Option("--skip-missing", help="Leave out what refers to a missing file.")
     ] = False,
+    assets: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="ProcTHOR's asset-database.json: how large its objects are.")
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Bring in homes of HSSD, or one that you wrote (docs/scenes.md), and say what was left out."""
+    """Bring in homes of Habitat or ProcTHOR, or one that you wrote (docs/scenes.md); say what was guessed, left out."""
     from coopera.homes.stored import bring_in, figures
 
-    found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force)
+    found = bring_in(path, _scenes(out), scenes=scene or (), skip_missing=skip_missing, force=force, assets=assets)
     if as_json:
-        rows = [
-            {**figures(one.scene), "file": str(one.file), "skipped": one.skipped, "problems": one.problems}
-            for one in found
-        ]
+        rows = [{**figures(one.scene), "file": str(one.file), **one.told._asdict()} for one in found]
         typer.echo(json.dumps(rows))
         return
     for one in found:
         typer.echo("{id}: {rooms} rooms, {fixed} fixed and {movable} movable objects".format(**figures(one.scene)))
-        for line in one.skipped:
-            typer.echo(printable(f"  left out: {line}"))
-        for line in one.problems:
-            typer.echo(printable(f"  problem: {line}"))
+        for line in one.told.lines():
+            typer.echo(printable(f"  {line}"))
         typer.echo(f"  Stored: {one.file}")
 
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coopera.config.files import write_output
+from coopera.config.schema import default_data_dir
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_json
 from coopera.simulation.homes.scene import Scene, dump_scene, list_scenes, load_scene
 from coopera.studies.own_files import meshes_of
 
@@ -16,15 +19,32 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _INSTANCE = ".scene_instance.json"
+_DATASET = ".scene_dataset_config.json"
+_NEAR = 0.5
+"""Names whose cosine to a class of ours is less mean something else."""
+
+
+class Told(NamedTuple):
+    """What an import says: what was left out, the problems found by `prove`, what was understood, what was guessed."""
+
+    skipped: Sequence[str]
+    problems: Sequence[str]
+    understood: Sequence[str] = ()
+    guessed: Sequence[str] = ()
+
+    def lines(self) -> list[str]:
+        """All of it, a sentence each."""
+        kinds = {"understood": self.understood, "guessed": self.guessed}
+        kinds |= {"left out": self.skipped, "problem": self.problems}
+        return [f"{kind}: {line}" for kind, told in kinds.items() for line in told]
 
 
 class Arrival(NamedTuple):
-    """An imported home: its file, the parts left out, and the problems found by `prove`."""
+    """An imported home, its file, and what the import says."""
 
     scene: Scene
     file: Path
-    skipped: list[str]
-    problems: list[str]
+    told: Told
 
 
 def figures(scene: Scene) -> dict[str, Any]:
@@ -69,55 +89,99 @@ def write_picture(path: Path, pixels: NDArray[Any]) -> None:
 
 
 def bring_in(
-    path: Path, folder: Path, *, scenes: Sequence[str] = (), skip_missing: bool = False, force: bool = False
+    path: Path,
+    folder: Path,
+    *,
+    scenes: Sequence[str] = (),
+    skip_missing: bool = False,
+    force: bool = False,
+    assets: Path | None = None,
 ) -> list[Arrival]:
-    """Import homes into a folder: scenes of an HSSD folder, or one home that a person wrote as JSON.
+    """Import homes into a folder: Habitat's scenes, a house of ProcTHOR, or a home that a person wrote as JSON.
 
     Args:
-        path: An HSSD folder, one of its files scenes/<id>.scene_instance.json, or a home's JSON file.
-        folder: Where the homes are stored, each with <id>.import.txt, which says what was left out.
-        scenes: Which scenes of an HSSD folder; all without it.
+        path: A folder in Habitat's layout, its *.scene_dataset_config.json, one of its *.scene_instance.json, or a
+            house's or a home's JSON file.
+        folder: Where the homes are stored, each with <id>.import.txt, which is what the import says.
+        scenes: Which scenes of a folder; all without it.
         skip_missing: Leave out what refers to a missing file, instead of refusing the scene.
         force: Replace homes that are there already.
+        assets: ProcTHOR's asset database, which says how large its objects are.
 
     Raises:
-        ConfigError: If something is wrong with it; names file and field.
+        ConfigError: If something is wrong with it; names file and field. Nothing of that home is written then.
     """
     from coopera.simulation.making.proof import prove  # noqa: PLC0415  (slow to import)
 
     if not path.exists():
         raise ConfigError(f"{path}: there is no such file or folder.")
-    if path.is_file() and not path.name.endswith(_INSTANCE):
+    if path.is_file() and not path.name.endswith((_INSTANCE, _DATASET)):
+        house = _house(path, folder, assets, force=force)
+        if house is not None:
+            return [house]
         home = load_scene(path)
-        return [_arrive(home, [], prove(home), folder, meshes=meshes_of(home), force=force)]
-    from coopera.simulation.making.hssd.files import Folder  # noqa: PLC0415
-    from coopera.simulation.making.hssd.homes import import_scene  # noqa: PLC0415
+        if home.stage is None:
+            _need_doors(home, path)
+        return [_arrive(home, Told([], prove(home)), folder, meshes=meshes_of(home), force=force)]
+    from coopera.simulation.making.habitat.files import Folder  # noqa: PLC0415
+    from coopera.simulation.making.habitat.homes import import_scene, scene_id  # noqa: PLC0415
 
-    hssd = Folder(path if path.is_dir() else path.parent.parent)
-    known = hssd.ids()
-    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.is_file() else known)
-    if not wanted:
-        raise ConfigError(f"{path / 'scenes'}: there is no file <id>{_INSTANCE}.")
+    dataset = Folder.around(path)
+    known = dataset.ids()
+    wanted = list(scenes) or ([path.name.removesuffix(_INSTANCE)] if path.name.endswith(_INSTANCE) else known)
     unknown = sorted(set(wanted) - set(known))
     if unknown:
         raise ConfigError(f"{path}: there is no scene {unknown[0]!r} (known are {', '.join(known[:12]) or 'none'}).")
     arrivals = []
     for name in wanted:
-        found = import_scene(hssd, name, skip_missing=skip_missing)
-        skipped = [f"{item.what}: {item.why}" for item in found.skipped]
-        arrivals.append(_arrive(found.scene, skipped, found.problems, folder, meshes=found.meshes, force=force))
+        place_for(scene_id(name), folder, force=force)
+        found = import_scene(dataset, name, skip_missing=skip_missing, nearest=_nearest)
+        said = found.report
+        told = Told(said.left_out, found.problems, said.understood, said.guessed)
+        arrivals.append(_arrive(found.scene, told, folder, meshes=found.meshes, force=force))
     return arrivals
 
 
-def _arrive(
-    scene: Scene, skipped: list[str], problems: list[str], folder: Path, *, meshes: dict[str, str], force: bool
-) -> Arrival:
+def _house(path: Path, folder: Path, assets: Path | None, *, force: bool) -> Arrival | None:
+    """Import a file that is a house of ProcTHOR; None for any other."""
+    from coopera.simulation.making.procthor.files import is_house, read_assets, read_house  # noqa: PLC0415
+
+    if not is_house(read_json(path, "scene file")):
+        if assets is not None:
+            raise ConfigError(f"{path}: an asset database is for a house of ProcTHOR, which this is not.")
+        return None
+    from coopera.simulation.making.procthor.homes import import_house  # noqa: PLC0415
+
+    id = "-".join(re.findall(r"[a-z0-9]+", path.name.lower().removesuffix(".json")))[:60] or "house"
+    place_for(id, folder, force=force)
+    found = import_house(read_house(path), id, path, read_assets(assets) if assets else None)
+    told = Told(found.left_out, found.problems, found.understood, found.guessed)
+    return _arrive(found.scene, told, folder, meshes={}, force=force)
+
+
+def _need_doors(home: Scene, path: Path) -> None:
+    reached = {name for door in home.doors for name in door.between}
+    for number, room in enumerate(home.rooms):
+        if len(home.rooms) > 1 and room.name not in reached:
+            raise ConfigError(
+                f"The scene file {path}, field rooms.{number}: no door leads into the room {room.name!r}."
+            )
+
+
+def _arrive(scene: Scene, told: Told, folder: Path, *, meshes: dict[str, str], force: bool) -> Arrival:
     file = place_for(scene.id, folder, force=force)
     for name, text in meshes.items():
         write_output(folder / f"{scene.id}.meshes" / name, text)
     write_output(file, dump_scene(scene))
-    lines = [f"left out: {line}" for line in skipped] + [f"problem: {line}" for line in problems]
-    write_output(
-        folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines) or "Everything was taken over.\n"
-    )
-    return Arrival(scene, file, skipped, problems)
+    lines = told.lines() or ["Everything was taken over."]
+    write_output(folder / f"{scene.id}.import.txt", "".join(f"{line}\n" for line in lines))
+    return Arrival(scene, file, told)
+
+
+def _nearest(text: str, words: tuple[str, ...]) -> tuple[str, float] | None:
+    """The word that comes nearest to a text in meaning, by the bundled sentence encoder; None where none is near."""
+    from coopera.memory import Search, bundled  # noqa: PLC0415  (some seconds, and most names are known words)
+
+    with bundled(default_data_dir() / "embeddings.sqlite") as embeddings:
+        word, cosine = Search(embeddings, words).top(text, 1)[0]
+    return (word, cosine) if cosine >= _NEAR else None

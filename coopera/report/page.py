@@ -76,8 +76,11 @@ def fitted(run: RunDir) -> str:
     packs = pack_days(run.hours(), run.evenings())
     if sum(map(len, packs.values())) > most // 3:
         packs = {}
-    text = len(render(run, gather_pictures(run, 0), packs).encode())
-    album = gather_pictures(run, max(most - text, 0))
+    bare = gather_pictures(run, 0)
+    html = render(run, bare, packs)
+    if not bare.taken:
+        return html
+    album = gather_pictures(run, max(most - len(html.encode()), 0))
     html = render(run, album, packs)
     if (over := len(html.encode()) - most) > 0:
         html = render(run, gather_pictures(run, max(album.size - over, 0)), packs)

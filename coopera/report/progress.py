@@ -46,6 +46,8 @@ class Progress:
         """Start showing."""
         if self._bar:
             self._bar.start()
+        else:
+            self._console.print(f"getting ready; {len(self._done)} of {self._hours} hours are done")
         return self
 
     def __exit__(

@@ -17,6 +17,7 @@ from coopera.core.version import __version__
 from coopera.models.given import GivenModel
 from coopera.models.settings import Spent
 from coopera.rundir import claim
+from coopera.rundir.code import code_fingerprint
 from coopera.rundir.trace_files import damaged, read_json
 
 SCHEMA = 2
@@ -80,6 +81,7 @@ def about(prompts: Mapping[str, str], models: Mapping[str, str]) -> dict[str, An
         "ended": None,
         "versions": {
             "coopera": __version__,
+            "code": code_fingerprint(),
             "python": platform.python_version(),
             **{name: version for name in _PACKAGES if (version := _version(name))},
         },

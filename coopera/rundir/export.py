@@ -16,6 +16,7 @@ from coopera.core.errors import ConfigError, RunError
 from coopera.core.hour import HourRecord
 from coopera.core.household import Outcome
 from coopera.core.version import __version__
+from coopera.rundir.croissant import Records, whose_days, write_croissant
 from coopera.rundir.directory import RunDir
 
 LAYOUT = "v3.0"
@@ -41,11 +42,58 @@ _EPISODES = {
     **dict.fromkeys(("person", "scene"), "string"),
     "tasks": "list of string",
 }
+_TASKS = {"task_index": "int64", "task": "string"}
 """Columns by the name of their Arrow type: the same whatever a run holds, so that data sets can be put together."""
+_ABOUT = {
+    "day": "Day of the run, from 0.",
+    "episode": "One robot's days with its people, from 0.",
+    "episode_day": "Day of the episode, from 0.",
+    "hour": "Hour of day, 9 to 23.",
+    "person": "Id of the person.",
+    "scene": "Id of the home.",
+    "status": "ok, or failed: then there are no figures.",
+    "intention": "What the person set out to do, in a sentence; none in a failed hour.",
+    "seen": "What the robot was told it saw of the first task, where its model sees no pictures.",
+    "tasks": "What the person did, in words and in order.",
+    "acts": "The same as JSON: pick-and-place or free motion, with ids of furniture and things.",
+    "frames": "File names of the pictures of the first task.",
+    "robot_intentions": "The intentions that the robot imagined.",
+    "robot_tasks": "The tasks that the robot imagined, in words.",
+    "continues": "Whether the intention goes on from the hour before.",
+    "away": "Whether the person was away from home.",
+    "robot_probability": "The classifier's probability of each task.",
+    "robot_accepted": "Whether the robot did each task.",
+    "robot_correct": "Whether each task would have helped, by the predicate; none where that cannot be told.",
+    "predicate_f1": "F1 over the robot's tasks, by the predicate.",
+    "judge_f1": "F1 over the robot's tasks, by the judge.",
+    "index": "Number of the frame in the data set.",
+    "episode_index": "Number of the episode: a day.",
+    "frame_index": "Number of the frame in its episode: an act.",
+    "task_index": "Number of the task.",
+    "observation.hour": "Hour of day of the act.",
+    "timestamp": "Time in acts, since an act has no fixed length.",
+    "action.metres": "How far the agent went for the act, in metres.",
+    "observation.intention": "The person's intention in that hour.",
+    "observation.agent": "Who acts: human or robot.",
+    "action": "The act as JSON.",
+    "next.success": "Whether the act was done.",
+    "length": "How many frames the episode has.",
+    "dataset_from_index": "Its first frame.",
+    "dataset_to_index": "The frame after its last.",
+    "data/chunk_index": "In which chunk of files its frames are.",
+    "data/file_index": "In which file of that chunk.",
+    "task": "The task in words.",
+}
+_RECORDS = (
+    Records("hours", "A row for each hour.", _HOURS, "hours/data/*.parquet", ("day", "hour")),
+    Records("frames", "A row for each act, as LeRobot reads it.", _FRAMES, "episodes/data/*/*.parquet", ("index",)),
+    Records("episodes", "A row for each day.", _EPISODES, "episodes/meta/episodes/*/*.parquet", ("episode_index",)),
+    Records("tasks", "A row for each task.", _TASKS, "episodes/meta/tasks.parquet", ("task_index",)),
+)
 
 
 def export(run: RunDir, out: Path) -> dict[str, Any]:
-    """Write `out/hours` and `out/episodes`; returns what they hold.
+    """Write `out/hours`, `out/episodes` and the Croissant metadata of both; returns what they hold.
 
     Raises:
         ConfigError: If pyarrow is not installed, or the folder is not empty.
@@ -59,6 +107,7 @@ def export(run: RunDir, out: Path) -> dict[str, Any]:
         raise RunError(f"{run.root}: this run has no hours to export.")
     try:
         rows, frames = _write_hours(run, hours, out / "hours"), _write_episodes(run, hours, out / "episodes")
+        write_croissant(run, out, _RECORDS, _ABOUT)
     except OSError as err:
         raise RunError(f"{out}: the data set cannot be written ({reason(err)}).") from err
     except (OverflowError, ValueError) as err:
@@ -145,7 +194,7 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
     _table(folder / "data" / "chunk-000" / "file-000.parquet", frames, _FRAMES)
     _table(folder / "meta" / "episodes" / "chunk-000" / "file-000.parquet", episodes, _EPISODES)
     rows = [{"task_index": n, "task": text} for text, n in tasks.items()]
-    _table(folder / "meta" / "tasks.parquet", rows, {"task_index": "int64", "task": "string"}, index="task")
+    _table(folder / "meta" / "tasks.parquet", rows, _TASKS, index="task")
     write_atomic(folder / "meta" / "info.json", canonical_json(_info(run.config.robot, frames, episodes, tasks)))
     return len(frames)
 
@@ -201,7 +250,7 @@ configs:
 # Simulated days of {len(people)} people, hour by hour
 
 {len(hours)} hours of {len({hour.day for hour in hours})} days in {len({hour.scene for hour in hours})} simulated homes,
-made by coopera {__version__}. No real person's days are in it.
+made by coopera {__version__}. {whose_days(config)}
 
 {warning}| | |
 |---|---|

@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.heap import steady_heap
+from coopera.studies.heap import give_back, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
 from coopera.studies.standing import (
@@ -372,6 +372,8 @@ def _stream(
         for _, mode, data in events:
             if mode == "updates" and "__interrupt__" in data:
                 continue
+            if mode == "updates" and "day" in data:
+                give_back()
             if mode == "custom":
                 now |= {"day": data["day"], "hour": data["hour"]}
                 if data["success"]:

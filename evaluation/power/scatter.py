@@ -74,11 +74,15 @@ def estimate(people: Mapping[str, Sequence[Sequence[float]]]) -> Scatter:
     days = _pooled(lives)
     means = [np.array([np.mean(one) for one in each]) for each in people.values()]
     # a life's mean scatters by its days, too, and a person's by their lives
-    per_life = np.mean([1 / len(one) for one in lives])
+    per_life = float(np.mean([1 / len(one) for one in lives]))
     within = _pooled(means)
-    between_lives = max(0.0, within - days * per_life)
-    left = np.mean([between_lives / len(each) + days * sum(1 / len(one) for one in each) / len(each) ** 2
-                    for each in people.values()])  # fmt: skip
+    between_lives: float = max(0.0, within - days * per_life)
+    left = np.mean(
+        [
+            between_lives / len(each) + days * sum(1 / len(one) for one in each) / len(each) ** 2
+            for each in people.values()
+        ]
+    )
     between = max(0.0, float(np.var([one.mean() for one in means], ddof=1)) - float(left))
     return Scatter(math.sqrt(between), math.sqrt(between_lives), math.sqrt(days), len(people))
 

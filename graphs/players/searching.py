@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import chain, islice, zip_longest
 from typing import Literal
 
@@ -64,6 +65,7 @@ class Shelves:
         return named or [kind for kind, cosine in self._search.top(want, 1) if cosine >= LEAST]
 
 
+@lru_cache(maxsize=4096)
 def _stem(words: str) -> str:
     """Words in lower case that end alike for one and for many, such as "box" and "boxes", "knife" and "knives".
 

@@ -212,8 +212,7 @@ class Learner:
         """Train one classifier on an evening whose examples are on file, and save it."""
         folder = self._folder(day, kind)
         today = _read(folder / EXAMPLES)
-        before = self._before(kind, earlier)
-        known = [*_renewed(before, today), *today]
+        known = [*_renewed(self._before(kind, earlier), today), *today]
         if self.mode == "fresh":
             self.classifiers[kind] = self.fresh[kind]()
         else:
@@ -248,7 +247,7 @@ class Learner:
             person, hours = _read_told(self.recorder.adapters_folder(day) / TOLD)
             told.setdefault(person, {}).update(hours)
         counts = {person: still_counts(tuple(sorted(hours.items()))) for person, hours in told.items()}
-        return [e.model_copy(update={"counts": counts.get(e.person, {}).get(e.day, 1.0)}) for e in examples]
+        return [e.but(counts=counts.get(e.person, {}).get(e.day, 1.0)) for e in examples]
 
     def _folder(self, day: int, kind: CandidateKind) -> Path:
         return self.recorder.adapters_folder(day) / kind
@@ -259,8 +258,12 @@ def _renewed(before: Sequence[Example], today: Sequence[Example]) -> list[Exampl
 
     DEVIATES: other people's examples keep theirs.
     """
-    newest = {e.person: {"profile": e.profile, "big_five": e.big_five} for e in today}
-    return [e.model_copy(update=newest[e.person]) if e.person in newest else e for e in before]
+    newest = {e.person: e for e in today}
+    return [_with_profile(e, newest[e.person]) if e.person in newest else e for e in before]
+
+
+def _with_profile(earlier: Example, newest: Example) -> Example:
+    return earlier.but(profile=newest.profile, big_five=newest.big_five)
 
 
 def _answers(hour: HourAccount, kind: CandidateKind) -> dict[str, bool]:
@@ -305,6 +308,17 @@ def _save(path: Path, text: str) -> None:
 def _read(path: Path) -> list[Example]:
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
-        return [Example.model_validate_json(line) for line in lines]
+        shared: dict[Any, Any] = {}
+        return [_sharing(Example.model_validate_json(line), shared) for line in lines]
     except (OSError, ValidationError) as err:
         raise RunError(f"{path}: the training examples of this day cannot be read: {err}") from err
+
+
+def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
+    """Have an example just read share what equals a part of one before: thousands then take half of their memory."""
+    parts = read.__dict__  # frozen, but nobody else has it yet
+    for name in ("person", "candidate", "intention", "profile", "big_five"):
+        parts[name] = shared.setdefault(parts[name], parts[name])
+    for name in ("intentions", "tasks"):
+        parts[name] = shared.setdefault(tuple(parts[name]), parts[name])
+    return read

@@ -12,6 +12,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 from coopera.core.clock import Clock
@@ -114,6 +115,7 @@ def held(seen: Observation) -> Use | None:
     return Use(plain(thing)) if thing else None
 
 
+@lru_cache(maxsize=65_536)
 def same(one: Use | None, other: Use) -> bool:
     """Whether an act is about the same thing and, where both name one, the same place."""
     if one is None or one.thing.lower() != other.thing.lower():

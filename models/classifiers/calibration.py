@@ -88,10 +88,29 @@ def _platt_slope(scores: Floats, labels: npt.NDArray[np.bool_]) -> float:
     close to 0.5, in the score's order. The steepest keeps a few examples from making probabilities of 0 and 1, since
     other examples may lie much further apart than those few.
     """
-    from sklearn.linear_model import LogisticRegression  # noqa: PLC0415 - heavy
-
     spread = float(scores.std())
     if spread <= _noise(scores):
         return _FLATTEST
-    fitted = LogisticRegression(C=10.0).fit(scores[:, None] / spread, labels)
-    return min(max(float(fitted.coef_[0, 0]), _FLATTEST) / spread, _STEEPEST)
+    return min(max(_logistic_slope(scores / spread, labels.astype(float)), _FLATTEST) / spread, _STEEPEST)
+
+
+def _logistic_slope(x: Floats, y: Floats) -> float:
+    """Return the slope of a logistic regression with a ridge of 0.1, shapes (n,), labels 0 and 1.
+
+    The same steps as scikit-learn's `LogisticRegression(C=10)`, down to rounding, without the half second of its
+    import: the solver is SciPy's there, too.
+    """
+    from scipy.optimize import minimize  # noqa: PLC0415 - heavy
+    from scipy.special import expit  # noqa: PLC0415
+
+    ridge = 1.0 / (10.0 * len(x))
+
+    def loss(at: Floats) -> tuple[float, Floats]:
+        raw = x * at[0] + at[1]
+        off = (expit(raw) - y) / len(x)
+        value = float((np.logaddexp(0.0, raw) - y * raw).sum()) / len(x) + 0.5 * ridge * float(at[0]) ** 2
+        return value, np.array([x @ off + ridge * at[0], off.sum()])
+
+    options = {"maxiter": 100, "maxls": 50, "gtol": 1e-4, "ftol": 64 * np.finfo(float).eps}
+    found = minimize(loss, np.zeros(2), method="L-BFGS-B", jac=True, options=options)
+    return float(found.x[0])

@@ -90,7 +90,7 @@ def lesson(examples: Iterable[Example], inputs: Inputs, *, most: int | None = No
     shown = []
     for example in labelled:
         picture = newest[example.person]
-        current = example.model_copy(update={"profile": picture.profile, "big_five": picture.big_five})
+        current = example.but(profile=picture.profile, big_five=picture.big_five)
         shown.append(inputs.show(current))
     return Lesson(shown, [bool(e.label) for e in labelled], [e.day * 24 + e.hour for e in labelled])
 

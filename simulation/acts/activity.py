@@ -222,7 +222,7 @@ def _upright(ground: Ground, plan: Plan, agent: AgentId, target: SceneObject, mo
     if not sweeps and target.cls in affordances().stood_on and fits(target.xy, used_by_others(plan.state, agent)):
         stand = _stand(ground, plan, agent, target, target.xy)
         yaw = target.facing + (math.pi if target.cls == "treadmill" else 0.0)
-        height = target.position[2] + min(surfaces(target)[0].z, 0.2)
+        height = target.position[2] + min([*(surface.z for surface in surfaces(target)[:1]), 0.2])
         spot = (stand.x, stand.y)
         place = target.xy if blocks(target) else spot
         support = height if blocks(target) else 0.0

@@ -16,6 +16,7 @@ from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId, plain
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.homes.catalogue import Rest
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.library import Library, Meant, Motion, Rank
@@ -188,6 +189,8 @@ class Ground:
     robots: Mapping[AgentId, RobotBody]
     room: Elbowroom
     rank: Rank | None = None
+    seats: dict[str, tuple[SceneObject, Rest] | None] = field(default_factory=dict, repr=False, compare=False)
+    """The seat that serves each piece of furniture while nobody sits anywhere; filled in as it is asked for."""
 
     def fixed(self, name: str, number: int | None = None) -> SceneObject:
         """The piece of furniture of that name, and of that id if one is said."""

@@ -21,6 +21,7 @@ SEAT_FAR = 5.0
 _LOOKS_AT = math.radians(70)
 """A seat serves a table only if one looks at it from there."""
 _LIE_ON_WIDTH = ("sofa", "bench")
+_LONG = 1.5
 _SITTING, _LYING = 0.5, 0.9
 """Nobody else sits nearer than this to who sits, or lies (metres between the bodies' middles)."""
 _ASIDE = 0.6
@@ -44,16 +45,27 @@ def _seat_on(thing: SceneObject, used: list[Disc]) -> Rest | None:
     middle = seat(thing)
     if middle is None:
         return None
-    cos, sin = math.cos(thing.yaw), math.sin(thing.yaw)
+    along, wide = thing.yaw, thing.size[0]
+    if thing.measured is not None and thing.measured.seat is not None:
+        along, wide = middle.heading - math.pi / 2, thing.measured.seat.wide
+    cos, sin = math.cos(along), math.sin(along)
     for aside in (0.0, _ASIDE, -_ASIDE):
         rest = middle._replace(x=middle.x + aside * cos, y=middle.y + aside * sin)
-        if (aside == 0.0 or thing.size[0] >= 2 * _ASIDE + _SITTING) and fits((rest.x, rest.y), used):
+        if (aside == 0.0 or wide >= 2 * _ASIDE + _SITTING) and fits((rest.x, rest.y), used):
             return rest
     return None
 
 
 def seat_for(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     """The target itself where one sits on it; else the seat of its room that is near and looks at it best."""
+    if used:
+        return _seat_among(ground, target, used)
+    if target.name not in ground.seats:
+        ground.seats[target.name] = _seat_among(ground, target, used)
+    return ground.seats[target.name]
+
+
+def _seat_among(ground: Ground, target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] | None:
     own = _seat_on(target, used)
     if own is not None:
         return target, own
@@ -82,6 +94,9 @@ def bed_for(target: SceneObject, used: list[Disc]) -> tuple[SceneObject, Rest] |
     if rest is not None:
         return target, rest
     sitting = seat(target)
-    if sitting is not None and target.cls in _LIE_ON_WIDTH and target.size[0] > 1.5:
-        return target, sitting._replace(heading=target.yaw)
-    return None
+    if sitting is None or target.cls not in _LIE_ON_WIDTH:
+        return None
+    if target.measured is not None and target.measured.seat is not None:
+        long = target.measured.seat.wide
+        return (target, sitting._replace(heading=sitting.heading - math.pi / 2)) if long > _LONG else None
+    return (target, sitting._replace(heading=target.yaw)) if target.size[0] > _LONG else None

@@ -150,16 +150,33 @@ def working(
     scene: Scene, state: HomeState, person: PersonState, motion: Motion, moved: Mapping[str, ThingState] | None = None
 ) -> tuple[Setting, Grip]:
     """The same for a person with what they have in hand; `moved` is what was put elsewhere since that state."""
-    since = moved or {}
-    others = [thing for thing in state.objects(scene) if thing.name != person.thing]
-    standing = [(thing, since.get(thing.name) or state.thing(thing)) for thing in others]
-    standing += [(piece, ThingState(position=piece.position, yaw=piece.yaw, on=None)) for piece in scene.fixed]
-    near = [(thing, where) for thing, where in standing if math.dist(where.position[:2], person.place) < _NEAR]
+    near = _near(scene, state, person, moved or {})
     if person.thing is None:
         return at_work(scene, person, motion, standing=near)
     known = state.box.get(person.thing)
     text = known.text if known else None
     return at_work(scene, person, motion, thing_of(scene, state, person.thing), text=text, standing=near)
+
+
+def surface_at_work(
+    scene: Scene,
+    state: HomeState,
+    person: PersonState,
+    motion: Motion,
+    moved: Mapping[str, ThingState],
+    setting: Setting,
+) -> Worktop | None:
+    """The surface that a person works at in a setting, in the frame of the body that has stepped up to it."""
+    found = worktop_before(scene, person, _near(scene, state, person, moved), motion)
+    return None if found is None else found.top.stepped(setting.step)
+
+
+def _near(scene: Scene, state: HomeState, person: PersonState, since: Mapping[str, ThingState]) -> Standing:
+    """The other things that are near a person, and the furniture."""
+    others = [thing for thing in state.objects(scene) if thing.name != person.thing]
+    standing = [(thing, since.get(thing.name) or state.thing(thing)) for thing in others]
+    standing += [(piece, ThingState(position=piece.position, yaw=piece.yaw, on=None)) for piece in scene.fixed]
+    return [(thing, where) for thing, where in standing if math.dist(where.position[:2], person.place) < _NEAR]
 
 
 def thing_of(scene: Scene, state: HomeState, name: str) -> SceneObject:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.homes.catalogue import parts_of
+from coopera.simulation.homes.catalogue import solids
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.shapes.rotations import Array
 
@@ -26,9 +26,9 @@ class Elbowroom:
         self.names: list[str] = []
         rows: list[tuple[float, ...]] = []
         for thing in scene.fixed:
-            for part in parts_of(thing.cls, thing.size, thing.rgb):
+            for solid in solids(thing):
                 self.names.append(thing.name)
-                rows.append((*thing.to_world(*part.position), *part.around, thing.yaw))
+                rows.append((*thing.to_world(*solid.middle), *solid.half, thing.yaw))
         for wall in scene.walls():
             x, y, half_x, half_y, yaw = wall.block
             self.names.append("wall")

@@ -5,7 +5,6 @@ Nothing but the state decides a picture: the same scenery and camera give the sa
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from functools import lru_cache
 from itertools import product
@@ -14,13 +13,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
 
 from coopera.simulation.drawing.context import on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
+from coopera.simulation.drawing.light import contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
-from coopera.simulation.drawing.sight import in_view
+from coopera.simulation.drawing.sight import in_view, rooms_seen
+from coopera.simulation.drawing.unheld import finish, render
 from coopera.simulation.drawing.view import View
 from coopera.simulation.shapes.rotations import Array
 
@@ -28,13 +28,8 @@ Image = NDArray[np.uint8]
 Numbers = NDArray[np.int32]
 _SHADERS = Path(__file__).parent / "shaders"
 _LAYOUT = ("3f 4i1 4f1 2f 2i", "at", "normal", "paint", "uv", "tag")
-_TEXEL = 0.011
-"""Metres that a texel of the shadow map covers, as far as `_MOST` allows."""
-_MOST = 2048
 _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
-_WINDOWS = 3
-_CONTACT = 0.05
 _GROUND = (1.0, 1.0, 1.0)
 
 
@@ -67,11 +62,11 @@ class _Target(NamedTuple):
 class _Store:
     """A batch in the graphics card's memory."""
 
-    def __init__(self, kit: _Kit, batch: Batch) -> None:
+    def __init__(self, kit: _Kit, program: Any, batch: Batch) -> None:
         context = kit.context
         self.vertices = context.buffer(batch.vertices.tobytes())
         self.faces = context.buffer(batch.faces.tobytes())
-        self.seen = context.vertex_array(kit.scene, [(self.vertices, *_LAYOUT)], self.faces)
+        self.seen = context.vertex_array(program, [(self.vertices, *_LAYOUT)], self.faces)
         self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 24x", "at")], self.faces)
         self.set(batch.pieces)
 
@@ -103,7 +98,7 @@ class _Store:
         rows = np.zeros((len(chosen), 5), dtype=np.uint32)
         rows[:, 0], rows[:, 1], rows[:, 2] = self.count[chosen], 1, self.first[chosen]
         orders = context.buffer(rows.tobytes())
-        array.render_indirect(orders)
+        render(array, orders)
         orders.release()
 
     def release(self) -> None:
@@ -118,7 +113,8 @@ class _Kit:
     def __init__(self, context: Any) -> None:
         self.context = context
         text = {path.name: path.read_text(encoding="utf-8") for path in sorted(_SHADERS.iterdir())}
-        self.scene = context.program(vertex_shader=text["scene.vert"], fragment_shader=text["scene.frag"])
+        self._text = text
+        self._scenes: dict[int, Any] = {}
         self.shadow = context.program(vertex_shader=text["shadow.vert"], fragment_shader=text["shadow.frag"])
         self.copy = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["copy.frag"])
         self.copying = context.vertex_array(self.copy, [])
@@ -127,10 +123,18 @@ class _Kit:
         self.looks = context.texture_array((SIDE, SIDE, len(Material)), 3, pictures().tobytes())
         self.looks.build_mipmaps()
         self.looks.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
-        for number, name in enumerate(("rooms", "shadows", "floors", "looks")):
-            if name in self.scene:
-                self.scene[name] = number
         self.targets: dict[tuple[int, int], _Target] = {}
+
+    def scene(self, gates: int) -> Any:
+        """The program that draws rooms into which the sun shines through so many windows at most."""
+        if gates not in self._scenes:
+            light = self._text["scene.frag"].replace("const int GATES = 3;", f"const int GATES = {gates};")
+            program = self.context.program(vertex_shader=self._text["scene.vert"], fragment_shader=light)
+            for number, name in enumerate(("rooms", "shadows", "floors", "looks")):
+                if name in program:
+                    program[name] = number
+            self._scenes[gates] = program
+        return self._scenes[gates]
 
     def target(self, size: tuple[int, int]) -> _Target:
         """What to draw a picture of a size into; a few are kept."""
@@ -177,18 +181,18 @@ class Renderer:
 
     def _start(self, context: Any) -> None:
         scene, kit = self.scenery.scene, _kit(context)
-        self._kit = kit
-        self._fixed = _Store(kit, self.scenery.fixed)
+        self._kit, self._program = kit, kit.scene(gates(self.scenery))
+        self._fixed = _Store(kit, self._program, self.scenery.fixed)
         self._moving: _Store | None = None
-        rows = _room_rows(self.scenery)
+        rows = room_rows(self.scenery)
         self._rooms = context.texture((rows.shape[1], rows.shape[0]), 4, rows.tobytes(), dtype="f4")
         self._rooms.filter = (context.NEAREST, context.NEAREST)
-        contact = _contact(self.scenery)
-        self._floors = context.texture(contact.shape[::-1], 1, contact.tobytes(), alignment=1)
+        floors = contact(self.scenery)
+        self._floors = context.texture(floors.shape[::-1], 1, floors.tobytes(), alignment=1)
         self._floors.repeat_x = self._floors.repeat_y = False
         b = scene.bounds
         self._ground = (b.x0, b.y0, 1 / (b.x1 - b.x0), 1 / (b.y1 - b.y0))
-        self._sunlens, self._deep, size = _sun_lens(self.scenery)
+        self._sunlens, self._deep, size = sun_lens(self.scenery)
         self._still = context.framebuffer(depth_attachment=_shadow_texture(context, size))
         self._all = context.framebuffer(depth_attachment=_shadow_texture(context, size))
         if self.shadow:
@@ -255,7 +259,7 @@ class Renderer:
         else:
             if self._moving is not None:
                 self._moving.release()
-            self._moving = _Store(self._kit, batch) if len(batch.vertices) else None
+            self._moving = _Store(self._kit, self._program, batch) if len(batch.vertices) else None
         if self.shadow:
             self._cast_moving(context, stirred)
 
@@ -302,7 +306,7 @@ class Renderer:
         if found.tags.size:
             target.tags.write(bytes(4 * tile[2] * tile[3]))
         context.enable_only(context.DEPTH_TEST)
-        program = self._kit.scene
+        program = self._program
         program["lens"].write(_columns(lens))
         program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
         program["sun"] = (*self._sun.tolist(), self._deep)
@@ -313,19 +317,32 @@ class Renderer:
         (self._all if self.shadow else self._still).depth_attachment.use(1)
         self._floors.use(2)
         self._kit.looks.use(3)
-        for store in (self._fixed, self._moving):
+        rooms = rooms_seen(self.scenery.scene, camera)
+        for store in (self._moving, self._fixed):  # what is before the rest first: what it hides costs no light then
             if store is not None:
                 # our own shapes are closed; what comes from files may be inside out
                 if store is self._fixed and self.scenery.scene.meshes is None:
                     context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
-                store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store))
+                store.draw(context, store.seen, in_view(self.scenery.scene, camera, lens, store, rooms))
                 context.enable_only(context.DEPTH_TEST)
+        self._read_tile(context, target, tile, found, reach)
+
+    def _read_tile(
+        self,
+        context: Any,
+        target: _Target,
+        tile: tuple[int, int, int, int],
+        found: Drawn,
+        reach: tuple[float, float],
+    ) -> None:
+        """Smooth what was drawn, and put it in its place."""
         left, top, width, height = tile
         part = (slice(top, top + height), slice(left, left + width))
         target.smooth.use()
         context.enable_only(context.NOTHING)
         target.colour.use(0)
         self._kit.smoothing.render(vertices=3)
+        finish(context)
         raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
         found.colour[part] = raw.reshape(height, width, 3)[::-1]
         if found.tags.size:
@@ -355,45 +372,3 @@ def _shadow_texture(context: Any, size: tuple[int, int]) -> Any:
     texture.filter = (context.NEAREST, context.NEAREST)
     texture.repeat_x = texture.repeat_y = False
     return texture
-
-
-def _room_rows(scenery: Scenery) -> NDArray[np.float32]:
-    """For each room a row of texels: its rectangle within its walls, and its windows as scene.frag reads them."""
-    rooms = scenery.scene.rooms
-    rows = np.zeros((len(rooms), 1 + 2 * _WINDOWS, 4), dtype=np.float32)
-    for number, room in enumerate(rooms):
-        rows[number, 0] = (room.x0 + 0.05, room.y0 + 0.05, room.x1 - 0.05, room.y1 - 0.05)
-        for i, one in enumerate(scenery.windows.get(room.name, [])[:_WINDOWS]):
-            rows[number, 1 + 2 * i] = (one.axis, one.at, one.start, one.end)
-            area = (one.end - one.start) * (one.high - one.low)
-            rows[number, 2 + 2 * i] = (one.low, one.high, one.inward, area)
-    return rows
-
-
-def _contact(scenery: Scenery) -> NDArray[np.uint8]:
-    """How much the furniture that stands on the floor keeps light from it: a picture of the home's rectangle."""
-    scene, b = scenery.scene, scenery.scene.bounds
-    shape = (math.ceil((b.y1 - b.y0) / _CONTACT), math.ceil((b.x1 - b.x0) / _CONTACT))
-    covered = np.zeros(shape, dtype=np.float32)
-    y, x = ((np.arange(count) + 0.5) * _CONTACT for count in shape)
-    for thing in scene.fixed:
-        if thing.position[2] < 0.3 and thing.size[2] > 0.06:
-            t = thing.bounds
-            inside = np.ix_((y + b.y0 > t.y0) & (y + b.y0 < t.y1), (x + b.x0 > t.x0) & (x + b.x0 < t.x1))
-            covered[inside] = 1.0
-    soft = 0.6 * gaussian_filter(covered, 1.6) + 0.4 * gaussian_filter(covered, 5.0)
-    return np.asarray(np.clip(np.round(soft * 255), 0, 255), dtype=np.uint8)
-
-
-def _sun_lens(scenery: Scenery) -> tuple[Array, float, tuple[int, int]]:
-    """The sun's camera over the whole home: world to clip space, how deep it sees in metres, and its size in texels."""
-    b = scenery.scene.bounds
-    corners = np.array([(x, y, z) for x in (b.x0, b.x1) for y in (b.y0, b.y1) for z in (-0.1, 2.6)])
-    middle = corners.mean(axis=0)
-    view = view_matrix(Camera(tuple((middle + scenery.sun).tolist()), tuple(middle.tolist())))
-    seen = corners @ view[:3, :3].T + view[:3, 3]
-    low, high = seen.min(axis=0) - 0.2, seen.max(axis=0) + 0.2
-    scale = np.diag([*(2 / (high - low) * (1, 1, -1)), 1.0])
-    scale[:3, 3] = -(high + low) / (high - low) * (1, 1, -1)
-    size = tuple(min(_MOST, math.ceil(float(side) / _TEXEL / 64) * 64) for side in (high - low)[:2])
-    return scale @ view, float(high[2] - low[2]), (size[0], size[1])

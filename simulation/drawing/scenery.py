@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -186,9 +187,10 @@ class Scenery:
         if self._whole is not None:
             return self._whole
         starts = np.cumsum([0, *(len(slot.vertices) for slot in self._slots.values())]).tolist()
-        vertices = np.concatenate([np.zeros(0, dtype=VERTEX), *(slot.vertices for slot in self._slots.values())])
+        vertices = np.empty(starts[-1], dtype=VERTEX)
         faces, first = [np.zeros((0, 3), dtype=np.uint32)], 0
         for slot, start, end in zip(self._slots.values(), starts, starts[1:], strict=False):
+            vertices[start:end] = slot.vertices
             slot.vertices, slot.first = vertices[start:end], first
             faces.append(slot.mesh.faces + np.uint32(start))
             first += slot.mesh.faces.size
@@ -215,8 +217,9 @@ def thing_mesh(scene: Scene, thing: SceneObject) -> Mesh:
     return shape_mesh(thing.cls, thing.size, thing.rgb)
 
 
+@lru_cache(maxsize=256)
 def shape_mesh(cls: str, size: Size, colour: Colour) -> Mesh:
-    """The triangles of a thing of a class, in its own frame."""
+    """The triangles of a thing of a class, in its own frame; not to be changed."""
     return parts_mesh(parts_of(cls, size, colour), cls, colour)
 
 

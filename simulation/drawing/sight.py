@@ -21,16 +21,19 @@ class Pieces(Protocol):
     high: Array
     room: NDArray[np.int64]
     above: NDArray[np.bool_]
+    casts: NDArray[np.bool_]
 
 
-def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces) -> NDArray[np.int64]:
-    """Numbers of the pieces that may be seen, the nearest first."""
+def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces, rooms: set[int] | None) -> NDArray[np.int64]:
+    """Numbers of the pieces that may be seen: the nearest first, and last walls, floors and windows, which are behind.
+
+    `rooms` are those that are looked into: see `rooms_seen`.
+    """
     if not len(pieces.room):
         return np.zeros(0, dtype=np.int64)
     kept = _in_pyramid(lens, pieces.low, pieces.high)
     if camera.eye[2] > WALL_HEIGHT:
         kept &= ~pieces.above
-    rooms = rooms_seen(scene, camera)
     if rooms is not None:
         seen = np.zeros(len(scene.rooms) + 1, dtype=bool)
         seen[[*sorted(rooms), -1]] = True
@@ -39,7 +42,7 @@ def in_view(scene: Scene, camera: Camera, lens: Array, pieces: Pieces) -> NDArra
     eye = np.array(camera.eye)
     nearest = np.clip(eye, pieces.low[chosen], pieces.high[chosen])
     away = np.round(((nearest - eye) ** 2).sum(axis=1), 6)
-    return chosen[np.argsort(away, kind="stable")]
+    return chosen[np.lexsort((away, ~pieces.casts[chosen]))]
 
 
 def _in_pyramid(lens: Array, low: Array, high: Array) -> NDArray[np.bool_]:

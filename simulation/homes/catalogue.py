@@ -17,6 +17,7 @@ from coopera.core.household import plain
 from coopera.core.lazy import made_once
 from coopera.core.people import Frozen
 from coopera.simulation.homes.categories import DYNAMIC, STATIC
+from coopera.simulation.homes.measured import Resting
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.shapes.chores import CHORE_THINGS
 from coopera.simulation.shapes.fixtures import FIXTURES
@@ -28,15 +29,17 @@ from coopera.simulation.shapes.leisure import LEISURE_THINGS
 from coopera.simulation.shapes.lettering import labelled_box
 from coopera.simulation.shapes.pantry import PANTRY_THINGS
 from coopera.simulation.shapes.personal import PERSONAL_THINGS
+from coopera.simulation.shapes.staging import STAGED
 from coopera.simulation.shapes.workshop import WORKSHOP_THINGS
 
 FILE = Path(__file__).parent / "catalogue.yaml"
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times as fast where PyYAML has its C part
 RECIPES: dict[str, Recipe] = {**FURNITURE, **FIXTURES, **KITCHEN_THINGS, **LEISURE_THINGS, **HOUSEHOLD_THINGS}
-SHAPES: dict[str, Recipe] = {**RECIPES, **PANTRY_THINGS, **WORKSHOP_THINGS, **PERSONAL_THINGS, **CHORE_THINGS}
+SHAPES: dict[str, Recipe] = {**RECIPES, **PANTRY_THINGS, **WORKSHOP_THINGS, **PERSONAL_THINGS, **CHORE_THINGS, **STAGED}
 """All recipes: those of the classes, and those of what comes out of the magic box."""
 FLAT = 0.05
 """Fixed things lower than this (rugs) are walked over."""
+_OPAQUE = 0.99
 STANDS = ("wall", "outer", "centre", "floor")
 RELATIONS = ("around", "front", "beside", "opposite", "on")
 
@@ -137,6 +140,14 @@ class Surface(NamedTuple):
     clear: float
 
 
+class Solid(NamedTuple):
+    """A solid part of furniture, as the upright box around it in the furniture's frame: its middle and half extents."""
+
+    middle: tuple[float, float, float]
+    half: tuple[float, float, float]
+    opaque: bool
+
+
 class Rest(NamedTuple):
     """Where a body rests: seat point (or middle of the lying place) in the world, and the heading it faces."""
 
@@ -173,13 +184,20 @@ def read_catalogue(path: Path) -> Catalogue:
 
 
 def surfaces(thing: SceneObject) -> list[Surface]:
-    """Places where things are put on a fixed object, the usual one first; an unknown class has its top."""
+    """Places where things are put on a fixed object, the usual one first, as measured on its mesh where it has one.
+
+    An unknown class without a mesh has its top.
+    """
+    if thing.measured is not None:
+        return [Surface(*row) for row in thing.measured.surfaces]
     known = catalogue().fixed.get(thing.cls)
     return _in_metres(known.surfaces if known else [(1.0, -0.48, 0.48, -0.48, 0.48, 9.0)], thing.size)
 
 
 def interiors(thing: SceneObject) -> list[Surface]:
     """Places where things are put within furniture or a thing, the usual one first; empty where nothing is."""
+    if thing.measured is not None:
+        return [Surface(*row) for row in thing.measured.inside]
     known = catalogue().fixed.get(thing.cls) or catalogue().movable.get(thing.cls)
     return _in_metres(known.inside if known else [], thing.size)
 
@@ -190,7 +208,9 @@ def _in_metres(rows: list[Row], size: Size) -> list[Surface]:
 
 
 def seat(thing: SceneObject) -> Rest | None:
-    """Where one sits on a thing, facing its front; None where one does not sit."""
+    """Where one sits on a thing, facing its front or away from its back; None where one does not sit."""
+    if thing.measured is not None:
+        return _rest(thing, thing.measured.seat)
     known = catalogue().fixed.get(thing.cls)
     if known is None or known.seat is None:
         return None
@@ -208,12 +228,29 @@ def lying_place(thing: SceneObject) -> Rest | None:
 
     The heading is the direction from head to feet.
     """
+    if thing.measured is not None:
+        return _rest(thing, thing.measured.lie)
     known = catalogue().fixed.get(thing.cls)
     if known is None or known.lie is None:
         return None
     x, y, z = thing.to_world(0.0, 0.0, known.lie * thing.size[2])
     along_width = thing.size[0] > thing.size[1]
     return Rest(x, y, z, thing.yaw if along_width else thing.facing)
+
+
+def _rest(thing: SceneObject, place: Resting | None) -> Rest | None:
+    return None if place is None else Rest(*thing.to_world(place.x, place.y, place.z), thing.yaw + place.turn)
+
+
+def solids(thing: SceneObject) -> list[Solid]:
+    """Where furniture is solid: as measured on its mesh, else the parts that it is drawn with."""
+    if thing.measured is None:
+        parts = parts_of(thing.cls, thing.size, thing.rgb)
+        return [Solid(part.position, part.around, part.rgba[3] > _OPAQUE) for part in parts]
+    return [
+        Solid(((x0 + x1) / 2, (y0 + y1) / 2, (low + high) / 2), ((x1 - x0) / 2, (y1 - y0) / 2, (high - low) / 2), True)
+        for x0, y0, x1, y1, low, high in thing.measured.solids
+    ]
 
 
 def blocks(thing: SceneObject) -> bool:

@@ -28,7 +28,7 @@ Item = TypeVar("Item")
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _TRIANGLES = 4
 _UNKNOWN: Array = np.full(3, np.nan)
-_FARTHEST = 1e6  # metres from the origin
+FARTHEST = 1e6  # metres from the origin
 _GAMMA = 1 / 2.2
 """Factors are light, colours on a screen are not."""
 MOST_PARTS = 10_000
@@ -230,7 +230,7 @@ class _Reader:
     def _moved(self, points: Array, here: Array, field: str) -> Array:
         with np.errstate(all="ignore"):
             moved: Array = points @ here[:3, :3].T + here[:3, 3]
-        if not (np.abs(moved) < _FARTHEST).all():
+        if not (np.abs(moved) < FARTHEST).all():
             self._refuse(field, "moves its mesh out of all bounds")
         return moved
 

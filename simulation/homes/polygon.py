@@ -66,6 +66,11 @@ class Polygon:
         middle = shapely.maximum_inscribed_circle(self._shape, tolerance=0.01).coords[0]
         return round(middle[0], 3), round(middle[1], 3)
 
+    def depth(self, x: Array, y: Array) -> Array:
+        """Distance of each point within it to its edge; 0 outside; any shape in, same out."""
+        found: Array = shapely.distance(self._shape.exterior, shapely.points(x, y))
+        return np.where(self.covers(x, y), found, 0.0)
+
     def away(self, x: Array, y: Array) -> Array:
         """Distance of each point; 0 inside; any shape in, same out."""
         found: Array = shapely.distance(self._shape, shapely.points(x, y))
@@ -78,8 +83,7 @@ class Polygon:
 
     def encloses(self, bounds: Bounds, slack: float = 0.0) -> bool:
         """Whether a rectangle lies within it, or sticks out by no more than `slack` metres."""
-        shape = self._shape.buffer(slack, join_style="mitre") if slack else self._shape
-        return bool(shape.covers(shapely.box(*bounds)))
+        return bool(self._inset(-slack).covers(shapely.box(*bounds)))
 
     def overlaps(self, other: Polygon, margin: float) -> bool:
         """Whether they share more than a strip of `margin` metres."""
@@ -113,7 +117,8 @@ class Polygon:
         return np.asarray(corners)
 
     def _inset(self, by: float) -> Any:
-        return self._shape.buffer(-by, join_style="mitre") if by else self._shape
+        with np.errstate(all="ignore"):  # GEOS divides by 0 where two sides nearly run along each other
+            return self._shape.buffer(-by, join_style="mitre") if by else self._shape
 
 
 def _rectangles(shape: Any) -> list[Bounds]:

@@ -127,6 +127,12 @@ class Room(Frozen):
         """Distance from a point to the room; 0 inside."""
         return float(self._floor.away(np.array(x), np.array(y))) if self._floor else self.bounds.distance(x, y)
 
+    def depth(self, x: Array, y: Array) -> Array:
+        """Distance of each point in the room to its edge; not above 0 outside; any shape in, same out."""
+        if self._floor:
+            return self._floor.depth(x, y)
+        return np.asarray(np.minimum.reduce([x - self.x0, self.x1 - x, y - self.y0, self.y1 - y]))
+
     def away(self, x: Array, y: Array) -> Array:
         """Distance of each point to the room; any shape in, same out."""
         if self._floor:

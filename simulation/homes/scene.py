@@ -23,6 +23,7 @@ from coopera.core.household import ObjectMap, SceneId
 from coopera.core.notebook.cards import card
 from coopera.core.people import Frozen
 from coopera.simulation.homes.floorplan import TOUCH, Bounds, Line, Point, Wall, cut, merge, wall_on
+from coopera.simulation.homes.measured import Measured
 from coopera.simulation.homes.plan_card import Area, Footprint, floor_plan
 from coopera.simulation.homes.rooms import Place
 from coopera.simulation.homes.rooms import Room as Room
@@ -62,7 +63,8 @@ class SceneObject(Frozen):
 
     `position` is the centre of the object's base. `size` is (width, depth, height) in the object's own frame.
     `on` names the fixed object under a movable one. A movable object without `on` stands on the floor.
-    `mesh` replaces our own shapes in pictures. For everything else the object is the box of its size.
+    `mesh` replaces our own shapes in pictures. `measured` is what that mesh says about its use, and replaces what the
+    catalogue says of the class. For everything else the object is the box of its size.
     """
 
     id: int = Field(ge=0)
@@ -77,6 +79,7 @@ class SceneObject(Frozen):
     colour: str = Field(pattern=r"^#[0-9a-f]{6}$")
     on: str | None = None
     mesh: list[MeshPart] = Field([], max_length=16)
+    measured: Measured | None = None
 
     @property
     def xy(self) -> Point:
@@ -98,7 +101,13 @@ class SceneObject(Frozen):
         """The main colour, each channel in [0, 1]."""
         return rgb_of(self.colour)
 
-    @property
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Copy the object with some fields changed; what was worked out of the old ones is not carried over."""
+        copied = super().model_copy(update=update, deep=deep)
+        copied.__dict__.pop("bounds", None)
+        return copied
+
+    @cached_property
     def bounds(self) -> Bounds:
         """The axis-aligned rectangle around the turned footprint."""
         cos, sin = abs(math.cos(self.yaw)), abs(math.sin(self.yaw))
@@ -345,7 +354,7 @@ def dump_scene(scene: Scene) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-_OFTEN_NONE = ("polygon", "mesh")
+_OFTEN_NONE = ("polygon", "mesh", "measured")
 
 
 def _scene_files(folders: Sequence[Path]) -> dict[str, Path]:

@@ -73,7 +73,7 @@ def spots(
 
     A thing that is larger than a surface may hang over its edge, centred, or towards the front where the carrier has
     a back. Two yaws are tried: the carrier's own and a quarter turn. Nothing is put through the parts of the
-    furniture that it stands on, such as the pole of a lamp; those of imported furniture are not known.
+    furniture that it stands on, such as the pole of a lamp.
 
     Args:
         carrier: The furniture or, for what goes inside, perhaps a thing; it is where its position and yaw say.
@@ -140,6 +140,8 @@ def _local(surface: Surface, half: tuple[float, float]) -> Array:
 
 
 def _parts(carrier: SceneObject) -> Array:
+    if carrier.measured is not None:
+        return np.array(carrier.measured.solids).reshape(-1, 6)
     return _NOTHING if carrier.mesh else _solid(carrier.cls, carrier.size)
 
 

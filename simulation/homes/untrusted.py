@@ -29,8 +29,17 @@ def read_json(path: Path, model: type[Model]) -> Model:
     Raises:
         ConfigError: If the file cannot be read or does not fit; names file and field.
     """
+    return as_model(path, read_any_json(path), model)
+
+
+def as_model(path: Path, data: object, model: type[Model]) -> Model:
+    """Take what was read from a file as a pydantic model.
+
+    Raises:
+        ConfigError: If it does not fit; names file and field.
+    """
     try:
-        return model.model_validate(read_any_json(path))
+        return model.model_validate(data)
     except ValidationError as err:
         raise _does_not_fit(path, err) from err
 

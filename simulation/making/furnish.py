@@ -14,7 +14,7 @@ import numpy as np
 from scipy.ndimage import label
 
 from coopera.simulation.homes.catalogue import FLAT, FixedClass, catalogue
-from coopera.simulation.homes.floorplan import Bounds
+from coopera.simulation.homes.floorplan import Bounds, Edge
 from coopera.simulation.homes.scene import Doorway, Room
 from coopera.simulation.homes.spots import Taken, is_free
 from coopera.simulation.shapes.kit import Size
@@ -29,6 +29,9 @@ _ACCESS_ON_TOP = 0.65
 _SPARE = 0.03
 """Ways are kept this much wider than a body, since the whole home is later seen through another grid."""
 _TRIES = 40
+FACING = {(0.0, 1.0): 0.0, (0.0, -1.0): math.pi, (1.0, 0.0): -math.pi / 2, (-1.0, 0.0): math.pi / 2}
+"""The yaw of furniture with its back to a wall, by the vector from the wall into the room; none stands aslant."""
+_ALONG = (0.2, 0.5, 0.8)
 _MIDDLE = ("sofa", "bed", "fireplace", "tv_stand", "curtain", "piano", "desk", "workbench")
 _RUN = ("kitchen_counter", "kitchen_sink", "stove", "fridge", "dishwasher", "kitchen_cabinet")
 
@@ -63,7 +66,8 @@ class RoomPlan:
 
     room: Room
     doors: Sequence[Doorway]
-    outer: Bounds
+    others: Sequence[Room]
+    """The other rooms of the home: where none is beyond a wall, it is an outer one."""
     rng: np.random.Generator
     pieces: list[Piece] = field(default_factory=list)
     x: Array = field(init=False)
@@ -77,19 +81,15 @@ class RoomPlan:
         r = self.room
         xs, ys = np.arange(r.x0, r.x1 + CELL / 2, CELL), np.arange(r.y0, r.y1 + CELL / 2, CELL)
         self.x, self.y = np.meshgrid(xs, ys, indexing="ij")
-        walls = np.minimum.reduce([self.x - r.x0, r.x1 - self.x, self.y - r.y0, r.y1 - self.y])
-        self.clear = walls - 0.05
+        self.clear = r.depth(self.x, self.y) - 0.05
         self.door_space, self.door_cells = [], []
         for door in self.doors:
             half = door.width / 2 + 0.05
-            if min(abs(door.y - r.y0), abs(door.y - r.y1)) < min(abs(door.x - r.x0), abs(door.x - r.x1)):
-                space = Bounds(door.x - half, door.y - 0.75, door.x + half, door.y + 0.75)
-                inside = (door.x, min(max(door.y, r.y0 + 0.4), r.y1 - 0.4))
-            else:
-                space = Bounds(door.x - 0.75, door.y - half, door.x + 0.75, door.y + half)
-                inside = (min(max(door.x, r.x0 + 0.4), r.x1 - 0.4), door.y)
-            self.door_space.append(space)
-            self.door_cells.append((round((inside[0] - r.x0) / CELL), round((inside[1] - r.y0) / CELL)))
+            wall, inward, _ = min(r.edges, key=lambda edge: edge.wall.distance(door.x, door.y))
+            wide, deep = (half, 0.75) if wall.axis == "x" else (0.75, half)
+            self.door_space.append(Bounds(door.x - wide, door.y - deep, door.x + wide, door.y + deep))
+            x, y = door.x + 0.4 * inward[0], door.y + 0.4 * inward[1]
+            self.door_cells.append((round((x - r.x0) / CELL), round((y - r.y0) / CELL)))
 
     def add(self, cls: str) -> bool:
         """Place one more piece of a class; False where it does not fit."""
@@ -181,16 +181,11 @@ class RoomPlan:
 
     def _along_walls(self, cls: str, size: Size, *, outer: bool = False) -> Iterator[tuple[float, Piece]]:
         """Places with the back to a wall: flush with corners and neighbours, in the middle, and random ones."""
-        r = self.room
-        sides = (
-            (0.0, r.x0, r.x1, r.y0, abs(r.y0 - self.outer.y0)),
-            (math.pi, r.x0, r.x1, r.y1, abs(r.y1 - self.outer.y1)),
-            (-math.pi / 2, r.y0, r.y1, r.x0, abs(r.x0 - self.outer.x0)),
-            (math.pi / 2, r.y0, r.y1, r.x1, abs(r.x1 - self.outer.x1)),
-        )
-        for yaw, start, end, wall, from_outer in sides:
-            if outer and from_outer > 0.02:
+        for edge in self.room.edges:
+            yaw = FACING.get(edge.inward)
+            if yaw is None or (outer and not self._is_outer(edge)):
                 continue
+            wall, start, end = edge.wall.at, edge.wall.start, edge.wall.end
             low, high = start + _INSET + size[0] / 2, end - _INSET - size[0] / 2
             if low > high:
                 continue
@@ -209,6 +204,14 @@ class RoomPlan:
                 piece = _piece(cls, *((along, back) if along_x else (back, along)), yaw, size)
                 yield self._wall_rank(piece, abs(along - middle), is_flush), piece
 
+    def _is_outer(self, edge: Edge) -> bool:
+        """Whether there is no other room behind a wall."""
+        (x0, y0), (x1, y1) = edge.wall.ends
+        places = [
+            (x0 + (x1 - x0) * s - 0.1 * edge.inward[0], y0 + (y1 - y0) * s - 0.1 * edge.inward[1]) for s in _ALONG
+        ]
+        return not any(other.contains(*place) for other in self.others for place in places)
+
     def _wall_rank(self, piece: Piece, aside: float, is_flush: bool) -> float:
         if piece.cls in _MIDDLE:
             return aside + self._rank(1.0)
@@ -223,8 +226,8 @@ class RoomPlan:
         return float(self.rng.uniform(0, spread))
 
     def _fits(self, piece: Piece) -> bool:
-        b, r = piece.bounds, self.room
-        if b.x0 < r.x0 + 0.05 or b.x1 > r.x1 - 0.05 or b.y0 < r.y0 + 0.05 or b.y1 > r.y1 - 0.05:
+        b = piece.bounds
+        if not self.room.encloses(b.grown(0.05)):
             return False
         if piece.size[2] <= FLAT:
             return not any(b.overlaps(other.bounds) for other in self.pieces if other.size[2] <= FLAT)

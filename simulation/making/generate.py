@@ -15,11 +15,13 @@ from coopera.core.errors import ConfigError
 from coopera.core.household import SceneId
 from coopera.core.randomness import rng_at
 from coopera.simulation.homes.catalogue import catalogue
+from coopera.simulation.homes.floorplan import Edge
 from coopera.simulation.homes.scene import ID, Room, Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, is_free, spots, stands_through, taken_at, taken_by
-from coopera.simulation.making.furnish import Piece, RoomPlan
-from coopera.simulation.making.layout import USUAL_ROOMS, Layout, lay_out
+from coopera.simulation.making.furnish import FACING, Piece, RoomPlan
+from coopera.simulation.making.layout import USUAL_ROOMS, Form, Layout, lay_out
 from coopera.simulation.making.proof import prove
+from coopera.simulation.making.styles import styled
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.ways.navigation import RADIUS, REACH, Navigator
 
@@ -41,7 +43,12 @@ class _Draft(NamedTuple):
 
 
 def generate(
-    seed: int, rooms: int | Sequence[str] = 7, id: str = "home", *, things: int | Sequence[str] | None = None
+    seed: int,
+    rooms: int | Sequence[str] = 7,
+    id: str = "home",
+    *,
+    things: int | Sequence[str] | None = None,
+    form: Form | None = None,
 ) -> Scene:
     """Generate a home in which everything can be walked up to and taken: several are tried, the fullest first.
 
@@ -53,6 +60,7 @@ def generate(
         id: The home's id.
         things: How many movable things to put in it, or their classes, repeats allowed; without it `THINGS_PER_ROOM`.
             Things that find no fitting support are left out.
+        form: How large and long it is, which rooms are no rectangles, and its style; without it, the usual.
 
     Raises:
         ConfigError: If the number of rooms, a kind of room, or a class of thing is not known.
@@ -68,7 +76,8 @@ def generate(
     unknown = [] if isinstance(things, int) else sorted(set(things) - set(catalogue().movable))
     if unknown:
         raise ConfigError(f"There is no movable class {unknown[0]!r} in the catalogue.")
-    homes = (home for draft in _drafts(seed, kinds) for home in _inhabit(draft, seed, id, things))
+    form = form or Form()
+    homes = (home for draft in _drafts(seed, kinds, form) for home in _inhabit(draft, seed, id, things, form.style))
     best, fewest = next(homes), math.inf
     for home in chain([best], homes):
         problems = len(prove(home))
@@ -79,9 +88,9 @@ def generate(
     return best
 
 
-def _inhabit(draft: _Draft, seed: int, id: str, things: int | Sequence[str]) -> Iterator[Scene]:
+def _inhabit(draft: _Draft, seed: int, id: str, things: int | Sequence[str], style: str = "") -> Iterator[Scene]:
     """Yield a furnished home with its things, put in several ways."""
-    furniture = _name_furniture(draft, rng_at(seed, "colours"))
+    furniture = [styled(one, style) for one in _name_furniture(draft, rng_at(seed, "colours"))]
     home = Scene(id=SceneId(id), seed=seed, rooms=draft.layout.rooms, doors=draft.layout.doors, objects=furniture)
     wanted = _choose(home, things, rng_at(seed, "which things")) if isinstance(things, int) else things
     rng = rng_at(seed, "things")
@@ -116,22 +125,22 @@ def _room_kinds(rooms: int | Sequence[str]) -> list[str]:
     return list(rooms)
 
 
-def _drafts(seed: int, kinds: Sequence[str]) -> list[_Draft]:
+def _drafts(seed: int, kinds: Sequence[str], form: Form) -> list[_Draft]:
     """Furnish several layouts, up to the first that holds everything; those that hold most come first."""
     drafts: list[_Draft] = []
     for attempt in range(_ATTEMPTS):
-        drafts.append(_furnish(lay_out(kinds, rng_at(seed, "layout", attempt)), seed, attempt))
+        drafts.append(_furnish(lay_out(kinds, rng_at(seed, "layout", attempt), form), seed, attempt))
         if drafts[-1].missing == 0:
             break
     return sorted(drafts, key=lambda draft: draft.missing)
 
 
 def _furnish(layout: Layout, seed: int, attempt: int) -> _Draft:
-    outer = Scene(id=SceneId("draft"), rooms=layout.rooms).bounds
     pieces, missing = [], 0
     for room in layout.rooms:
         doors = [door for door in layout.doors if room.name in door.between]
-        plan = RoomPlan(room, doors, outer, rng_at(seed, "furniture", attempt, room.name))
+        others = [other for other in layout.rooms if other is not room]
+        plan = RoomPlan(room, doors, others, rng_at(seed, "furniture", attempt, room.name))
         for index, cls in enumerate(catalogue().rooms[room.kind].furniture):
             if not plan.add(cls):
                 missing += 1 if index else _NEEDED
@@ -280,14 +289,19 @@ def _on_floor(
 def _along_skirting(room: Room, size: Size) -> list[Spot]:
     off = 0.07 + size[1] / 2
     half = size[0] / 2 + 0.08
-    found = []
-    for x in np.arange(room.x0 + half, room.x1 - half, 0.1):
-        found += [Spot(round(float(x), 3), round(room.y0 + off, 3), 0.0, 0.0)]
-        found += [Spot(round(float(x), 3), round(room.y1 - off, 3), 0.0, 3.1416)]
-    for y in np.arange(room.y0 + half, room.y1 - half, 0.1):
-        found += [Spot(round(room.x0 + off, 3), round(float(y), 3), 0.0, -1.5708)]
-        found += [Spot(round(room.x1 - off, 3), round(float(y), 3), 0.0, 1.5708)]
+    found: list[Spot] = []
+    for axis in ("x", "y"):
+        rows = [_along(edge, half, off) for edge in room.edges if edge.wall.axis == axis and not edge.wall.rise]
+        found += [spot for spots in zip_longest(*rows) for spot in spots if spot is not None]
     return found
+
+
+def _along(edge: Edge, half: float, off: float) -> list[Spot]:
+    """Spots along one side of a room, a thing's back to it."""
+    across = round(edge.wall.at + sum(edge.inward) * off, 3)
+    yaw = round(FACING[edge.inward], 4)
+    places = [round(float(along), 3) for along in np.arange(edge.wall.start + half, edge.wall.end - half, 0.1)]
+    return [Spot(*((one, across) if edge.wall.axis == "x" else (across, one)), 0.0, yaw) for one in places]
 
 
 def _is_aside(scene: Scene, room: Room, spot: Spot) -> bool:

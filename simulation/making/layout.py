@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, product
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from coopera.core.errors import SimulationError
 from coopera.core.household import SceneId
 from coopera.simulation.homes.catalogue import catalogue
-from coopera.simulation.homes.floorplan import TOUCH, Bounds
+from coopera.simulation.homes.floorplan import TOUCH, Bounds, Edge
 from coopera.simulation.homes.scene import DOOR_WIDTH, Doorway, Room, Scene
 
 USUAL_ROOMS = (
@@ -45,6 +45,23 @@ class Layout(NamedTuple):
     doors: list[Doorway]
 
 
+class Form(NamedTuple):
+    """What makes homes of the same rooms different: see `lay_out` and `reshape.reshaped`."""
+
+    size: float = 1.0
+    """How large rooms are beside the usual."""
+    long: float = 1.35
+    """How wide the home is beside its depth."""
+    bites: int = 0
+    notch: bool = False
+    slants: int = 0
+    style: str = ""
+    """What is done to the colours of furniture."""
+
+
+_USUAL = Form()
+
+
 class _Edge(NamedTuple):
     first: int
     second: int
@@ -64,15 +81,15 @@ def room_names(kinds: Sequence[str]) -> list[str]:
     return names
 
 
-def lay_out(kinds: Sequence[str], rng: np.random.Generator) -> Layout:
+def lay_out(kinds: Sequence[str], rng: np.random.Generator, form: Form = _USUAL) -> Layout:
     """Return the best of several hundred random layouts: well-proportioned rooms with doors where one wants them.
 
     Raises:
         SimulationError: If every layout tried has a room that is too narrow or cannot be reached.
     """
     names = room_names(kinds)
-    areas = [catalogue().rooms[kind].area for kind in kinds]
-    width = math.sqrt(sum(areas) * 1.35)
+    areas = [catalogue().rooms[kind].area * form.size for kind in kinds]
+    width = math.sqrt(sum(areas) * form.long)
     whole = Bounds(0.0, 0.0, round(width, 1), round(sum(areas) / width, 1))
     best: tuple[float, list[Room], list[_Edge]] | None = None
     for attempt in range(_MOST_LAYOUTS):
@@ -90,6 +107,13 @@ def lay_out(kinds: Sequence[str], rng: np.random.Generator) -> Layout:
     if best is None or best[0] >= _UNREACHABLE:
         raise SimulationError(f"No layout of {len(kinds)} rooms was found in {_MOST_LAYOUTS} tries; use another seed.")
     _, rooms, edges = best
+    if form.bites or form.notch or form.slants:
+        from coopera.simulation.making.reshape import reshaped  # noqa: PLC0415 - most homes are rectangles
+
+        rooms = reshaped(rooms, rng, bites=form.bites, notch=form.notch, slants=form.slants)
+        edges = _edges(rooms)
+        if len(_tree(rooms, edges)) < len(rooms) - 1:
+            raise SimulationError(f"A layout of {len(kinds)} rooms lost a way to a room; use another seed.")
     return Layout(rooms, _doors(rooms, edges, rng))
 
 
@@ -117,15 +141,20 @@ def _split(
 def _edges(rooms: Sequence[Room]) -> list[_Edge]:
     edges: list[_Edge] = []
     for (i, a), (j, b) in combinations(enumerate(rooms), 2):
-        start, end = max(a.y0, b.y0), min(a.y1, b.y1)
-        for at, other in ((a.x1, b.x0), (a.x0, b.x1)):
-            if abs(at - other) < TOUCH and end - start >= _SHARED:
-                edges.append(_Edge(i, j, "y", at, start, end))
-        start, end = max(a.x0, b.x0), min(a.x1, b.x1)
-        for at, other in ((a.y1, b.y0), (a.y0, b.y1)):
-            if abs(at - other) < TOUCH and end - start >= _SHARED:
-                edges.append(_Edge(i, j, "x", at, start, end))
+        if a.bounds.gap(b.bounds) > TOUCH:
+            continue
+        for one, other in product(_from_high_y(a), _from_high_y(b)):
+            wall, start, end = one.wall, max(one.wall.start, other.wall.start), min(one.wall.end, other.wall.end)
+            opposite = wall.axis == other.wall.axis and sum(one.inward) == -sum(other.inward)
+            if opposite and abs(wall.at - other.wall.at) < TOUCH and end - start >= _SHARED:
+                edges.append(_Edge(i, j, wall.axis, wall.at, start, end))
     return edges
+
+
+def _from_high_y(room: Room) -> list[Edge]:
+    """The straight sides of a room, those along y first, and of those with one axis the highest."""
+    straight = (edge for edge in room.edges if not edge.wall.rise)
+    return sorted(straight, key=lambda edge: (edge.wall.axis == "x", -edge.wall.at, edge.wall.start))
 
 
 def _score(rooms: Sequence[Room], edges: Sequence[_Edge]) -> float:

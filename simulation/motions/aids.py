@@ -39,11 +39,11 @@ def aids(motion: Motion, setting: Setting, grip: Grip, seconds: float, thing: st
     how = "laid" if grip.laid is not None else grip.hold
     kept = [aid for aid in motion.keys.aids if aid.thing != plain(thing) and aid.only in (None, how)]
     eats = motion.keys.right is not None and "mouth" in motion.keys.right.frames
-    held = (_one(aid, setting, share, eats=eats) for aid in kept)
+    held = (held_or_laid(aid, setting, share, eats=eats) for aid in kept)
     return [Used(aid.thing, how) for aid, how in zip(kept, held, strict=True) if how is not None]
 
 
-def _one(aid: Aid, setting: Setting, share: float, *, eats: bool) -> Grip | None:
+def held_or_laid(aid: Aid, setting: Setting, share: float, *, eats: bool) -> Grip | None:
     """How one of them is held, or where it lies; None before it comes into play and after it is out of it."""
     first, last = aid.when
     if share < first:

@@ -49,15 +49,14 @@ _ARM, _BEYOND = 0.15, 100.0
 """Things that lie farther than this from the usual place are out of the hands' reach, which is worst."""
 _NEAR = 0.35
 """Hands go to a tool at most this far from where they usually work."""
-_MOMENTS = 6
+_MOMENTS, _BITE = 6, 0.08
+"""What is eaten out of the hand is so far from its middle (metres)."""
 _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
-_AHEAD = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
+AHEAD = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """A thing whose front looks away from the body."""
 _BEHIND = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
 """A flat thing upright behind the head, such as a towel."""
-_WORN = {"hat": 0.05, "headphones": -0.06}
-"""What is worn on the head, and its base above the head's middle."""
 
 
 class Worktop(NamedTuple):
@@ -101,7 +100,8 @@ class Grip(NamedTuple):
 
     `laid` is where it lies instead. Nothing that is in one hand goes below the height `surface`, and the tip of a tool
     touches it; raised above it, a tool that is `eaten` with points at the mouth. What is `flat` wipes the surface. What
-    `tips` is a vessel that one pours from, tipped by the share `tip` of what empties it.
+    `tips` is a vessel that one pours from, tipped by the share `tip` of what empties it. What is
+    `bitten` is at the mouth when the hand is near.
     """
 
     hold: Hold = "right"
@@ -111,6 +111,7 @@ class Grip(NamedTuple):
     flat: bool = False
     tips: bool = False
     tip: float = 0.0
+    bitten: bool = False
 
 
 CARRIED = Grip()
@@ -283,12 +284,12 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
     if grip.hold == "floor" and size[0] > _LONG:
         return _long_tool(right, left, size)
     if grip.hold == "beside" and max(size) > _BULKY:
-        return np.array((0.0, -0.75, 0.0)), _AHEAD
+        return np.array((0.0, -0.75, 0.0)), AHEAD
     if grip.hold == "head":
         return _at_head(frames, size)
     if grip.hold == "feet":
         ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
-        return ankles + np.array((_TOES, 0.0, -ANKLE)), _AHEAD
+        return ankles + np.array((_TOES, 0.0, -ANKLE)), AHEAD
     if grip.hold == "both":
         if size[0] > _LONG:
             return _across(right, left, size)
@@ -306,26 +307,26 @@ def _in_one_hand(frames: Frames, side: Side, size: Size, grip: Grip) -> tuple[Ar
         turn = tipped(size, grip.tip)
         base = hand - turn @ grasp(size)
         lowest = float(base[2]) - abs(float(turn[2, 1])) * size[0] / 2
-        return base + np.array((0.0, 0.0, max(floor - lowest, 0.0))), turn @ _AHEAD
+        return base + np.array((0.0, 0.0, max(floor - lowest, 0.0))), turn @ AHEAD
     lower = min(0.6 * size[2], 0.5 * size[2] + 0.03)
     place = hand + np.array((0.02 + 0.3 * min(size[1], 0.1), 0.0, -lower))
+    if grip.bitten:
+        place = _at_mouth(frames, hand, size)
     place[2] = floor if grip.flat and float(place[2]) < floor + _LOW else max(float(place[2]), floor)
-    return place, _AHEAD
+    return place, AHEAD
 
 
-def worn_at(pose: Array, cls: str, size: Size) -> tuple[Array, Array] | None:
-    """Place and turn of a worn thing in the body frame; None for what is not shown on a body: all but hats and such."""
-    if cls not in _WORN:
-        return None
-    frames = forward(pose)
-    return frames.point("head", 0.0, 0.0, _WORN[cls]), frames.turn["head"] @ _AHEAD
+def _at_mouth(frames: Frames, hand: Array, size: Size) -> Array:
+    """A small thing at the side of the hand that is towards the mouth, and at the mouth once the hand is near."""
+    way = frames.point("head", *MOUTH) - hand
+    return np.asarray(hand + _unit(way) * min(_BITE, 0.6 * float(np.linalg.norm(way))) - (0.0, 0.0, size[2] / 2))
 
 
 def _at_head(frames: Frames, size: Size) -> tuple[Array, Array]:
     """Headphones on the head, or a flat thing behind it, such as a towel."""
     if size[2] < _LOW_THING:
         return frames.point("head", -0.08, 0.0, 0.05), frames.turn["head"] @ _BEHIND
-    return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ _AHEAD
+    return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ AHEAD
 
 
 def _unit(line: Array) -> Array:
@@ -341,7 +342,7 @@ def _between(right: Array, left: Array, size: Size) -> tuple[Array, Array]:
         front = np.array((1.0, 0.0, 0.0)) - up * up[0]
         front = _unit(front)
         return right - up * 0.22 * size[2], np.stack((np.cross(front, up), front, up), axis=1)
-    return (right + left) / 2 + np.array((0.03, 0.0, -0.5 * size[2])), _AHEAD
+    return (right + left) / 2 + np.array((0.03, 0.0, -0.5 * size[2])), AHEAD
 
 
 def _across(right: Array, left: Array, size: Size) -> tuple[Array, Array]:

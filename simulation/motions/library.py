@@ -70,7 +70,41 @@ class Aid(Frozen):
     when: tuple[float, float] = (0.0, 1.0)
     at: tuple[float, float, float, float] | None = None
     floor: bool = False
-    only: Literal["laid", "left", "right"] | None = None
+    only: Literal["laid", "left", "right", "surface"] | None = None
+
+
+class Prop(Aid):
+    """An aid that pictures alone show: nothing stands in the way of a percept's rays, and no body reaches for it.
+
+    It is seen with things of the kinds `of` (groups or classes of affordances.yaml, or words) in hand, where there are
+    any, and not with those `but`. It is seen `over` a surface or only where there is `none`; `bare`, where nothing
+    lies there that the motion is done with; `fits`, where that much room to each side of its place is on the surface
+    and free (metres). What one has in hand is tipped as `tip` says.
+    """
+
+    of: list[str] = []
+    but: list[str] = []
+    over: Literal["surface", "none"] | None = None
+    bare: bool = False
+    fits: float = Field(0.0, ge=0)
+    tip: list[float] = []
+
+
+class Showing(Frozen):
+    """How pictures show the thing in hand where it is what the motion is done to, and not what it is done with.
+
+    From the share `after` of the period on it lies `at` a place (see Aid), or is in `hand`, tipped as `tip` says, or
+    `bitten` at the mouth; else it is not seen. `of` and `but` are those of Prop.
+    """
+
+    of: list[str] = []
+    but: list[str] = []
+    after: float = Field(0.0, ge=0, lt=1)
+    at: tuple[float, float, float, float] | None = None
+    floor: bool = False
+    hand: Hold | None = None
+    bitten: bool = False
+    tip: list[float] = []
 
 
 class Laying(Frozen):
@@ -102,6 +136,8 @@ class Keys(Frozen):
     tip: list[float] = []
     lays: Laying | None = None
     aids: list[Aid] = []
+    props: list[Prop] = []
+    shows: list[Showing] = []
 
 
 class Motion(Frozen):

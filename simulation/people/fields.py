@@ -12,7 +12,6 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 Array: TypeAlias = NDArray[np.float64]
 Field: TypeAlias = Callable[[Array], Array]
@@ -80,6 +79,8 @@ class Loft:
     @cached_property
     def table(self) -> Array:
         """The cross-sections at evenly spaced heights."""
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 - heavy, and a run without pictures draws none
+
         heights = np.linspace(self.knots[0, 0], self.knots[-1, 0], _SAMPLES)
         found: Array = np.column_stack((heights, PchipInterpolator(self.knots[:, 0], self.knots[:, 1:])(heights)))
         return found

@@ -122,6 +122,20 @@ class Kit:
         """Add a capsule by its centre; `length` is from tip to tip."""
         self._add("capsule", at, _TURN[axis], colour, radius=radius, length=length - 2 * radius)
 
+    def bar(
+        self,
+        first: tuple[float, float, float],
+        second: tuple[float, float, float],
+        radius: float,
+        colour: Colour | None = None,
+    ) -> None:
+        """Add a capsule from one point to another that is neither before nor behind it (the same y)."""
+        (x, y, z), (to_x, _, to_z) = first, second
+        lean = math.atan2(to_x - x, to_z - z) / 2
+        turn = (0.0, math.sin(lean), 0.0, math.cos(lean))
+        middle = ((x + to_x) / 2, y, (z + to_z) / 2)
+        self._add("capsule", middle, turn, colour, radius=radius, length=math.hypot(to_x - x, to_z - z))
+
     def ball(self, at: tuple[float, float, float], radius: float, colour: Colour | None = None) -> None:
         """Add a sphere by its centre."""
         self._add("sphere", at, _TURN["z"], colour, radius=radius)

@@ -21,7 +21,10 @@ from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, to_segme
 
 ROBOT_FOV = 60.0
 VIEW_FOV = 50.0
-_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.2))  # PAPER says no camera; radii (m), angles, heights (m) are ours
+_MARGIN, _TALL, _LENS = 1.2, 1.15, (22.0, 56.0)
+"""How much more than what it is to show is in a picture from across the room, how many metres of it are so at least,
+and the narrowest and the widest lens."""
+_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _CORNER = (0.25, 2.2)
 _OFF_WALL = 0.12
 """How far from a room's walls, and how high, the cameras in its corners are (metres)."""
@@ -40,6 +43,8 @@ _LEAST = 0.15
 """Who sees a smaller share of a body does not see it."""
 _SIDE, _BACK = 0.3, (1.75, 0.8)
 """What each radian from the front costs, and what it costs besides from where on."""
+_BESIDE, _ASKANCE = 1.2, 0.8
+"""From across the room each radian beyond the first costs so much more: shoulders hide what hands do."""
 _OVERHEAD = 4.5
 _IN = 0.03  # metres
 _WELL = 0.95
@@ -54,7 +59,8 @@ class Focus(NamedTuple):
     """The subject of a picture: a body in the act, its room, and who else hides it.
 
     `ignore` is the furniture that it is on or in, or has a hand in, and `held` what is in a hand: their hulls would
-    stop all rays.
+    stop all rays. `framed` are the points that a picture from across the room has within it, shape (n, 3); the body's
+    own, if nothing is said.
     """
 
     placed: Placed
@@ -63,6 +69,7 @@ class Focus(NamedTuple):
     room: str
     others: tuple[Body, ...] = ()
     held: tuple[str, ...] = ()
+    framed: Array | None = None
 
 
 class Lens(NamedTuple):
@@ -97,11 +104,15 @@ def around(scene: Scene, person: Placed) -> tuple[str, ...]:
 
 def within(scene: Scene, points: Array) -> tuple[str, ...]:
     """Furniture in whose hull a point is, such as a hand over a bed; points of shape (n, 3)."""
-    return tuple(
-        thing.name
-        for thing in scene.fixed
-        if any(thing.bounds.distance(x, y) < _IN and z < thing.top + _IN for x, y, z in points.tolist())
+    boxes = np.array([thing.bounds for thing in scene.fixed]).reshape(-1, 4)[:, :, None]
+    x, y, z = points.T
+    away = np.hypot(
+        np.maximum(np.maximum(boxes[:, 0] - x, x - boxes[:, 2]), 0.0),
+        np.maximum(np.maximum(boxes[:, 1] - y, y - boxes[:, 3]), 0.0),
     )
+    low = z < np.array([thing.top + _IN for thing in scene.fixed])[:, None]
+    inside = ((away < _IN) & low).any(axis=1)
+    return tuple(thing.name for thing, it in zip(scene.fixed, inside.tolist(), strict=True) if it)
 
 
 def robot_camera(body: RobotBody, robot: Placed) -> Camera:
@@ -125,15 +136,15 @@ def seen_share(stage: Stage, scene: Scene, eyes: Array, focus: Focus, aim: Lens)
     """
     points, weights = focus.body.points, focus.body.weights
     starts, ends = np.repeat(eyes, len(points), axis=0), np.tile(points, (len(eyes), 1))
-    stage.hide(focus.ignore)
-    hits = stage.rays(starts, ends)
-    stage.unhide(focus.ignore)
-    free = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     bodies = (focus.body, *focus.others)
     balls, radii = (np.concatenate([getattr(body, name) for body in bodies]) for name in ("balls", "radii"))
-    free &= ~behind_balls(starts, ends, balls, radii)
+    free = ~behind_balls(starts, ends, balls, radii)
     free &= aim.shows(starts, ends)
     free &= ~behind_boxes(starts, ends, boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore]))
+    stage.hide(focus.ignore)
+    hits = stage.rays(starts[free], ends[free])
+    stage.unhide(focus.ignore)
+    free[free] = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
     share: Array = free.reshape(len(eyes), len(points)) @ weights
     return share
 
@@ -298,7 +309,7 @@ def _doorways(navigator: Navigator, focus: Focus) -> list[Array]:
 
 def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     """The third-person camera: of places around the body and in the room's corners, the one that sees it best."""
-    placed, points = focus.placed, focus.body.points
+    placed, points = focus.placed, focus.body.points if focus.framed is None else focus.framed
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     room = scene.room(focus.room) or scene.rooms[0]
     radii, count, heights = _RING
@@ -312,7 +323,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     corners = [(x, y, high) for x, y in room.corners(inset)]
     eyes = np.array([*ring, *corners])
     inside = _in_the_open(scene, room, eyes)
-    target = (float(middle[0]), float(middle[1]), float(middle[2]) + 0.05)
+    target = _point(middle)
     if not inside.any():
         corner = room.centre
         return Camera((corner[0], corner[1], _OVERHEAD), target, VIEW_FOV)
@@ -320,11 +331,26 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     share = seen_share(stage, scene, eyes, focus, Lens(target, VIEW_FOV))
     side = angle_from_front(placed, eyes[:, 0], eyes[:, 1])
     away = np.hypot(eyes[:, 0] - placed.x, eyes[:, 1] - placed.y)
-    cost = _from_behind(np.maximum(side, 0.7)) + 0.2 * np.abs(away - 2.3) + 0.1 * np.abs(eyes[:, 2] - 1.9)
+    cost = _from_behind(np.maximum(side, 0.7)) + 0.2 * np.abs(away - 2.0) + 0.2 * np.abs(eyes[:, 2] - 2.0)
+    cost += _ASKANCE * np.maximum(side - _BESIDE, 0.0)
     score = _SIGHT * share - cost
     best = _best_apart(eyes, score, _anywhere)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
-    return cameras[_clearest(stage, cameras, score[best])]
+    camera = cameras[_clearest(stage, cameras, score[best])]
+    return camera if focus.framed is None else _closed_in(camera, focus.framed)
+
+
+def _closed_in(camera: Camera, points: Array) -> Camera:
+    """The same camera with the lens that just has some points in its 4:3 picture, with a margin."""
+    ahead = np.array(camera.target) - np.array(camera.eye)
+    ahead = ahead / np.linalg.norm(ahead)
+    right = np.array((ahead[1], -ahead[0], 0.0)) / max(math.hypot(float(ahead[0]), float(ahead[1])), 1e-9)
+    lines = points - np.array(camera.eye)
+    depth = np.maximum(lines @ ahead, 0.3)
+    high, wide = np.abs(lines @ np.cross(right, ahead)) / depth, np.abs(lines @ right) / depth
+    least = _TALL / 2 / math.dist(camera.eye, camera.target)
+    tall = max(_MARGIN * float(high.max()), _MARGIN * float(wide.max()) * 3 / 4, least)
+    return camera._replace(fov=min(max(2 * math.degrees(math.atan(tall)), _LENS[0]), _LENS[1]))
 
 
 def _in_the_open(scene: Scene, room: Room, eyes: Array) -> NDArray[np.bool_]:

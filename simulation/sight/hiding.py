@@ -12,19 +12,25 @@ from numpy.typing import NDArray
 from coopera.simulation.acts.plans import Placed
 from coopera.simulation.bodies.humanoid import SIDES, Frames, forward
 from coopera.simulation.bodies.robot import RobotBody
-from coopera.simulation.homes.catalogue import parts_of
+from coopera.simulation.homes.catalogue import solids
 from coopera.simulation.homes.scene import SceneObject
+from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
 Hidden = NDArray[np.bool_]
 _SEEN = {"head": 2.0, "chest": 1.5, "pelvis": 1.0, "right_knee": 0.5, "left_knee": 0.5}
 _HAND = 3.0
+_WORK = 0.5
+"""What all that is worked with counts besides, where all of the body is 1."""
+_LOW, _FLAT, _STEPS, _SITS, _LARGE = 0.45, 0.35, 0.12, 0.8, 0.7
+"""In metres: who has the pelvis below the first sits low, and lies if the head is less than the second above it; feet
+that move farther than the third step about; who has the pelvis below the fourth sits; the last is large for a thing."""
+_ABOVE = 0.02
 _TORSO, _HEAD = 0.14, 0.11  # radii (metres)
 _TOUCH = 0.02
 """A ball ends so far from a point that it holds: a hand in the lap is seen from the front."""
 _NEAR = 0.1
 """Parts within this distance of a point hide nothing of it: it lies on them."""
-_OPAQUE = 0.99
 
 
 class Body(NamedTuple):
@@ -52,6 +58,55 @@ def person_body(person: Placed, *later: Placed) -> Body:
     radii = np.array([_TORSO] * 4 + [_HEAD])
     points = np.concatenate((_in_world(person, points), *hands))
     return Body(points, np.array(weights) / sum(weights), _in_world(person, balls), radii)
+
+
+def at_work(body: Body, work: Array) -> Body:
+    """The same, for a picture of what it does: points of what it works with, shape (n, 3), count besides."""
+    if not len(work):
+        return body
+    points = np.concatenate((body.points, work))
+    weights = np.concatenate((body.weights, np.full(len(work), _WORK / len(work))))
+    return body._replace(points=points, weights=weights / weights.sum())
+
+
+def framed_of(persons: Sequence[Placed], *, whole: bool = False) -> Array:
+    """What of a person is to be within a picture, at some moments: shape (n, 3), in the world.
+
+    The head, the trunk and the hands; the feet of who lies, sits on the floor or steps about, too,
+    and where the `whole` body is asked for.
+    """
+    joints = [forward(person.pose).place for person in persons]
+    feet_of = [[at[f"{side}_ankle"] for side in SIDES] for at in joints]
+    ankles = np.array([_in_world(one, np.array(feet)) for one, feet in zip(persons, feet_of, strict=True)])
+    low = min(float(at["pelvis"][2]) for at in joints) < _LOW
+    flat = min(float(at["head"][2] - at["pelvis"][2]) for at in joints) < _FLAT
+    feet = whole or low or flat or float(np.ptp(ankles, axis=0).max()) > _STEPS
+    found = []
+    for person, at in zip(persons, joints, strict=True):
+        points = [at["head"] + (0.0, 0.0, _HEAD), at["chest"], at["pelvis"], *(at[f"{side}_hand"] for side in SIDES)]
+        points += [at[f"{side}_knee"] for side in SIDES] if person.pose[2] < _SITS else []
+        points += [at[f"{side}_ankle"] for side in SIDES] if feet else []
+        found.append(_in_world(person, np.array(points)))
+    return np.concatenate(found)
+
+
+def corners_of(person: Placed, things: Sequence[tuple[Array, Array, Size]]) -> Array:
+    """The corners of the boxes around things, given by place, turn and size in a body's frame: shape (8 n, 3), world.
+
+    Of what is large, only what is near its middle counts.
+    """
+    signs = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0.0, 1.0)])
+    found = [np.zeros((0, 3))]
+    for place, turn, size in things:
+        corners = signs * np.minimum(size, (_LARGE, _LARGE, math.inf))
+        found.append(_in_world(person, corners @ np.asarray(turn).T + place))
+    return np.concatenate(found)
+
+
+def tops_of(person: Placed, things: Sequence[tuple[Array, Array, Size]]) -> Array:
+    """The middles of the tops of such things, just above them: shape (n, 3), in the world."""
+    tops = [place + turn @ np.array((0.0, 0.0, size[2])) + (0.0, 0.0, _ABOVE) for place, turn, size in things]
+    return _in_world(person, np.array(tops).reshape(-1, 3))
 
 
 def _hands(frames: Frames) -> Array:
@@ -94,14 +149,14 @@ class Boxes(NamedTuple):
 
 
 def boxes_of(furniture: Sequence[SceneObject]) -> Boxes:
-    """The opaque parts of furniture; what was imported as a mesh is taken to hide nothing of who is in it."""
+    """The opaque parts of furniture."""
     middles, halves, yaws = [], [], []
     for thing in furniture:
         turn = about_z(thing.yaw)
-        for part in () if thing.mesh else parts_of(thing.cls, thing.size, thing.rgb):
-            if part.rgba[3] > _OPAQUE:
-                middles.append(turn @ np.array(part.position) + np.array(thing.position))
-                halves.append(part.around)
+        for solid in solids(thing):
+            if solid.opaque:
+                middles.append(turn @ np.array(solid.middle) + np.array(thing.position))
+                halves.append(solid.half)
                 yaws.append(thing.yaw)
     return Boxes(np.array(middles).reshape(-1, 3), np.array(halves).reshape(-1, 3), np.array(yaws))
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
@@ -16,13 +16,14 @@ from typing import NamedTuple
 from coopera.core.household import AgentId
 from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.workplace import thing_of, working
+from coopera.simulation.acts.workplace import surface_at_work, thing_of, working
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.motions.aids import Used, aids, now
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
+from coopera.simulation.motions.props import Shown, shown
 from coopera.simulation.people.appearance import Outfit, outfit_for
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.timing import (
@@ -43,11 +44,15 @@ from coopera.simulation.ways.navigation import Stand
 
 
 class Held(NamedTuple):
-    """What someone holds, by its name or its text, and how; `aids` is what else belongs to what they do with it."""
+    """What someone holds, by its name or its text, and how; `aids` is what else belongs to what they do with it.
+
+    `drawn` is how pictures show it; nothing else knows of it.
+    """
 
     name: str
     grip: Grip = CARRIED
     aids: tuple[Used, ...] = ()
+    drawn: Shown | None = None
 
 
 class Moment(NamedTuple):
@@ -69,13 +74,14 @@ class Moment(NamedTuple):
 class Shot:
     """Ticks seen from one place of a robot; `at` gives the moment of a tick, `deed` is when the act is best seen.
 
-    The first `came` ticks are the end of a walk.
+    The first `came` ticks are the end of a walk; from `begun` on a motion is made, in a shot of one.
     """
 
     ticks: int
     at: Callable[[int], Moment]
     deed: int
     came: int = 0
+    begun: int | None = None
 
 
 @dataclass(slots=True)
@@ -248,18 +254,19 @@ class Filming:
         setting, grip = working(self.ground.scene, self.recording.state, person, motion, self.moved)
         cls = thing_of(self.ground.scene, self.recording.state, person.thing).cls if person.thing else ""
 
+        top = surface_at_work(self.ground.scene, self.recording.state, person, motion, self.moved, setting)
+
         def held(seconds: float) -> Held | None:
-            how = Held(person.thing, now(motion, setting, grip, seconds)) if person.thing else None
-            return how and how._replace(aids=tuple(aids(motion, setting, grip, seconds, cls)))
+            if not person.thing:
+                return None
+            how, more = now(motion, setting, grip, seconds), aids(motion, setting, grip, seconds, cls)
+            return Held(person.thing, how, tuple(more), shown(motion, setting, how, (person.thing, cls), top, seconds))
 
         carried = Held(person.thing) if person.thing else None
         settled = walk_ticks + SETTLE
         total = settled + round(max(MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
         moved, outfit = self.moved, _outfit(person)
-
-        def dressed(moment: Moment) -> Moment:
-            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -269,9 +276,10 @@ class Filming:
             body = Placed(*person.place, person.yaw, pose)
             if tick < settled:
                 return others(between(came, body, (tick - walk_ticks) / SETTLE), carried, moved)
-            return dressed(others(body, held(seconds), moved))
+            moment = others(body, held(seconds), moved)
+            return moment._replace(outfits={**moment.outfits, agent: outfit})
 
-        self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks))
+        self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks, settled))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held(0.0), moved)
 
@@ -287,7 +295,7 @@ class Filming:
             moment = last.at(tick)
             return moment if tick < last.ticks - BACK else moment._replace(worn=worn, held=held)
 
-        self.recording.shots[-1] = Shot(last.ticks, at, last.deed, last.came)
+        self.recording.shots[-1] = replace(last, at=at)
 
     def _give(self, step: Give) -> None:
         """Drive up, hold out the thing, and let the person take it; or take from the person what they hold out."""

@@ -27,6 +27,10 @@ _GONE = 0.3
 """What a metre of floor counts, in metres of every joint."""
 _CHANGED = 0.35
 """What it counts that another thing is held, has been moved, is worn or is open (half of it, squared, each way)."""
+_BEFORE = 4
+"""Of a motion's pictures one in so many may show what was before it: one, at least."""
+_TELLS = 0.02
+"""A motion of which so much is not yet shown (a distance of poses, in metres) has the next picture."""
 _END = 1.0
 """The last so many seconds are the end."""
 
@@ -42,7 +46,7 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
     """Choose moments of a recording that differ most from each other (farthest-point sampling), in order of time.
 
     The deed comes first, then the end: of the last second whatever is least like the deed, since motions repeat. One
-    moment of each walk may be among the others.
+    moment of each walk may be among the others; of a motion, few show what was before it.
 
     Args:
         recording: With at least one shot.
@@ -62,6 +66,9 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
     rows = [(*look.pose, *(_CHANGED * (name in look.things) for name in things)) for look in looks]
     places = np.array(rows)
     deed = ticks.index(_deed(recording))
+    before = np.array(ticks) < _begun(recording)
+    elsewhere = before & (np.array(ticks) < _arrived(recording))
+    spare = max(1, count // _BEFORE)
     chosen, left = [deed], np.linalg.norm(places - places[deed], axis=1)
     for number in range(1, count):
         among = left
@@ -69,11 +76,25 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
             late = np.array(ticks) >= recording.ticks - _END * TICKS
             among = np.where(late, left, -1.0)
         among = among.copy()
+        if left[~before].max(initial=0.0) >= _TELLS:
+            among[before if before[chosen].sum() >= spare else elsewhere if spare == 1 else chosen] = -1.0
         among[chosen] = -2.0
         best = int(np.argmax(np.round(among, 6)))
         chosen.append(best)
         left = np.minimum(left, np.linalg.norm(places - places[best], axis=1))
     return sorted(ticks[i] for i in chosen)
+
+
+def _begun(recording: Recording) -> int:
+    """The tick from which on a motion is made; 0 for an act without one, which is told by all of its ticks."""
+    last = recording.shots[-1]
+    return 0 if last.begun is None else recording.ticks - last.ticks + last.begun
+
+
+def _arrived(recording: Recording) -> int:
+    """The tick at which who acts has come to the place of the last shot, with what they have in hand."""
+    last = recording.shots[-1]
+    return recording.ticks - last.ticks + last.came
 
 
 def _deed(recording: Recording) -> int:
@@ -87,8 +108,8 @@ def _candidates(recording: Recording, count: int) -> list[int]:
     step = max(1, min(recording.ticks // _CANDIDATES, recording.ticks // (3 * count)))
     found, start = set(), 0
     for shot in recording.shots:
-        found |= {start + shot.came // 2, start + shot.deed, start + shot.ticks - 1}
-        found |= set(range(start + shot.came, start + shot.ticks, step))
+        moves = set(range(start + shot.came, start + shot.ticks, step))
+        found |= {start + shot.came // 2, start + shot.deed, start + shot.ticks - 1} | moves
         start += shot.ticks
     if len(found) <= count:
         found = set(range(recording.ticks))

@@ -30,7 +30,8 @@ from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
-from coopera.simulation.motions.holding import held_at, worn_at
+from coopera.simulation.motions.holding import held_at
+from coopera.simulation.motions.worn import worn_at
 from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print
@@ -68,9 +69,7 @@ class Stage:
         self.renderer = None if name is None else start_renderer(name, self.client)
         drawn = name in ("tiny", "egl")
         self.home = build(scene, self.client, drawn=drawn)
-        self.bodies = {
-            agent: load_urdf(read_urdf(BODIES / "person.urdf"), self.client, drawn=drawn) for agent in people
-        }
+        self.bodies = {who: load_urdf(read_urdf(BODIES / "person.urdf"), self.client, drawn=drawn) for who in people}
         self.bodies |= {agent: load_urdf(body.urdf, self.client, drawn=drawn) for agent, body in robots.items()}
         names = dict.fromkeys(people, [name for name, _ in JOINTS])
         names |= {agent: list(body.joints) for agent, body in robots.items()}
@@ -81,6 +80,7 @@ class Stage:
         self._balls: dict[AgentId, Balls] = {}
         self._figures: dict[AgentId, Robot] = {}
         self._looks = {} if looks is None else looks
+        self._draws = name is not None
         if drawn:
             self._balls = {agent: Balls(self.bodies[agent], self.client) for agent in people}
         if name == "gl":
@@ -215,11 +215,16 @@ class Stage:
         name, size = self._body(state, held.name)
         if agent in self.robots:
             self._attach(name, placed, *self._in_gripper(agent, placed, size))
+            return
+        drawn = held.drawn if self._draws else None
+        grip = held.grip if drawn is None else drawn.grip
+        if grip is None:
+            self.home.move(name, _AWAY, 0.0)
         else:
-            self._attach(name, placed, *held_at(placed.pose, size, held.grip))
-            for aid in held.aids:
-                name, size = self._body(state, f"{agent} {aid.thing}")
-                self._attach(name, placed, *held_at(placed.pose, size, aid.grip))
+            self._attach(name, placed, *held_at(placed.pose, size, grip))
+        for aid in (*held.aids, *(drawn.props if drawn else ())):
+            name, size = self._body(state, f"{agent} {aid.thing}")
+            self._attach(name, placed, *held_at(placed.pose, size, aid.grip))
 
     def _attach(self, name: str, placed: Placed, place: Array, turn: Array) -> None:
         heading = about_z(placed.yaw)

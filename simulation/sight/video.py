@@ -33,6 +33,11 @@ def need_video() -> None:
         raise ConfigError("pictures: video needs PyAV; install it with: pip install -c constraints.txt -e '.[video]'")
 
 
+def frame_file(folder: Path, name: str, number: int) -> Path:
+    """The file of a picture."""
+    return folder / f"{name}-{number}.webp"
+
+
 def write_frames(folder: Path, pictures: Mapping[str, Sequence[NDArray[np.uint8]]]) -> list[Path]:
     """Write pictures (height, width, 3) as NAME-0.webp … into a folder, name by name.
 
@@ -44,7 +49,7 @@ def write_frames(folder: Path, pictures: Mapping[str, Sequence[NDArray[np.uint8]
         folder.mkdir(parents=True, exist_ok=True)
         for name, some in pictures.items():
             for i, image in enumerate(some):
-                path = folder / f"{name}-{i}.webp"
+                path = frame_file(folder, name, i)
                 Image.fromarray(image).save(path, "WEBP", **WEBP)
                 paths.append(path)
     except OSError as err:

@@ -5,23 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
+from coopera.simulation.acts.workplace import thing_of
 from coopera.simulation.drawing.context import Renderer
+from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.floorplan import Point
+from coopera.simulation.homes.magic_box import shape_of
+from coopera.simulation.motions.holding import held_at
+from coopera.simulation.motions.props import Shown
 from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
-from coopera.simulation.sight.hiding import person_body, robot_body
+from coopera.simulation.sight.darkroom import Darkroom
+from coopera.simulation.sight.hiding import at_work, corners_of, framed_of, person_body, robot_body, tops_of
 from coopera.simulation.sight.labels import Name, labelled
 from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
+from coopera.simulation.sight.video import frame_file, write_frames
 from coopera.simulation.state.home_state import HomeState
 from coopera.simulation.state.looks import states_in_sight
 
@@ -29,10 +38,17 @@ Viewpoint: TypeAlias = Literal["robot", "human"]
 """The robot's own, or a third person's of who acts."""
 _AWAY = -100.0
 _NOTHING: Mapping[AgentId, Held] = MappingProxyType({})
-_MOMENTS = (0.5, 0.65, 0.8)
+_MOMENTS = (0.35, 0.5, 0.6, 0.7, 0.8, 0.93)
 """When, as shares of a shot, the third person looks for the hands besides."""
 _NEAR = 0.7
 """Furniture this near to who acts has its name written, where names are asked for (metres)."""
+
+
+class Take(NamedTuple):
+    """A moment, and the cameras through which it is seen: all that a picture is drawn from, besides the home before."""
+
+    moment: Moment
+    cameras: Mapping[Viewpoint, Camera]
 
 
 class Watcher:
@@ -46,16 +62,22 @@ class Watcher:
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
         self._renderer = renderer
         self._drawn: Stage | None = None
+        self._darkroom = Darkroom()
 
     def close(self) -> None:
-        """Give pybullet back."""
+        """Give pybullet back; pictures that nobody waited for may be missing."""
+        self._darkroom.close()
         self.stage.close()
         if self._drawn is not None:
             self._drawn.close()
 
     @property
     def drawn(self) -> Stage:
-        """The stage that pictures are taken of."""
+        """The stage that pictures are taken of, once the darkroom has done with it."""
+        self._darkroom.finish()
+        return self._set()
+
+    def _set(self) -> Stage:
         if self._drawn is None:
             ground = self.ground
             self._drawn = Stage(ground.scene, ground.people, ground.robots, self._renderer, self._looks)
@@ -103,30 +125,61 @@ class Watcher:
         recording: Recording,
         count: int,
         size: tuple[int, int],
+        folder: Path,
+        stems: Mapping[Viewpoint, str],
         *,
-        views: Sequence[Viewpoint] = ("robot", "human"),
         labels: bool = False,
-    ) -> dict[Viewpoint, list[Image]]:
-        """Render the moments that tell a recording: pictures by view, in order of time."""
-        pictures: dict[Viewpoint, list[Image]] = {view: [] for view in views}
-        for moment, cameras in self._moments(recording, telling_ticks(recording, self.ground.robots, count), views):
-            names = self._names(recording, moment) if labels else []
-            for view, camera in cameras.items():
-                if names:
-                    pictures[view].append(labelled(*self.drawn.picture(camera, size), names))
-                else:
-                    pictures[view].append(self.drawn.colours(camera, size))
-        return pictures
+    ) -> list[Path]:
+        """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
+
+        With our own renderer that is done in the darkroom, while the home goes on: `finish` waits for it, and raises
+        what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is done at once.
+
+        Returns:
+            The files, view by view, in order of time: STEM-0.webp ….
+        """
+        ticks = telling_ticks(recording, self.ground.robots, count)
+        takes = list(self._takes(recording, ticks, tuple(stems)))
+
+        def develop() -> None:
+            write_frames(folder, self._developed(recording, takes, size, stems, labels))
+
+        if self._set().drawer is None:
+            develop()
+        else:
+            self._darkroom.add(develop)
+        return [frame_file(folder, stem, i) for stem in stems.values() for i in range(len(takes))]
+
+    def finish(self) -> None:
+        """Wait for all pictures that were taken.
+
+        Raises:
+            SimulationError: If the files cannot be written.
+        """
+        self._darkroom.finish()
+
+    def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
+        """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
+
+        Raises:
+            ConfigError: If another renderer than our own draws here.
+        """
+        stage, ticks = self.drawn, telling_ticks(recording, self.ground.robots, count)
+        found: dict[str, View] = {}
+        for number, (moment, cameras) in enumerate(self._takes(recording, ticks, ("robot", "human"))):
+            stage.show(recording.state, moment)
+            found |= {f"{view}-{number}": stage.view(camera, size) for view, camera in cameras.items()}
+        return found
 
     def video(self, recording: Recording, size: tuple[int, int], every: int) -> Iterator[Image]:
         """Yield each n-th tick with both views side by side, the robot's on the left."""
-        for _, cameras in self._moments(recording, range(0, recording.ticks, every), ("robot", "human")):
-            yield np.concatenate([self.drawn.colours(camera, size) for camera in cameras.values()], axis=1)
+        stage = self.drawn
+        for moment, cameras in self._takes(recording, range(0, recording.ticks, every), ("robot", "human")):
+            stage.show(recording.state, moment)
+            yield np.concatenate([stage.colours(camera, size) for camera in cameras.values()], axis=1)
 
-    def _moments(
-        self, recording: Recording, ticks: Iterable[int], views: Sequence[Viewpoint]
-    ) -> Iterator[tuple[Moment, dict[Viewpoint, Camera]]]:
-        """Each moment, while it is shown, and its cameras: the third person keeps its place during a shot."""
+    def _takes(self, recording: Recording, ticks: Iterable[int], views: Sequence[Viewpoint]) -> Iterator[Take]:
+        """Each moment and its cameras: the third person keeps its place during a shot."""
         across: dict[int, Camera] = {}
         for tick in ticks:
             index, within = recording.find(tick)
@@ -134,8 +187,28 @@ class Watcher:
             if "human" in views and index not in across:
                 across[index] = self._view(recording, shot)
             moment = shot.at(within)
-            self.drawn.show(recording.state, moment)
-            yield moment, {v: self._eyes(recording, moment) if v == "robot" else across[index] for v in views}
+            yield Take(moment, {v: self._eyes(recording, moment) if v == "robot" else across[index] for v in views})
+
+    def _developed(
+        self,
+        recording: Recording,
+        takes: Sequence[Take],
+        size: tuple[int, int],
+        stems: Mapping[Viewpoint, str],
+        labels: bool,
+    ) -> dict[str, list[Image]]:
+        """The pictures, by stem."""
+        stage = self._set()
+        pictures: dict[str, list[Image]] = {stem: [] for stem in stems.values()}
+        for moment, cameras in takes:
+            stage.show(recording.state, moment)
+            names = self._names(recording, moment, stage) if labels else []
+            for view, camera in cameras.items():
+                if names:
+                    pictures[stems[view]].append(labelled(*stage.picture(camera, size), names))
+                else:
+                    pictures[stems[view]].append(stage.colours(camera, size))
+        return pictures
 
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
@@ -147,8 +220,30 @@ class Watcher:
         body = moment.bodies[who]
         away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
         self.stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
-        later = [shot.at(round(shot.came + share * (shot.ticks - shot.came))).bodies[who] for share in _MOMENTS]
-        return view_camera(self.stage, self.ground.scene, self._focus(moment.bodies, who, moment.held, later))
+        moments = [moment, *(shot.at(round(shot.came + share * (shot.ticks - shot.came))) for share in _MOMENTS)]
+        focus = self._focus(moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
+        if who not in self.ground.robots:
+            corners, tops = map(np.concatenate, zip(*(self._work(recording, one, who) for one in moments), strict=True))
+            person = framed_of([one.bodies[who] for one in moments], whole=moment.outfits.get(who) == "sport")
+            body = at_work(focus.body, np.unique(tops.round(2), axis=0))
+            focus = focus._replace(body=body, framed=np.concatenate((person, corners, tops)))
+        return view_camera(self.stage, self.ground.scene, focus)
+
+    def _work(self, recording: Recording, moment: Moment, who: AgentId) -> tuple[Array, Array]:
+        """Where what a person works with is drawn at a moment, in the world.
+
+        The corners of what is in hand and those within what else is shown, and the middles of all tops; shapes (n, 3).
+        """
+        held, placed = moment.held.get(who), moment.bodies[who]
+        if held is None:
+            return np.zeros((0, 3)), np.zeros((0, 3))
+        size = thing_of(self.ground.scene, recording.state, held.name).size
+        drawn = Shown(held.grip) if held.drawn is None else held.drawn
+        hand = [] if drawn.grip is None else [(*held_at(placed.pose, size, drawn.grip), size)]
+        props = [(shape_of(one.thing).size, one.grip) for one in drawn.props]
+        others = [(*held_at(placed.pose, wide, grip), wide) for wide, grip in props]
+        inner = [(place, turn, (0.5 * wide, 0.5 * deep, high)) for place, turn, (wide, deep, high) in others]
+        return corners_of(placed, [*hand, *inner]), tops_of(placed, [*hand, *others])
 
     def _focus(
         self,
@@ -166,9 +261,9 @@ class Watcher:
         things = tuple(thing.name for thing in held.values() if thing.name in self.stage.home.bodies)
         return Focus(placed, body, tuple(ignore), scene.room_at(placed.x, placed.y).name, others, things)
 
-    def _names(self, recording: Recording, moment: Moment) -> list[Name]:
+    def _names(self, recording: Recording, moment: Moment, drawn: Stage) -> list[Name]:
         """What may be written into a picture: who is there, what they hold or put down, and the furniture near them."""
-        scene, drawn = self.ground.scene, self.drawn
+        scene = self.ground.scene
         handled = dict.fromkeys((*(held.name for held in moment.held.values()), *moment.moved))
         names = [
             Name(drawn.home.bodies[name], plain(self._class_of(recording, name)), small=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from coopera.core.affordances import affordances, problem_of
 from coopera.core.household import AgentId
-from coopera.simulation.homes.catalogue import surfaces
+from coopera.simulation.homes.catalogue import interiors, surfaces
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.homes.spots import Array, Taken, taken_by
 from coopera.simulation.state.agents import named
@@ -138,7 +138,7 @@ def _where(
         yield f"{name} is on {where.on!r}, which is no furniture of this home."
     if where.inside is None:
         return
-    if where.inside not in known or not affordances().contains(known[where.inside].cls):
+    if where.inside not in known or not interiors(known[where.inside]):
         yield f"{name} is inside {where.inside!r}, which holds nothing."
     around = state.moved.get(where.inside)
     if where.inside == name or (around is not None and around.inside is not None):
@@ -216,7 +216,7 @@ def _held_up(scene: Scene, state: HomeState, thing: SceneObject, where: ThingSta
         if abs(aside) > carrier.size[0] / 2 + _SLACK or abs(ahead) > carrier.size[1] / 2 + _SLACK:
             yield f"{thing.name} does not lie over {carrier.name}, which should carry it."
         heights = [carrier.position[2] + surface.z for surface in surfaces(carrier)]
-        if min(abs(z - height) for height in heights) > _FLOATING:
+        if not any(abs(z - height) <= _FLOATING for height in heights):
             said = ", ".join(f"{height:.2f}" for height in heights)
             yield f"{thing.name} is at a height of {z:.2f} m, but {carrier.name} carries things at {said}."
 

@@ -18,6 +18,8 @@ FLOOR_REACH = 0.60
 _SLACK = 0.02
 _SMALL = (0.08, 0.08, 0.09)
 _FLOATING = 0.03
+_ON_WALL = 1.0
+"""Furniture whose base is higher hangs on a wall: nobody need walk up to it (metres)."""
 
 
 def check(scene: Scene) -> list[str]:
@@ -105,8 +107,8 @@ def _supports(scene: Scene) -> Iterator[str]:
         if abs(x) > carrier.size[0] / 2 + _SLACK or abs(y) > carrier.size[1] / 2 + _SLACK:
             yield f"{thing.name} does not lie over {carrier.name}, which should carry it."
         heights = [carrier.position[2] + surface.z for surface in surfaces(carrier)]
-        if min(abs(thing.position[2] - height) for height in heights) > _FLOATING:
-            known = ", ".join(f"{height:.2f}" for height in heights)
+        if not any(abs(thing.position[2] - height) <= _FLOATING for height in heights):
+            known = ", ".join(f"{height:.2f}" for height in heights) or "none"
             yield f"{thing.name} is at height {thing.position[2]:.2f} m, but {carrier.name} carries things at {known}."
 
 
@@ -115,10 +117,12 @@ def _access(scene: Scene, navigator: Navigator) -> Iterator[str]:
         if not len(navigator.cells_in(room.name)):
             yield f"Nobody can get into the {room.name}."
     for thing in scene.fixed:
+        if thing.position[2] >= _ON_WALL:
+            continue
         stands = navigator.approach(thing, most=60)
         if not stands:
             yield f"Nobody can walk up to {thing.name} in the {thing.room}."
-        elif not any(
+        elif surfaces(thing) and not any(
             math.dist((spot.x, spot.y), (stand.x, stand.y)) <= REACH
             for spot in spots(thing, _SMALL, furniture_on(scene, thing))
             for stand in stands

@@ -5,12 +5,14 @@ import pytest
 from scipy import stats
 
 from coopera.evaluation.comparing import (
+    Of,
     Unit,
     clustered_mean,
     compare,
     detectable,
     holm,
     holm_all,
+    noise,
     people_needed,
     sign_flip,
     sign_flips,
@@ -109,3 +111,42 @@ def test_a_stated_test_and_correction_are_the_ones_applied() -> None:
     assert [one.p_corrected for one in plain] == [one.p for one in plain]
     assert plain[0].p == pytest.approx(stats.ttest_1samp([1, 2, 3, 4, 5, 6], 0).pvalue)
     assert [one.p_corrected for one in compare(ours, others)] == pytest.approx([2 * 2 / 2**6] * 2)
+
+
+def seeded(*seeds: float, person: str = "amara") -> dict[Of, Unit]:
+    return {("1", 2, seed, 0, person): unit(person, value, seed=seed) for seed, value in enumerate(seeds)}
+
+
+def test_the_noise_floor_is_the_scatter_between_seeds_and_not_that_between_people() -> None:
+    """Both people: SD 0.1 with one degree of freedom each. The mean of two people with two seeds each has an SD of
+    0.1 sqrt(2 / 2 / 4) = 0.05, and t(2) = 4.3027."""
+    step = 0.1 / 2**0.5
+    found = noise({**seeded(0.2 - step, 0.2 + step), **seeded(0.8 - step, 0.8 + step, person="bruno")})
+    assert found is not None
+    assert (found.sd, found.freedom) == (pytest.approx(0.1), 2)
+    assert found.floor == pytest.approx(4.3027 * 0.05, abs=1e-4)
+    assert found.low < found.sd < found.high
+    assert noise(seeded(0.5)) is None, "a single seed says nothing"
+
+
+def test_a_difference_that_other_seeds_alone_could_make_is_below_the_noise() -> None:
+    ours = {key: one for who in "abc" for key, one in seeded(0.3, 0.3, person=who).items()}
+    noisy = {key: one for who in "abc" for key, one in seeded(0.1, 0.6, person=who).items()}
+    clear = {key: one for who in "abc" for key, one in seeded(0.69, 0.71, person=who).items()}
+    assert [one.below_noise for one in compare(ours, {"noisy": noisy, "clear": clear})] == [True, False]
+
+
+def test_noise_floors_hold_95_percent_of_studies_that_differ_by_seed_alone() -> None:
+    """1,000 studies of four people under three seeds each; the truth of each person stays."""
+    rng, truth = np.random.default_rng(0), (0.1, 0.3, 0.5, 0.9)
+    held = 0
+    for _ in range(1000):
+        study = {
+            key: one
+            for who, mean in zip("abcd", truth, strict=True)
+            for key, one in seeded(*rng.normal(mean, 0.07, 3), person=who).items()
+        }
+        found = noise(study)
+        assert found is not None
+        held += abs(clustered_mean(list(study.values())).mean - 0.45) <= found.floor
+    assert 0.93 <= held / 1000 <= 0.97

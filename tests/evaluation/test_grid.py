@@ -5,7 +5,7 @@ from collections import Counter
 import pytest
 
 from coopera.core.errors import ConfigError
-from coopera.evaluation.grid import Grid, lives, read_grid
+from coopera.evaluation.grid import Grid, check_names, lives, read_grid
 
 PEOPLE = [f"p{n}" for n in range(20)]
 HOMES = ["a", "b", "c", "d", "e"]
@@ -71,3 +71,15 @@ def test_what_there_is_too_little_of_is_said() -> None:
         lives(Grid(settings=["2"]), PEOPLE, HOMES[:2])
     with pytest.raises(ConfigError, match="there is no setting '7'"):
         lives(Grid(settings=["7"]), PEOPLE, HOMES)
+
+
+def test_beside_the_methods_the_reference_runs_with_shared_common_sense_and_as_often_again_as_asked() -> None:
+    def names(**given: object) -> list[str]:
+        return [one.name for one in read_grid({"methods": ["ours", "habit"], **given}, "g").variants]
+
+    assert names() == ["ours+shared"]
+    assert names(noise=2) == ["ours+shared", "ours+again1", "ours+again2"]
+    assert names(with_shared="all", endpoint={"reference": "habit"}) == ["ours+shared", "habit+shared"]
+    assert names(with_shared=[]) == []
+    with pytest.raises(ConfigError, match="with_shared: oracle is none of the grid's methods"):
+        check_names(read_grid({"methods": ["ours"], "with_shared": ["oracle"]}, "g"))

@@ -177,6 +177,23 @@ def test_another_measure_another_test_and_a_narrower_family_can_be_the_endpoint(
     assert "Rows without a corrected p were not among the stated comparisons." in found.note
 
 
+def test_variants_are_a_control_and_a_noise_floor_and_no_methods_to_compare() -> None:
+    """ours 2/4, shared 3/4 of four tasks; sampled again 1/4 once: variance (1/4)^2 / 2 / 3, SD 0.102."""
+    kinds = {"ours": 2, "random": 1, "ours+shared": 3, "ours+again1": 2}
+    rows = [one for who in ("amara", "bruno", "chen") for m, n in kinds.items() for one in life(m, who, 0, n)]
+    odd = {"helped": 1, "useless": 3}
+    rows = [row.model_copy(update=odd) if (row.method, row.person, row.day) == ("ours+again1", "chen", 1) else row
+            for row in rows]  # fmt: skip
+    tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}
+    assert [line[0] for line in tables["comparisons_late"].rows] == ["random"]
+    assert tables["control_shared"].rows[0][3] == "+0.250 [+0.250, +0.250]"
+    [sampled] = tables["noise"].rows
+    assert sampled[:2] == ["ours", "same days, replies sampled anew"]
+    assert (sampled[2][:5], sampled[3]) == ("0.102", "3")
+    assert tables["comparisons_late"].columns[-1] == "noise floor"
+    assert "+" not in "".join(line[0] for line in tables["late_days"].rows)
+
+
 def test_two_people_get_no_interval_and_no_detectable_difference() -> None:
     rows = [one for who in ("amara", "bruno") for m in ("ours", "random") for one in life(m, who, 0, 1, 2)]
     tables = {table.name: table for table in all_tables(rows, ["ours", "random"])}

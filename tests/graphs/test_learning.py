@@ -46,6 +46,16 @@ class Broken(TableClassifier):
         return super().train(examples, seed=seed)
 
 
+class Shown(TableClassifier):
+    """Keeps what it was last shown."""
+
+    shown: Sequence[Example] = ()
+
+    def train(self, examples: Sequence[Example], *, seed: int) -> dict[str, float]:
+        type(self).shown = examples or self.shown  # there are none of tasks
+        return {}
+
+
 def account(day: int, person: PersonId = ANN, *, hours: int = 3, yes: bool | None = None) -> DayAccount:
     """A day on which the first guess was right, or all had one answer."""
     robot = RobotHour(
@@ -99,6 +109,21 @@ def test_earlier_examples_of_a_person_get_the_newest_profile_and_those_of_others
     last = learner(tmp_path, mode="fresh", days=3, people=2)
     profiles = {line.split("at ")[1].split(".")[0]: line.split(": ")[1] for line in table(last)}
     assert profiles == {"0": "ann since day 2.", "1": "bo since day 1.", "2": "ann since day 2."}
+
+
+def test_the_thousands_of_examples_of_an_evening_hold_what_they_have_in_common_once(tmp_path: Path) -> None:
+    learner(tmp_path, Shown, days=3)
+    assert len(Shown.shown) == 27
+    assert len({id(example.candidate) for example in Shown.shown}) <= 2 * len(GUESSES)  # kept before, and of today
+    assert len({id(example.profile) for example in Shown.shown}) == 1
+    assert len({id(example.tasks) for example in Shown.shown}) <= 2
+
+
+def test_an_example_with_the_values_that_it_has_already_is_no_other_one() -> None:
+    one = labelled(account(0))["intention"][0]
+    assert one.but(profile=one.profile, counts=1.0) is one
+    assert one.but(profile="other").profile == "other"
+    assert one.but(profile="other", label=one.label).label == one.label
 
 
 def test_another_process_goes_on_where_this_one_was(tmp_path: Path) -> None:

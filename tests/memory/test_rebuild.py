@@ -3,6 +3,7 @@ from __future__ import annotations
 import shutil
 import sqlite3
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,11 @@ def sql(command: str) -> Break:
     return break_
 
 
+def row(position: int) -> str:
+    """SQL for the number of a record's row."""
+    return f"(SELECT id FROM embeddings WHERE embedding_id = '{position:012d}')"
+
+
 INDEX_FILES = ("data_level0.bin", "header.bin", "link_lists.bin", "index_metadata.pickle")
 SLOW_BREAKS = [
     pytest.param(index_file(name, change), id=f"{name} {change.__name__}")
@@ -134,7 +140,7 @@ def test_an_index_left_half_written_by_a_crash_is_rebuilt_on_opening_and_told(
 def test_a_crash_that_took_a_record_with_it_is_told_instead_of_healed(store: Path) -> None:
     (store / "closed.json").unlink()
     index_file("link_lists.bin", halved)(store)
-    sql("DELETE FROM embeddings WHERE id = 300")(store)
+    sql(f"DELETE FROM embeddings WHERE id = {row(299)}")(store)
     with pytest.raises(DamagedMemoryError, match=TELLS):
         answers(store)
     assert sorted(path.name for path in store.parent.iterdir()) == ["memory"]
@@ -152,19 +158,27 @@ def test_a_store_that_is_open_bears_no_seal(store: Path) -> None:
 
 
 def test_a_text_that_was_changed_behind_our_back_is_not_served(store: Path) -> None:
-    sql("UPDATE embedding_metadata SET string_value = 'evil' WHERE key = 'chroma:document' AND id = 1200")(store)
-    with (
-        MemoryStream.open(store, "x", Letters()) as stream,
-        pytest.raises(DamagedMemoryError, match="the text of record 1199 is not what was written"),
-    ):
-        stream.latest(3)
+    text = f"UPDATE embedding_metadata SET string_value = 'evil' WHERE key = 'chroma:document' AND id = {row(1199)}"
+    sql(text)(store)
+    with pytest.raises(DamagedMemoryError, match="the text of record 1199 is not what was written"):
+        MemoryStream.open(store, "x", Letters())
+
+
+def test_a_lost_vector_is_told_and_made_again_from_its_text(store: Path, whole: Path) -> None:
+    sql("DELETE FROM embeddings WHERE id = (SELECT min(id) FROM embeddings WHERE length(embedding_id) = 40)")(store)
+    with closing(sqlite3.connect(store / "chroma.sqlite3")) as database, database:
+        database.execute("DELETE FROM embeddings_queue WHERE length(id) = 40")
+    with pytest.raises(DamagedMemoryError, match="vectors cannot be read"):
+        answers(store)
+    assert repair(store, Letters()) == [Repaired("x", 1200, 0, 0), Repaired("y", 2, 0, 0)]
+    assert answers(store) == answers(whole)
 
 
 @pytest.mark.slow
 def test_altered_and_missing_records_are_counted_and_the_rest_is_kept(store: Path) -> None:
-    sql("UPDATE embedding_metadata SET string_value = 'abc' WHERE key = 'chroma:document' AND id = 5")(store)
-    sql("UPDATE embedding_metadata SET int_value = 99999 WHERE key = 'hour' AND id = 700")(store)
-    sql("DELETE FROM embeddings WHERE id = 300")(store)
+    sql(f"UPDATE embedding_metadata SET string_value = 'abc' WHERE key = 'chroma:document' AND id = {row(4)}")(store)
+    sql(f"UPDATE embedding_metadata SET int_value = 99999 WHERE key = 'hour' AND id = {row(699)}")(store)
+    sql(f"DELETE FROM embeddings WHERE id = {row(299)}")(store)
     with pytest.raises(DamagedMemoryError, match="not numbered 0 to 1198"):
         answers(store)
     assert repair(store, Letters()) == [Repaired("x", 1199, missing=1, altered=2), Repaired("y", 2, 0, 0)]
@@ -192,7 +206,7 @@ def test_repair_wants_a_store_that_nobody_uses_and_the_right_embeddings(store: P
         repair(tmp_path / "nothing")
     with MemoryStream.open(store, "x", Letters()), pytest.raises(MemoryStoreError, match="in use by process"):
         repair(store, Letters())
-    without_index(store)
+    index_file("link_lists.bin", flipped)(store)
     with pytest.raises(MemoryStoreError, match="'letters' are not known by their name"):
         repair(store)
     with pytest.raises(MemoryStoreError, match="written with the embeddings 'letters', not 'others'"):
@@ -206,7 +220,7 @@ def test_the_bundled_embeddings_are_found_by_their_name(tmp_path: Path) -> None:
     with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         stream.add(["make tea", "read"], 0)
         expected = stream.recall("drink", 1, 2)
-    sql("UPDATE embedding_metadata SET int_value = 1 WHERE key = 'vector_sum' AND id = 1")(tmp_path / "m")
+    sql(f"UPDATE embedding_metadata SET int_value = 1 WHERE key = 'vector_sum' AND id = {row(0)}")(tmp_path / "m")
     assert repair(tmp_path / "m") == [Repaired("x", 2, 0, 0)]
     with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         assert stream.recall("drink", 1, 2) == expected

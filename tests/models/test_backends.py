@@ -171,3 +171,12 @@ def test_other_providers_come_through_langchain_where_it_is_installed(monkeypatc
     assert open_backend("acme:big", "human", EMBEDDINGS).model.invoke("hi").text == "big speaking"
     with pytest.raises(ConfigError, match="Unsupported provider other; a model may be offline"):
         open_backend("other:big", "human", EMBEDDINGS)
+
+
+def test_another_sample_asks_everything_with_other_seeds() -> None:
+    def seed(sample: int) -> int:
+        settings = CallSettings(sample=sample)
+        return open_door(prompts=PromptLibrary(), seed=7, embeddings=EMBEDDINGS, settings=settings).seed
+
+    assert seed(0) == 7
+    assert len({seed(0), seed(1), seed(2)}) == 3

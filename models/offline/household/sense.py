@@ -21,7 +21,7 @@ _WHEN = re.compile(
     r"(?<=\w) (?:after|before) (?:breakfast|lunch|dinner|supper|a meal|meals|eating|food|work|school|bed|bedtime)\b",
     re.IGNORECASE,
 )
-REMEMBERED = 4096  # texts, pairs of texts and vectors kept; 6 MB of MiniLM's
+REMEMBERED, VECTORS = 4096, 1024  # texts and pairs of texts kept; vectors, 1.5 MB of MiniLM's
 
 
 class Embed(Protocol):
@@ -172,7 +172,7 @@ class CommonSense:
         if vector is None:
             vector = np.asarray(self._embeddings.embed_query(text), dtype=np.float32)
             vector = vector / max(float(np.linalg.norm(vector)), 1e-9)
-            if len(self._vectors) >= REMEMBERED:
+            if len(self._vectors) >= VECTORS:
                 self._vectors.pop(next(iter(self._vectors)), None)
             self._vectors[text] = vector
         return vector

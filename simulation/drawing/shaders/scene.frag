@@ -23,6 +23,7 @@ layout(location = 1) out int tagged;
 
 const float CEILING = 2.4;
 const int WINDOWS = 3;
+const int GATES = 3;  // windows towards the sun that a room has at most: the renderer fills it in
 const int LAMP = 9, WINDOW = 8, METAL = 6, GLASS = 7, TILES = 4, WALL_TILES = 13, PLANKS = 3, SKIN = 10;
 
 float near(float metres) {
@@ -54,10 +55,10 @@ float lit(vec3 normal, float leaves) {
 float through(vec3 gate) {
     float inside = 0.0;
     if (gate.z > CEILING - 0.01) return inside;
-    for (int i = 0; i < WINDOWS; i++) {
-        vec4 upright = texelFetch(rooms, ivec2(2 + 2 * i, room), 0);
+    for (int i = 0; i < GATES; i++) {
+        vec4 upright = texelFetch(rooms, ivec2(2 + 2 * (WINDOWS + i), room), 0);
         if (upright.w <= 0.0) break;
-        vec4 opening = texelFetch(rooms, ivec2(1 + 2 * i, room), 0);
+        vec4 opening = texelFetch(rooms, ivec2(1 + 2 * (WINDOWS + i), room), 0);
         vec2 where = opening.x < 0.5 ? gate.xy : gate.yx;
         vec4 edges = vec4(where.x - opening.z, opening.w - where.x, gate.z - upright.x, upright.y - gate.z);
         vec4 within = clamp(edges / 0.05, 0.0, 1.0);

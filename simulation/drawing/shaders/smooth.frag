@@ -9,10 +9,11 @@ void main() {
     vec2 size = vec2(textureSize(picture, 0));
     vec2 here = gl_FragCoord.xy / size;
     vec3 middle = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
-    vec3 a = textureOffset(picture, here, ivec2(-1, -1)).rgb;
-    vec3 b = textureOffset(picture, here, ivec2(1, -1)).rgb;
-    vec3 c = textureOffset(picture, here, ivec2(-1, 1)).rgb;
-    vec3 d = textureOffset(picture, here, ivec2(1, 1)).rgb;
+    ivec2 at = ivec2(gl_FragCoord.xy), low = max(at - 1, 0), high = min(at + 1, textureSize(picture, 0) - 1);
+    vec3 a = texelFetch(picture, low, 0).rgb;
+    vec3 b = texelFetch(picture, ivec2(high.x, low.y), 0).rgb;
+    vec3 c = texelFetch(picture, ivec2(low.x, high.y), 0).rgb;
+    vec3 d = texelFetch(picture, high, 0).rgb;
     vec4 corners = vec4(brightness(a), brightness(b), brightness(c), brightness(d));
     float own = brightness(middle);
     float least = min(own, min(min(corners.x, corners.y), min(corners.z, corners.w)));

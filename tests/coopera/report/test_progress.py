@@ -30,8 +30,9 @@ EVENTS = [
 ]
 
 
-def test_a_pipe_gets_one_line_per_hour() -> None:
+def test_a_pipe_gets_a_line_at_once_and_one_per_hour() -> None:
     assert lines(EVENTS).splitlines() == [
+        "getting ready; 0 of 4 hours are done",
         "day 0, 9 am done (1 of 4 hours); predicate F1 so far 0.500",
         "day 0, 10 am done (2 of 4 hours); predicate F1 so far 0.400",
         "day 1, 9 am done (3 of 4 hours); predicate F1 so far 0.400",
@@ -65,7 +66,8 @@ def test_a_resumed_run_counts_the_hours_that_were_lived_before() -> None:
     with Progress(4, Console(file=out, width=120), done=[(0, 9), (0, 10)]) as progress:
         progress.tell({"day": 0, "hour": 10, "node": "record", "success": 0.5})
         progress.tell({"day": 0, "hour": 11, "node": "record", "success": 0.5})
-    assert [line.split("(")[1].split(" hours")[0] for line in out.getvalue().splitlines()] == ["2 of 4", "3 of 4"]
+    assert [line.split("(")[1].split(" hours")[0] for line in out.getvalue().splitlines()[1:]] == ["2 of 4", "3 of 4"]
+    assert out.getvalue().startswith("getting ready; 2 of 4 hours are done")
 
 
 def test_an_hour_that_is_broken_off_is_not_called_done() -> None:
@@ -77,4 +79,4 @@ def test_an_hour_that_is_broken_off_is_not_called_done() -> None:
             raise KeyboardInterrupt
     except KeyboardInterrupt:
         pass
-    assert out.getvalue() == ""
+    assert " 9 am done" not in out.getvalue()

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
 import pytest
 
 from coopera.core.errors import ConfigError
+from coopera.rundir.directory import RunDir
 from coopera.rundir.export import export
 from tests.coopera.fake_run import fake_run
 
@@ -67,3 +69,43 @@ def test_the_library_loads_the_hours_as_they_are(written: Path, monkeypatch: pyt
 def test_a_folder_with_something_in_it_is_refused(written: Path) -> None:
     with pytest.raises(ConfigError, match="must be an empty folder or a new one"):
         export(fake_run(written / "other", days=1, hours=1), written / "out")
+
+
+def test_every_column_and_every_file_stands_in_the_croissant_metadata_with_the_fingerprints(written: Path) -> None:
+    out = written / "out"
+    said = json.loads((out / "croissant.json").read_text())
+    files = {one["@id"]: one for one in said["distribution"]}
+    assert sorted(files) == sorted(path.relative_to(out).as_posix() for path in out.rglob("*.parquet"))
+    for name, one in files.items():
+        assert one["sha256"] == hashlib.sha256((out / name).read_bytes()).hexdigest()
+    for records in said["recordSet"]:
+        source = records["field"][0]["source"]["fileObject"]["@id"]
+        columns = [field["source"]["extract"]["column"] for field in records["field"]]
+        assert columns == parquet.read_schema(out / source).names
+        assert all(field["description"].endswith(".") for field in records["field"])
+    facts = {one["name"]: one["value"] for one in said["additionalProperty"]}
+    marks = ("person", "judge", "household", "robot", "prompts", "code")
+    assert {f"fingerprint of {name}" for name in marks} <= set(facts)
+    assert said["license"].startswith("https://")
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_the_croissant_library_finds_nothing_to_complain_of_and_reads_the_records(written: Path) -> None:
+    croissant = pytest.importorskip("mlcroissant")
+    data = croissant.Dataset(str(written / "out/croissant.json"))
+    assert (data.metadata.issues.errors, data.metadata.issues.warnings) == (set(), set())
+    rows = list(data.records("hours"))
+    assert [(row["hours/day"], row["hours/hour"]) for row in rows] == [(day, h) for day in (0, 1) for h in range(9, 17)]
+    assert len(list(data.records("tasks"))) == parquet.read_table(written / "out/episodes/meta/tasks.parquet").num_rows
+    assert len(list(data.records("episodes"))) == 2
+
+
+def test_days_that_a_real_person_decided_are_not_called_simulated(tmp_path: Path) -> None:
+    run = fake_run(tmp_path / "run", days=1, hours=2)
+    config = (run.root / "config.yaml").read_text().replace("played_by: simulated", "played_by: web")
+    (run.root / "config.yaml").write_text(config)
+    export(RunDir.open(run.root), tmp_path / "out")
+    said = json.loads((tmp_path / "out/croissant.json").read_text())
+    assert "REAL DAYS ARE IN IT" in said["description"]
+    assert "consented to" in said["license"]
+    assert "REAL DAYS ARE IN IT" in (tmp_path / "out/hours/README.md").read_text()

@@ -130,3 +130,23 @@ def test_an_endpoint_that_cannot_be_is_refused_in_a_sentence(
 ) -> None:
     with pytest.raises(ConfigError, match=sentence):
         plan(read_grid({"methods": ["ours"], **data}, "grid.yaml"), tmp_path, Config(data_dir=data_dir))
+
+
+def test_separate_common_sense_is_the_default_and_shared_a_control_where_the_robot_has_one(
+    tmp_path: Path, data_dir: Path
+) -> None:
+    def households(**config: object) -> dict[str, str]:
+        made = plan(Grid(humans=["amara"], scenes=["maple"]), tmp_path, Config(data_dir=data_dir, **config))
+        return {job.labels["method"]: job.config.household for job in made.jobs if job.after}
+
+    assert households() == {"ours": "own", "ours+shared": "shared"}
+    assert households(household="shared") == {"ours": "shared"}
+    assert households(models={"robot": "openai:a-model"}) == {"ours": "own"}
+
+
+def test_a_repeated_sample_changes_nothing_but_the_replies(tmp_path: Path, data_dir: Path) -> None:
+    grid = Grid(humans=["amara"], scenes=["maple"], episodes=1, noise=1, with_shared=[])
+    ours, again = (job.config for job in plan(grid, tmp_path, Config(data_dir=data_dir)).jobs if job.after)
+    assert (ours.calls.sample, again.calls.sample) == (0, 1)
+    same = {"calls": ours.calls, "out": None}
+    assert ours.model_copy(update=same) == again.model_copy(update=same)

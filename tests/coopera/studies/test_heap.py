@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from coopera.studies.heap import steady_heap
+from coopera.studies.heap import give_back, steady_heap
 
 HEAPS = """
 import ctypes, re, tempfile, threading
@@ -61,3 +61,32 @@ def test_the_threads_of_a_run_share_one_heap() -> None:
         pytest.skip("this C library has no such setting")
     told = subprocess.run([sys.executable, "-c", HEAPS], check=True, capture_output=True, text=True)
     assert told.stdout == "1\n"
+
+
+HOLES = """
+import ctypes
+from pathlib import Path
+from coopera.studies.heap import give_back, steady_heap
+assert steady_heap()
+libc = ctypes.CDLL(None)
+libc.malloc.restype = libc.memset.restype = ctypes.c_void_p
+libc.memset.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_size_t)
+libc.free.argtypes = (ctypes.c_void_p,)
+size = 100_000
+blocks = [libc.memset(libc.malloc(ctypes.c_size_t(size)), 1, size) for _ in range(400)]
+last = libc.malloc(ctypes.c_size_t(size))  # the heap cannot end before it
+for block in blocks:
+    libc.free(block)
+held = lambda: next(int(l.split()[1]) for l in Path("/proc/self/status").read_text().splitlines() if "RssAnon" in l)
+before = held()
+give_back()
+print(before - held() > 30_000)
+"""
+
+
+def test_what_is_free_within_the_heap_is_given_back() -> None:
+    if not steady_heap() or not sys.platform.startswith("linux"):
+        pytest.skip("this C library has no such setting")
+    told = subprocess.run([sys.executable, "-c", HOLES], check=True, capture_output=True, text=True)
+    assert told.stdout == "True\n"
+    give_back()

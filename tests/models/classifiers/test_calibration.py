@@ -3,8 +3,18 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from sklearn.linear_model import LogisticRegression
 
 from coopera.models.classifiers.calibration import Scale, best_share, scale, score_at
+
+
+def test_the_slope_is_that_of_scikit_learns_logistic_regression() -> None:
+    rng = np.random.default_rng(7)
+    for _ in range(20):
+        scores = rng.normal(size=60)
+        labels = scores * rng.uniform(0.5, 2) + rng.normal(size=60) > 0.3
+        known = LogisticRegression(C=10.0).fit(scores[:, None] / scores.std(), labels).coef_[0, 0]
+        assert np.isclose(scale(scores, labels, days=2).slope, known / scores.std(), rtol=1e-9)
 
 
 def test_a_score_at_the_threshold_is_exactly_undecided() -> None:

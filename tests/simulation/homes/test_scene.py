@@ -179,6 +179,8 @@ def test_a_point_goes_to_the_world_and_back(x: float, y: float, yaw: float) -> N
 def test_a_quarter_turn_swaps_width_and_depth_and_turns_the_front_to_minus_x() -> None:
     table = reading(two_rooms()).fixed[0].model_copy(update={"yaw": 1.5707963})
     assert table.bounds == pytest.approx((1.6, 0.9, 2.4, 2.1), abs=1e-6)
+    moved = table.model_copy(update={"position": (3.0, 1.5, 0.0)})
+    assert moved.bounds == pytest.approx((2.6, 0.9, 3.4, 2.1), abs=1e-6)
     assert table.to_world(0, 1)[0] == pytest.approx(1.0, abs=1e-6)
 
 

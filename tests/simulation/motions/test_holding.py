@@ -14,9 +14,10 @@ from coopera.core.affordances import affordances
 from coopera.simulation.bodies.humanoid import MOUTH, forward
 from coopera.simulation.homes.catalogue import parts_of
 from coopera.simulation.homes.magic_box import Shape, shape_of
-from coopera.simulation.motions.holding import LAP, Grip, Worktop, grip, held_at, lies, worn_at
+from coopera.simulation.motions.holding import LAP, Grip, Worktop, grip, held_at, lies
 from coopera.simulation.motions.library import Motion, load_library
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
+from coopera.simulation.motions.worn import worn_at
 from coopera.simulation.shapes.rotations import Array, matrix
 
 LIBRARY = load_library()

@@ -29,7 +29,8 @@ def home():
 def seen_at_deed(world: World, view: str):
     """What a picture of the deed shows."""
     watcher, recording = world._watcher, world._recording
-    ((moment, cameras),) = watcher._moments(recording, [deed_of(recording)], (view,))
+    ((moment, cameras),) = watcher._takes(recording, [deed_of(recording)], (view,))
+    watcher.drawn.show(recording.state, moment)
     return looked_at(watcher.drawn, moment, cameras[view])
 
 
@@ -112,6 +113,15 @@ def test_the_deed_is_among_the_frames_and_all_are_of_different_moments(home, cou
         assert chosen[-1] >= home._recording.ticks - 30
 
 
+@pytest.mark.parametrize(("count", "before"), [(4, 1), (5, 1), (8, 2)])
+def test_most_frames_of_a_motion_are_of_the_motion(home, count, before) -> None:
+    home.restore({})
+    assert home.perform(HUMAN, move("dining_table_1", "bowl", "eat a meal"), record=True).ok
+    last = home._recording.shots[-1]
+    begun = home._recording.ticks - last.ticks + last.begun
+    assert 1 <= sum(tick < begun for tick in ticks_of(home, count)) <= before
+
+
 def test_few_frames_show_the_taking_the_carrying_and_the_putting_down(home) -> None:
     home.restore({})
     assert home.perform(HUMAN, put("mug_1", "dining_table_1"), record=True).ok
@@ -127,10 +137,10 @@ def test_frames_that_follow_each_other_differ_more_than_those_at_equal_times(hom
     recording, watcher = home._recording, home._watcher
 
     def least(ticks) -> float:
-        images = [
-            watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int)
-            for _, cameras in watcher._moments(recording, ticks, ("human",))
-        ]
+        images = []
+        for moment, cameras in watcher._takes(recording, ticks, ("human",)):
+            watcher.drawn.show(recording.state, moment)
+            images.append(watcher.drawn.picture(cameras["human"], (96, 72))[0].astype(int))
         return min(float(np.abs(a - b).mean()) for a, b in zip(images, images[1:], strict=False))
 
     evenly = np.linspace(0, recording.ticks - 1, 5).round().astype(int).tolist()

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
-from coopera.simulation.homes.floorplan import Wall, merge
+from coopera.simulation.homes.floorplan import Line, Wall, merge, wall_between, wall_on
 from coopera.simulation.homes.glb import Array, Mesh
 
 CUT = 0.3
@@ -15,33 +13,28 @@ SHORTEST = 0.1
 _STRAIGHT = 0.03
 
 
-def walls_of(mesh: Mesh, floor: float) -> tuple[list[Wall], int]:
-    """Return the walls that run along x or y, and how many cuts do not.
+def walls_of(mesh: Mesh, floor: float) -> list[Wall]:
+    """Return the walls of a stage; pieces of one line that meet are one wall.
 
     Args:
         mesh: The stage in our frame (Z up).
         floor: Height of the storey in metres.
     """
-    lines: dict[tuple[Literal["x", "y"], float], list[tuple[float, float]]] = {}
-    slanted = 0
+    lines: dict[Line, list[tuple[float, float]]] = {}
     for a, b in _cuts(mesh, floor + CUT):
-        span = np.abs(b - a)
-        if span.max() < 1e-3:
+        if np.abs(b - a).max() < 1e-3:
             continue
-        axis: Literal["x", "y"] = "x" if span[0] > span[1] else "y"
-        along, across = (0, 1) if axis == "x" else (1, 0)
-        if span[across] > _STRAIGHT * span[along]:
-            slanted += 1
-            continue
-        at = round(float(a[across] + b[across]) / 2, 2)
-        lines.setdefault((axis, at), []).append(tuple(sorted((float(a[along]), float(b[along])))))  # type: ignore[arg-type]
-    walls = [
-        Wall(axis, at, round(start, 3), round(end, 3))
-        for (axis, at), spans in sorted(lines.items())
+        wall = wall_between((float(a[0]), float(a[1])), (float(b[0]), float(b[1])))
+        line = wall.line
+        if abs(line.slope) <= _STRAIGHT:
+            line = Line(wall.axis, wall.at + wall.rise / 2)
+        lines.setdefault(Line(line.axis, round(line.at, 2), round(line.slope, 3)), []).append((wall.start, wall.end))
+    return [
+        wall_on(line, round(start, 3), round(end, 3))
+        for line, spans in sorted(lines.items())
         for start, end in merge(spans)
         if end - start >= SHORTEST
     ]
-    return walls, slanted
 
 
 def _cuts(mesh: Mesh, height: float) -> list[tuple[Array, Array]]:

@@ -1,0 +1,1 @@
+"""How fast is coopera? `python -m benchmarks.speed` measures, and writes docs/performance.md."""

@@ -1,0 +1,98 @@
+"""Homes made from seeds and stored: one, or many with a card that says what they are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from coopera.config.files import write_output
+from coopera.core.errors import ConfigError
+from coopera.homes.card import card_of, in_words
+from coopera.homes.stored import place_for
+from coopera.simulation.homes.scene import Scene, dump_scene, parse_scene
+
+
+class Wanted(NamedTuple):
+    """What homes are asked for: how many rooms and movable things each has; None leaves it to the seed."""
+
+    rooms: int | None = None
+    things: int | None = None
+
+    def flags(self) -> str:
+        """As the command line has it."""
+        return "".join(f" --{name} {value}" for name, value in self._asdict().items() if value is not None)
+
+
+class Made(NamedTuple):
+    """Many homes, their files in the same order, and the card (Markdown; JSON beside it)."""
+
+    homes: list[Scene]
+    files: list[Path]
+    card: Path
+
+
+_ANY = Wanted()
+
+
+def make_one(
+    rooms: int, seed: int, id: str, folder: Path, *, things: int | None = None, force: bool = False
+) -> tuple[Scene, Path, list[str]]:
+    """Make and store one home; returns it, its file and its problems.
+
+    Raises:
+        ConfigError: If it cannot be, or is there already.
+    """
+    from coopera.simulation.making.generate import generate  # noqa: PLC0415 - heavy
+    from coopera.simulation.making.proof import prove  # noqa: PLC0415 - heavy
+
+    file = place_for(id, folder, force=force)
+    home = generate(seed, rooms, id, things=things)
+    problems = prove(home)
+    write_output(file, dump_scene(home))
+    return home, file, problems
+
+
+def make_many(
+    count: int,
+    seed: int,
+    id: str,
+    folder: Path,
+    *,
+    wanted: Wanted = _ANY,
+    force: bool = False,
+    say: Callable[[str], None] = print,
+) -> Made:
+    """Make homes that differ and have no problem, from one seed each, `seed` on; each is stored as soon as it is made.
+
+    Args:
+        count: How many.
+        seed: Of the first.
+        id: What they are called before their number, and the card.
+        folder: Where homes are stored; the card lies beside this folder.
+        wanted: Rooms and things of each; else 3 to 11 rooms, and about 8 things for each room.
+        force: Replace homes that are there already.
+        say: Told what is done.
+
+    Raises:
+        ConfigError: If there are too many, an id or number cannot be, or one is there already: nothing is written then.
+        SimulationError: If a seed gives no home without a problem.
+    """
+    from coopera.simulation.making.varied import MOST_HOMES, varied  # noqa: PLC0415 - heavy
+
+    if not 1 <= count <= MOST_HOMES:
+        raise ConfigError(f"--count must be from 1 to {MOST_HOMES}, not {count}.")
+    ids = [f"{id}-{number:04d}" for number in range(count)]
+    files = [place_for(one, folder, force=force) for one in ids]
+    homes = []
+    for number, (name, file) in enumerate(zip(ids, files, strict=True)):
+        home = varied(seed + number, name, rooms=wanted.rooms, things=wanted.things)
+        write_output(file, dump_scene(home))
+        homes.append(parse_scene(dump_scene(home), str(file)))
+        say(f"{name}: {len(home.rooms)} rooms, {len(home.fixed)} fixed and {len(home.movable)} movable objects")
+    command = f"coopera scenes generate --count {count} --seed {seed} --id {id}{wanted.flags()}"
+    card = card_of(homes, id, command)
+    write_output(folder.parent / f"{id}.card.json", json.dumps(card, indent=1) + "\n")
+    write_output(folder.parent / f"{id}.card.md", in_words(card))
+    return Made(homes, files, folder.parent / f"{id}.card.md")

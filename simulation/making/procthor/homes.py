@@ -1,0 +1,305 @@
+"""Import a house of ProcTHOR: its rooms as polygons, its objects as our own shapes, or boxes, of the published sizes.
+
+Unity's frame is left-handed with y up and fronts towards +z; ours is right-handed with z up and fronts towards +y. So
+(x, y, z) becomes (x, z, y), which looks alike from above, and an object turned by a about y is turned by -a about z.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from coopera.core.errors import SimulationError
+from coopera.core.household import SceneId, plain
+from coopera.simulation.homes.catalogue import FLAT, catalogue, surfaces
+from coopera.simulation.homes.scene import Room, Scene, SceneObject
+from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at, taken_by
+from coopera.simulation.making.procthor.files import Asset, House, Item
+from coopera.simulation.making.procthor.plan import plan_of
+from coopera.simulation.making.procthor.things import Kind, kind_of
+from coopera.simulation.making.proof import prove
+from coopera.simulation.shapes.kit import Size
+from coopera.simulation.ways.navigation import REACH, Navigator
+
+HIGHEST = 2.0
+"""What hangs higher above the floor is left out: nobody gets there."""
+_OFF_WALL = 0.055
+"""From a room's edge to furniture: half a wall, and a hair."""
+_STEP, _FARTHEST = 0.05, 0.8
+_ON_FLOOR = 0.15
+_REACHED = 1.45
+"""Things stand no higher: nobody gets at what is on top of a high fridge."""
+_MOVED = 0.15
+"""What is shifted by less than this is where the house has it, in metres."""
+_RUN = 0.65
+"""Depth of the runs of a counter that goes around a corner."""
+_GREY = ("#8a6d4f", "#6f7f8a", "#9a8f7a", "#7a6a84", "#6d8570", "#a07a62")
+
+
+class Imported(NamedTuple):
+    """A home, what `prove` says of it, and sentences on what was understood, guessed and left out."""
+
+    scene: Scene
+    problems: list[str]
+    understood: list[str]
+    guessed: list[str]
+    left_out: list[str]
+
+
+class _Piece(NamedTuple):
+    """An object on its way: its kind, where its base's middle is, and its yaw."""
+
+    what: str
+    item: Item
+    kind: Kind
+    position: tuple[float, float, float]
+    yaw: float
+
+
+def import_house(house: House, id: str, path: Path, assets: Mapping[str, Asset] | None = None) -> Imported:
+    """Make a home of a house.
+
+    Args:
+        house: As it was read.
+        id: The home's id.
+        path: The house's file, for errors.
+        assets: Sizes and types of assets by their ids; without them an object has the usual size of its type.
+
+    Raises:
+        ConfigError: If its rooms cannot be taken over; names file and field.
+    """
+    plan = plan_of(house, path)
+    maker = _Maker(Scene(id=SceneId(id), rooms=list(plan.rooms.values()), doors=plan.doors), assets or {})
+    maker.left_out += plan.left_out
+    maker.guessed += plan.guessed
+    for number, item in enumerate(house.objects):
+        maker.take(item, f"objects.{number}")
+    scene = maker.finished()
+    polygons = sum(room.polygon is not None for room in scene.rooms)
+    inside = sum(thing.on is not None for thing in scene.movable)
+    understood = [
+        f"{len(scene.rooms)} rooms, {polygons} of them no rectangles, and {len(scene.doors)} doors and openings",
+        f"{len(scene.fixed)} pieces of furniture, {len(scene.movable)} things that move, {inside} of them on furniture",
+    ]
+    return Imported(scene, prove(scene), understood, maker.guessed, maker.left_out)
+
+
+class _Maker:
+    """A home that is being put together, the furniture first."""
+
+    def __init__(self, scene: Scene, assets: Mapping[str, Asset]) -> None:
+        self.scene = scene
+        self.assets = assets
+        self.guessed: list[str] = []
+        self.left_out: list[str] = []
+        self.fixed: list[SceneObject] = []
+        self._waiting: list[tuple[_Piece, str]] = []
+        self._count: Counter[str] = Counter()
+        self._carriers: dict[str, list[str]] = {}
+
+    def take(self, item: Item, what: str, parent: str = "") -> None:
+        """Take an object and its children over; what moves waits until all furniture stands."""
+        told = f"{what} ({item.asset})"
+        kind = kind_of(item, self.assets)
+        carrier = parent
+        piece = _placed(told, item, kind)
+        if kind.leave:
+            self.left_out.append(f"{told}: {kind.leave}")
+        elif piece.position[2] > HIGHEST:
+            self.left_out.append(f"{told}: hangs {piece.position[2]:.2f} m above the floor, out of reach")
+        else:
+            if kind.guess:
+                self.guessed.append(f"{told}: {kind.guess}")
+            if max(abs(math.remainder(turn, 360.0)) for turn in (item.rotation.x, item.rotation.z)) > 3.0:
+                self.guessed.append(f"{told}: it leans in the house, and stands upright here")
+            if kind.fixed:
+                names = [self._stand(one) for one in _runs(piece, self.scene)]
+                carrier = what
+                self._carriers[what] = [name for name in names if name]
+            else:
+                self._waiting.append((piece, parent))
+        for number, child in enumerate(item.children):
+            self.take(child, f"{what}.children.{number}", carrier)
+
+    def _stand(self, piece: _Piece) -> str:
+        """Put furniture where it stands, or as near as it has room; its name, or nothing where it has none."""
+        room = self.scene.room_at(*piece.position[:2])
+        thing = _object(piece, room, 0, self._name(piece.kind.cls))
+        thing = self._lifted(thing)
+        for x, y in _around(thing.xy):
+            moved = thing.model_copy(update={"position": (x, y, thing.position[2])})
+            if self._has_room(moved, room):
+                break
+        else:
+            self.left_out.append(f"{piece.what}: there is no room for it within {_FARTHEST} m")
+            return ""
+        away = math.dist(moved.xy, thing.xy)
+        if away > _MOVED:
+            self.guessed.append(
+                f"{piece.what}: shifted by {away:.2f} m, for it would stand in a wall or in another piece"
+            )
+        self.fixed.append(moved)
+        return moved.name
+
+    def _lifted(self, thing: SceneObject) -> SceneObject:
+        """Furniture at its height: on the floor, on what is below it, or where it hangs."""
+        x, y, z = thing.position
+        if z < _ON_FLOOR:
+            return thing.model_copy(update={"position": (x, y, 0.0)})
+        below = [other for other in self.fixed if other.top <= z + 0.2 and other.bounds.encloses(thing.bounds, 0.1)]
+        tops = [other.position[2] + row.z for other in below for row in surfaces(other)]
+        near = min((top for top in tops if abs(top - z) < 0.3), key=lambda top: abs(top - z), default=z)
+        return thing.model_copy(update={"position": (x, y, round(near, 4))})
+
+    def _has_room(self, thing: SceneObject, room: Room) -> bool:
+        if not room.encloses(thing.bounds.grown(_OFF_WALL)):
+            return False
+        space = taken_by(thing)
+        return not any(
+            space.low < other.high - 0.01 and other.low < space.high - 0.01 and space.bounds.overlaps(other.bounds)
+            for other in (taken_by(other) for other in self.fixed if min(other.size[2], thing.size[2]) > FLAT)
+        )
+
+    def _name(self, cls: str) -> str:
+        self._count[cls] += 1
+        return f"{cls}_{self._count[cls]}"
+
+    def finished(self) -> Scene:
+        """The home with everything that moves put on the furniture, or on the floor."""
+        scene = self.scene.model_copy(update={"objects": [_numbered(one, i) for i, one in enumerate(self.fixed)]})
+        scene = Scene.model_validate(scene.model_dump())
+        try:
+            navigator: Navigator | None = Navigator(scene)
+        except SimulationError:  # `prove` says so
+            navigator = None
+        taken = {thing.name: furniture_on(scene, thing) for thing in scene.fixed}
+        things: list[SceneObject] = []
+        for piece, parent in self._waiting:
+            found = self._put(piece, self._carriers.get(parent, []), scene, navigator, taken, things)
+            if found is not None:
+                things.append(_numbered(found, len(scene.objects) + len(things)))
+        return Scene.model_validate(scene.model_copy(update={"objects": [*scene.objects, *things]}).model_dump())
+
+    def _put(
+        self,
+        piece: _Piece,
+        parents: Sequence[str],
+        scene: Scene,
+        navigator: Navigator | None,
+        taken: dict[str, list[Taken]],
+        things: Sequence[SceneObject],
+    ) -> SceneObject | None:
+        x, y, z = piece.position
+        carriers = [thing for thing in scene.fixed if thing.name in parents]
+        carriers = carriers or ([] if z <= _ON_FLOOR else _below(scene, piece.position))
+        best: tuple[float, SceneObject, Spot] | None = None
+        for carrier in carriers:
+            stands = navigator.approach(carrier, most=40) if navigator else []
+            for spot in (one for one in spots(carrier, piece.kind.size, taken[carrier.name]) if one.z <= _REACHED):
+                near = any(math.dist(spot[:2], stand[:2]) <= REACH - 0.04 for stand in stands)
+                cost = math.dist(spot[:3], piece.position) + (0.0 if near else 10.0)
+                if best is None or cost < best[0]:
+                    best = (cost, carrier, spot)
+        if best is None and carriers:
+            self.left_out.append(f"{piece.what}: there is no room for it within reach on {plain(carriers[0].name)}")
+            return None
+        if best is None:
+            return self._lay_down(piece, scene, things)
+        carrier, spot = best[1], best[2]
+        away = math.dist(spot[:3], piece.position)
+        if away > _MOVED:
+            self.guessed.append(f"{piece.what}: {away:.2f} m from where the house has it on {plain(carrier.name)}")
+        taken[carrier.name].append(taken_at(spot, piece.kind.size))
+        room = scene.room(carrier.room) or scene.rooms[0]
+        named = _object(piece, room, 0, self._name(piece.kind.cls))
+        return named.model_copy(update={"position": spot[:3], "yaw": spot.yaw, "on": carrier.name})
+
+    def _lay_down(self, piece: _Piece, scene: Scene, things: Sequence[SceneObject]) -> SceneObject | None:
+        """Put a thing on the floor, where the house has it or as near as there is room."""
+        room = scene.room_at(*piece.position[:2])
+        thing = _object(piece, room, 0, self._name(piece.kind.cls))
+        filled = [taken_by(other) for other in [*scene.fixed, *things] if other.size[2] > FLAT]
+        for x, y in _around(thing.xy):
+            moved = thing.model_copy(update={"position": (x, y, 0.0)})
+            space = taken_by(moved)
+            if room.encloses(space.bounds.grown(_OFF_WALL)) and not any(
+                space.low < other.high - 0.01 and other.low < space.high and space.bounds.overlaps(other.bounds)
+                for other in filled
+            ):
+                return moved
+        self.left_out.append(f"{piece.what}: there is no room for it on the floor")
+        return None
+
+
+def _placed(what: str, item: Item, kind: Kind) -> _Piece:
+    x, y = item.position.plan
+    base = round(max(item.position.y - kind.size[2] / 2, 0.0), 4)
+    yaw = round(math.remainder(-math.radians(item.rotation.y), math.tau), 4)
+    return _Piece(what, item, kind, (x, y, base), yaw)
+
+
+def _runs(piece: _Piece, scene: Scene) -> list[_Piece]:
+    """A counter around a corner as its straight runs: one along its back, one at the side nearer to a wall, or both."""
+    wide, deep, high = piece.kind.size
+    around = piece.item.asset.split("_")[1:2]
+    if piece.kind.cls != "kitchen_counter" or around not in (["L"], ["C"]) or min(wide, deep) < _RUN + 0.3:
+        return [piece]
+    cos, sin = math.cos(piece.yaw), math.sin(piece.yaw)
+    x0, y0, z = piece.position
+    room = scene.room_at(x0, y0)
+
+    def run(x: float, y: float, size: Size, turn: float) -> _Piece:
+        place = (round(x0 + x * cos - y * sin, 4), round(y0 + x * sin + y * cos, 4), z)
+        return piece._replace(kind=piece.kind._replace(size=size), position=place, yaw=piece.yaw + turn)
+
+    back = run(0.0, (_RUN - deep) / 2, (wide, _RUN, high), 0.0)
+    arms = [run(s * (wide - _RUN) / 2, _RUN / 2, (deep - _RUN, _RUN, high), s * math.pi / 2) for s in (-1.0, 1.0)]
+    if around == ["C"]:
+        return [back, *arms]
+
+    def to_wall(arm: _Piece) -> float:
+        return min(edge.wall.distance(*arm.position[:2]) for edge in room.edges)
+
+    return [back, min(arms, key=lambda arm: round(to_wall(arm), 2))]
+
+
+def _object(piece: _Piece, room: Room, id: int, name: str) -> SceneObject:
+    kind = piece.kind
+    known = catalogue().fixed.get(kind.cls) or catalogue().movable.get(kind.cls)
+    colours = known.colours if known else _GREY
+    return SceneObject(
+        id=id,
+        name=name,
+        cls=kind.cls,
+        category=kind.category,
+        fixed=kind.fixed,
+        room=room.name,
+        position=piece.position,
+        yaw=piece.yaw,
+        size=kind.size,
+        colour=colours[sum(map(ord, piece.item.asset)) % len(colours)],
+    )
+
+
+def _numbered(thing: SceneObject, id: int) -> SceneObject:
+    return thing.model_copy(update={"id": id})
+
+
+def _below(scene: Scene, position: tuple[float, float, float]) -> list[SceneObject]:
+    """The furniture over which a thing is, that with the nearest top first."""
+    over = [thing for thing in scene.fixed if thing.bounds.distance(*position[:2]) <= 0.0 and thing.size[2] > FLAT]
+    return sorted(over, key=lambda thing: (abs(thing.top - position[2]), thing.id))[:1]
+
+
+def _around(place: tuple[float, float]) -> list[tuple[float, float]]:
+    """A place, and places on a raster around it, the nearest first."""
+    ticks = np.arange(-_FARTHEST, _FARTHEST + _STEP / 2, _STEP)
+    dx, dy = (axis.ravel() for axis in np.meshgrid(ticks, ticks, indexing="ij"))
+    away = np.round(np.hypot(dx, dy), 6)
+    order = np.lexsort((dy, dx, away))[: int((away <= _FARTHEST).sum())]
+    return [(round(place[0] + float(dx[i]), 4), round(place[1] + float(dy[i]), 4)) for i in order]
