@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, PerceptErrors
 from coopera.core.people import Persona
 from coopera.simulation.acts import primitives
-from coopera.simulation.acts.activity import free_motion, stay
+from coopera.simulation.acts.activity import stay
 from coopera.simulation.acts.first_places import first_states
-from coopera.simulation.acts.fitting import check_hands_over, check_moves
 from coopera.simulation.acts.meaning import misfit
+from coopera.simulation.acts.planning import planned
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
+from coopera.simulation.acts.skills import set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
@@ -258,11 +258,11 @@ class World:
     def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
         self.state.agent(agent)
         try:
-            planned = plan()
+            made = plan()
         except UnableError as unable:
             return Result(ok=False, reason=unable.sentence)
-        self.state = planned.state
-        return Result(ok=True, metres=round(planned.metres, 3))
+        self.state = made.state
+        return Result(ok=True, metres=round(made.metres, 3))
 
     def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
@@ -289,13 +289,7 @@ class World:
         if watch is None and ready is not None and ready[0] is self.state and ready[1] == act:
             return ready[2]
         seen = watch if agent in self._ground.people else None
-        if isinstance(act, PickPlace):
-            return pick_place(self._ground, self.state, agent, act, seen)
-        if isinstance(act, HandOver):
-            check_hands_over(self._ground, self.state, agent, act.object)
-            return hand_over(self._ground, self.state, agent, act)
-        check_moves(self._ground, agent)
-        return free_motion(self._ground, self.state, agent, act, seen)
+        return planned(self._ground, self.state, agent, act, seen)
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
