@@ -27,9 +27,9 @@ check: $(READY)
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks.classifier
-	$(BIN)/python -m benchmarks.memory_stream
 	$(BIN)/python -m benchmarks.learning
 	$(BIN)/python -m benchmarks.home
+	$(BIN)/python -m benchmarks.speed --out docs/performance.md $(ARGS)
 
 # Known weaknesses of what is installed: asked of the index, or, offline, of a copy of OSV's list
 # (https://osv-vulnerabilities.storage.googleapis.com/PyPI/all.zip): make audit ADVISORIES=all.zip

@@ -4,6 +4,7 @@
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
 the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
+The time one after the other is told beside that of its longest chains of calls, each of which waits for the one before.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from coopera import Config
 from coopera.config.schema import Models
 from coopera.core.errors import CooperaError
 from coopera.people.shipped import shipped_ids
+from coopera.report.costs import costs_of
+from coopera.rundir.directory import RunDir
 from coopera.studies.several import Ended, run_studies
 from tests.serving import done, serving
 
@@ -65,6 +68,8 @@ def main() -> None:
         print(f"{size}, {given.latency:g} s a request; {os.cpu_count()} cores", flush=True)
         single = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
         print(f"requests: {len(done(url)) - before}")
+        chain = sum(longest_chain(root / "single" / str(n)) for n in range(given.studies)) * given.latency
+        print(f"longest chains of calls that wait for each other: {chain:.1f} s; {single / chain:.2f} times that")
         for processes in given.processes:
             name = f"at once in {processes} process{'es' if processes > 1 else ''}"
             together = _timed(name, partial(at_once, name, processes))
@@ -72,6 +77,12 @@ def main() -> None:
             for n in range(given.studies):
                 same = [(root / run / str(n) / "metrics.csv").read_bytes() for run in ("single", name)]
                 assert same[0] == same[1], f"study {n} depends on its neighbours"
+
+
+def longest_chain(run: Path) -> int:
+    """How many calls of a study wait for one another: what is asked at once shares one."""
+    costs = costs_of(RunDir.open(run))
+    return sum(place["round_trips"] for place in (*costs["hours"], *costs["evenings"]))
 
 
 def _timed(name: str, work: Callable[[], list[Ended]]) -> float:

@@ -2,14 +2,15 @@
 
     python -m benchmarks.robot_arms [--points 200] [--robots fetch,stretch] [--solvers ours,pybullet]
 
-The points are where the gripper is in random postures, between floor and 1.8 m and within the robot's reach: all can be
-got to. Every solver starts at the robot's resting posture, turned and raised towards the point as `Chain.reach` does it,
-and then from eleven random postures, the same for all. It has got there when its posture, by our forward kinematics, has
-the gripper within 5 mm of the point and no joint beyond its limits. Times are processor time of this process.
+The points are where the gripper is in random postures, between floor and 1.8 m and within the robot's reach: all can
+be got to. Every solver starts at the robot's resting posture, turned and raised towards the point as `Chain.reach` does
+it, and then from eleven random postures, the same for all. It has got there when its posture, by our forward
+kinematics, has the gripper within 5 mm of the point and no joint beyond its limits. Times are processor time of this
+process.
 
-Solvers that are not installed are left out. `pinocchio` (pip install pin) is the damped loop of its documentation on its
-Jacobians; `mink` is its frame task with limits as quadratic programs of daqp, on the same URDF in MuJoCo. The size is
-what its packages take that this project does not need anyway.
+Solvers that are not installed are left out. `pinocchio` (pip install pin) is the damped loop of its documentation on
+its Jacobians; `mink` is its frame task with limits as quadratic programs of daqp, on the same URDF in MuJoCo. The size
+is what its packages take that this project does not need anyway.
 """
 
 from __future__ import annotations
@@ -42,10 +43,12 @@ _LINK = "link_of_"
 PACKAGES = {
     "ours": (),
     "pybullet": (),
-    "pinocchio": ("pin", "libpinocchio", "libcoal", "eigenpy", "cmeel-boost", "cmeel-eigen", "coal", "cmeel-assimp",
-                  "cmeel-octomap", "cmeel-qhull", "cmeel-tinyxml2", "cmeel-urdfdom", "cmeel-console-bridge", "cmeel-zlib"),
+    "pinocchio": (
+        *("pin", "libpinocchio", "libcoal", "coal", "eigenpy", "cmeel", "cmeel-boost", "cmeel-eigen", "cmeel-assimp"),
+        *("cmeel-octomap", "cmeel-qhull", "cmeel-tinyxml2", "cmeel-urdfdom", "cmeel-console-bridge", "cmeel-zlib"),
+    ),
     "mink": ("mink", "mujoco", "mujoco-core", "mujoco-studio", "PyOpenGL", "glfw", "daqp", "qpsolvers"),
-}  # fmt: skip
+}
 
 
 def ours(body: MobileManipulator) -> Solve:
@@ -170,7 +173,8 @@ def mink(body: MobileManipulator) -> Solve:
             if np.linalg.norm(now.get_transform_frame_to_world("tip", "site").translation() - point) < NEAR / 2:
                 break
         turned = np.where(round_and_round, np.remainder(now.q[at] + np.pi, 2 * np.pi) - np.pi, now.q[at])
-        return np.clip(turned, body.chain.low, body.chain.high)
+        within: Array = np.clip(turned, body.chain.low, body.chain.high)
+        return within
 
     return solve
 
@@ -204,7 +208,7 @@ SOLVERS: dict[str, tuple[str, Callable[[MobileManipulator], Solve]]] = {
 
 def points_of(body: MobileManipulator, count: int) -> list[Array]:
     """Points that the gripper can be at, the same for the same robot."""
-    rng, found = rng_at(0, "robot_arms", body.name), []
+    rng, found = rng_at(0, "robot_arms", body.name), list[Array]()
     while len(found) < count:
         point = body.chain.forward(rng.uniform(body.chain.low, body.chain.high)).place
         if 0.05 < point[2] < 1.8 and 0.3 < float(np.hypot(point[0], point[1])) < body.farthest:

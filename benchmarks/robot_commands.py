@@ -3,8 +3,8 @@
     python -m benchmarks.robot_commands [--robots stretch,tiago] [--scenes maple,oak] [--commands 200] [--seed 0]
 
 Each command is a thing of the home and a piece of furniture to put it on or into, drawn at random among those that the
-person of the home could do as it now stands; the home goes on from command to command. A command counts as done where the
-home then has the thing there, and nothing else that can be carried has moved.
+person of the home could do as it now stands; the home goes on from command to command. A command counts as done where
+the home then has the thing there, and nothing else that can be carried has moved.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
-from coopera.core.household import HUMAN, ROBOT, PickPlace, Relation
+from coopera.core.household import HUMAN, ROBOT, PickPlace
 from coopera.simulation import World, load_scene
 from coopera.simulation.bodies.robot import usable_robots
 

@@ -7,7 +7,7 @@ import threading
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -282,7 +282,7 @@ class Log:
         ids = self._ids(range(start, stop))
         from chromadb.errors import InternalError  # noqa: PLC0415 - heavy
 
-        what = "embeddings" if self._vectors is None else "documents"
+        what: Literal["embeddings", "documents"] = "embeddings" if self._vectors is None else "documents"
         try:
             with translated(self.where):
                 rows = self._collection.get(ids=ids, include=[what, "metadatas"])

@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from coopera.core.affordances import Relation
 from coopera.core.errors import SimulationError
-from coopera.core.household import Act, AgentId, HandOver, ObjectMap, Outcome, Percept, PerceptErrors, PickPlace
+from coopera.core.household import Act, AgentId, ObjectMap, Outcome, Percept, PerceptErrors
 from coopera.core.people import Persona
 from coopera.simulation.acts import primitives
-from coopera.simulation.acts.activity import free_motion, stay
+from coopera.simulation.acts.activity import stay
 from coopera.simulation.acts.first_places import first_states
-from coopera.simulation.acts.fitting import check_hands_over, check_moves
 from coopera.simulation.acts.meaning import misfit
+from coopera.simulation.acts.planning import planned
 from coopera.simulation.acts.plans import Ground, Plan, UnableError
 from coopera.simulation.acts.primitives import Result
-from coopera.simulation.acts.skills import hand_over, pick_place, set_open, switch
+from coopera.simulation.acts.skills import set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
@@ -101,6 +101,7 @@ class World:
         """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
         self._recording: Recording | None = None
+        self._planned: dict[AgentId, tuple[HomeState, Act, Plan]] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -230,7 +231,9 @@ class World:
             SimulationError: If there is no such agent.
         """
         self.state.agent(agent)
-        return self._plan(agent, act, None)
+        plan = self._plan(agent, act, None)
+        self._planned[agent] = (self.state, act, plan)
+        return plan
 
     def go_to(self, agent: AgentId, target: str) -> Result:
         """Let an agent go to a room, a piece of furniture or a thing, by name."""
@@ -255,11 +258,11 @@ class World:
     def _step(self, agent: AgentId, plan: Callable[[], Plan]) -> Result:
         self.state.agent(agent)
         try:
-            planned = plan()
+            made = plan()
         except UnableError as unable:
             return Result(ok=False, reason=unable.sentence)
-        self.state = planned.state
-        return Result(ok=True, metres=round(planned.metres, 3))
+        self.state = made.state
+        return Result(ok=True, metres=round(made.metres, 3))
 
     def room_of(self, agent: AgentId) -> str:
         """The room in which an agent is."""
@@ -282,14 +285,11 @@ class World:
         self.state = plan.state
 
     def _plan(self, agent: AgentId, act: Act, watch: Onlooker | None) -> Plan:
+        ready = self._planned.pop(agent, None)
+        if watch is None and ready is not None and ready[0] is self.state and ready[1] == act:
+            return ready[2]
         seen = watch if agent in self._ground.people else None
-        if isinstance(act, PickPlace):
-            return pick_place(self._ground, self.state, agent, act, seen)
-        if isinstance(act, HandOver):
-            check_hands_over(self._ground, self.state, agent, act.object)
-            return hand_over(self._ground, self.state, agent, act)
-        check_moves(self._ground, agent)
-        return free_motion(self._ground, self.state, agent, act, seen)
+        return planned(self._ground, self.state, agent, act, seen)
 
     def _watching(self) -> Watcher:
         if self._watcher is None:
@@ -304,12 +304,8 @@ class World:
     def frames(self, count: int, folder: Path, name: str | None = None, *, wait: bool = True) -> list[Path]:
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
-        Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter, as NAME-0.webp …. There are fewer only where the recording has fewer moments. Without
-        `wait` they are drawn and written while the home goes on, and `finish_frames` waits for them.
-
-        Raises:
-            SimulationError: If nothing has been recorded, or the folder cannot be written.
+        Files are robot-0.webp … from the robot's eyes and human-0.webp … from across the room; with a `name` only the
+        latter. Without `wait` they are written while the home goes on. A `SimulationError` where nothing can be.
         """
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
@@ -327,7 +323,7 @@ class World:
             self._watcher.finish()
 
     def film(self, path: Path) -> Path:
-        """Write the recording as H.264 video: the robot's view on the left, the third-person view on the right.
+        """Write the recording as H.264 video, the robot's view on the left, the third-person view on the right.
 
         Errors as of `frames`, and a `ConfigError` if the extra `video` is not installed.
         """

@@ -16,6 +16,11 @@ from coopera.simulation.homes.glb import read_glb
 from coopera.simulation.homes.meshes import look_of, part_file
 from coopera.simulation.homes.scene import MeshPart, dump_scene, load_scene
 from coopera.simulation.making.habitat.files import Folder
+from coopera.simulation.making.procthor.files import read_house
+from coopera.simulation.making.procthor.plan import plan_of
+from coopera.simulation.making.procthor.things import kind_of
+from tests.simulation.polygons import polygon_flat
+from tests.simulation.procthor_house import house
 from tests.simulation.synthetic_hssd import SCENE, boxes_document, write_glb, write_hssd
 
 
@@ -107,7 +112,16 @@ _BOX = (
     b"v 0.0000 0.0000 0.0000\nv 1.0000 0.0000 0.0000\nv 0.0000 1.0000 0.0000\nvn 0.000 0.000 1.000\nf 1//1 2//1 3//1\n"
 )
 
+
+def _house(path: Path) -> object:
+    found = read_house(path)
+    plan = plan_of(found, path)
+    return [kind_of(item, {}) for item in found.items()], plan.rooms, plan.doors
+
+
 READERS: dict[str, Reader] = {
+    "polygons": Reader(of_file("flat.json", [json.dumps(polygon_flat()).encode()], _scene), change.in_json),
+    "procthor": Reader(of_file("house.json", [json.dumps(house()).encode()], _house), change.in_json),
     "scene": Reader(of_file("maple.json", [_small_scene()], _scene), change.in_json),
     "hssd-scene": Reader(_hssd(f"scenes/{SCENE}.scene_instance.json"), change.in_json),
     "hssd-rooms": Reader(_hssd(f"semantics/scenes/{SCENE}.semantic_config.json"), change.in_json),

@@ -9,7 +9,7 @@ import argparse
 import json
 import tempfile
 import time
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -61,10 +61,10 @@ def main() -> None:
 
 def _per_hour(seconds: Seconds, which: int, hours: int) -> dict[str, float]:
     """Milliseconds an hour by stage (0), pictures apart, or by kind of work (1)."""
-    found: Counter[str] = Counter()
+    found: dict[str, float] = defaultdict(float)
     for key, spent in seconds.items():
         found["pictures" if key[1] == "pictures" else key[which]] += 1000 * spent / hours
-    return {name: round(value, 1) for name, value in found.most_common()}
+    return {name: round(value, 1) for name, value in sorted(found.items(), key=lambda one: -one[1])}
 
 
 def _of_day(days: list[dict[tuple[str, str], float]], number: int, kind: str) -> float:

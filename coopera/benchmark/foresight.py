@@ -47,7 +47,8 @@ def foresight(bench: Benchmark, results: Path | None = None) -> Foresight:
         ConfigError: If the benchmark compares nothing, or the results have nothing of what it compares.
     """
     endpoint = Endpoint.of(bench.grid.model_dump(mode="json"))
-    methods = list(dict.fromkeys(job.labels["method"] for job in bench.jobs if job.after is not None))
+    # variants of a method are none themselves
+    methods = list(dict.fromkeys(job.config.method for job in bench.jobs if job.after is not None))
     others = [name for name in endpoint.against or methods if name != endpoint.reference]
     if endpoint.reference not in methods or not others:
         raise ConfigError(

@@ -309,10 +309,14 @@ def load_grid(path: Path | None, flags: dict[str, Any]) -> Grid:
 def _cut(grid: Grid) -> Grid:
     """Cut a grid to the sizes of COOPERA_AT_MOST."""
     most = at_most()
+    methods, stated = grid.methods[: most.methods], grid.endpoint
+    left = [name for name in stated.against or [] if name in methods] or None
     return grid.model_copy(
         update={
             "settings": grid.settings[: most.settings],
-            "methods": grid.methods[: most.methods],
+            "methods": methods,
+            "endpoint": stated.model_copy(update={"against": left}) if most.methods else stated,
+            "with_shared": [] if most.methods else grid.with_shared,  # controls are methods too many
             "seeds": grid.seeds[: most.seeds] if isinstance(grid.seeds, list) else smaller(grid.seeds, most.seeds),
             **{name: smaller(getattr(grid, name), getattr(most, name)) for name in ("episodes", "days", "hours")},
         }

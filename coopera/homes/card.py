@@ -93,8 +93,8 @@ def in_words(card: dict[str, Any]) -> str:
         "|---|---|",
         *(f"| {name} | {count} |" for name, count in objects["by_category"].items()),
         "",
-        "Good for: training and testing a robot's learner on homes that differ in plan, size and content. Not good for: "
-        "claims about real homes. The classes are those of coopera's catalogue, no furniture stands aslant, and every "
-        "home has one storey.",
+        "Good for: training and testing a robot's learner on homes that differ in plan, size and content. Not good "
+        "for: claims about real homes. The classes are those of coopera's catalogue, no furniture stands aslant, and "
+        "every home has one storey.",
     ]
     return "\n".join(lines) + "\n"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from coopera.config.files import write_output
 from coopera.core.errors import ConfigError
 from coopera.homes.card import card_of, in_words
 from coopera.homes.stored import place_for
-from coopera.simulation.homes.scene import Scene, dump_scene, parse_scene
+from coopera.simulation.homes.scene import Scene, dump_scene, load_scene
 
 
 class Wanted(NamedTuple):
@@ -44,12 +44,10 @@ def make_one(
     Raises:
         ConfigError: If it cannot be, or is there already.
     """
-    from coopera.simulation.making.generate import generate  # noqa: PLC0415 - heavy
-    from coopera.simulation.making.proof import prove  # noqa: PLC0415 - heavy
+    from coopera.simulation.making.generate import generate_proved  # noqa: PLC0415 - heavy
 
     file = place_for(id, folder, force=force)
-    home = generate(seed, rooms, id, things=things)
-    problems = prove(home)
+    home, problems = generate_proved(seed, rooms, id, things=things)
     write_output(file, dump_scene(home))
     return home, file, problems
 
@@ -72,11 +70,12 @@ def make_many(
         id: What they are called before their number, and the card.
         folder: Where homes are stored; the card lies beside this folder.
         wanted: Rooms and things of each; else 3 to 11 rooms, and about 8 things for each room.
-        force: Replace homes that are there already.
+        force: Replace homes that are there already; else one that is there from the same seed is kept, so that the
+            same command goes on where it was ended.
         say: Told what is done.
 
     Raises:
-        ConfigError: If there are too many, an id or number cannot be, or one is there already: nothing is written then.
+        ConfigError: If there are too many, an id cannot be, or another home is there: nothing is written then.
         SimulationError: If a seed gives no home without a problem.
     """
     from coopera.simulation.making.varied import MOST_HOMES, varied  # noqa: PLC0415 - heavy
@@ -84,15 +83,24 @@ def make_many(
     if not 1 <= count <= MOST_HOMES:
         raise ConfigError(f"--count must be from 1 to {MOST_HOMES}, not {count}.")
     ids = [f"{id}-{number:04d}" for number in range(count)]
-    files = [place_for(one, folder, force=force) for one in ids]
+    kept = {} if force else _kept(ids, seed, folder)
+    files = [folder / f"{one}.json" if one in kept else place_for(one, folder, force=force) for one in ids]
     homes = []
     for number, (name, file) in enumerate(zip(ids, files, strict=True)):
-        home = varied(seed + number, name, rooms=wanted.rooms, things=wanted.things)
-        write_output(file, dump_scene(home))
-        homes.append(parse_scene(dump_scene(home), str(file)))
+        home = kept.get(name) or varied(seed + number, name, rooms=wanted.rooms, things=wanted.things)
+        if name not in kept:
+            write_output(file, dump_scene(home))
+        homes.append(home)
         say(f"{name}: {len(home.rooms)} rooms, {len(home.fixed)} fixed and {len(home.movable)} movable objects")
     command = f"coopera scenes generate --count {count} --seed {seed} --id {id}{wanted.flags()}"
     card = card_of(homes, id, command)
     write_output(folder.parent / f"{id}.card.json", json.dumps(card, indent=1) + "\n")
     write_output(folder.parent / f"{id}.card.md", in_words(card))
     return Made(homes, files, folder.parent / f"{id}.card.md")
+
+
+def _kept(ids: Sequence[str], seed: int, folder: Path) -> dict[str, Scene]:
+    """The homes that are there from the seeds that are asked for."""
+    there = {name: folder / f"{name}.json" for name in ids}
+    found = {name: load_scene(file) for name, file in there.items() if file.is_file()}
+    return {name: home for name, home in found.items() if home.seed == seed + ids.index(name)}

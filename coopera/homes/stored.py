@@ -155,7 +155,7 @@ def _house(path: Path, folder: Path, assets: Path | None, *, force: bool) -> Arr
     id = "-".join(re.findall(r"[a-z0-9]+", path.name.lower().removesuffix(".json")))[:60] or "house"
     place_for(id, folder, force=force)
     found = import_house(read_house(path), id, path, read_assets(assets) if assets else None)
-    told = Told(found.left_out, found.problems, found.understood, found.guessed)
+    told = Told(found.report.left_out, found.problems, found.report.understood, found.report.guessed)
     return _arrive(found.scene, told, folder, meshes={}, force=force)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -102,7 +103,7 @@ def export(run: RunDir, out: Path) -> dict[str, Any]:
     _parquet()
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise ConfigError(f"out: {out} must be an empty folder or a new one.")
-    hours = run.hours()
+    hours = [_needed(hour) for day in run.days() for hour in run.read_day(day)]
     if not hours:
         raise RunError(f"{run.root}: this run has no hours to export.")
     try:
@@ -113,6 +114,11 @@ def export(run: RunDir, out: Path) -> dict[str, Any]:
     except (OverflowError, ValueError) as err:
         raise RunError(f"{run.root}: a number of the trace is too large for a data set ({err}).") from err
     return {"out": str(out), "hours": rows, "episodes": len({hour.day for hour in hours}), "frames": frames}
+
+
+def _needed(hour: HourRecord) -> HourRecord:
+    """What a data set takes of an hour: calls and poses are most of a record, and would fill the memory."""
+    return hour.model_copy(update={"calls": [], "world": {"outcomes": hour.world.get("outcomes", [])}})
 
 
 def _write_hours(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> int:
@@ -154,9 +160,10 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
     tasks: dict[str, int] = {}
     frames: list[dict[str, Any]] = []
     episodes: list[dict[str, Any]] = []
-    for number, day in enumerate(sorted({hour.day for hour in hours})):
+    days = {day: list(those) for day, those in groupby(hours, key=lambda hour: hour.day)}
+    for number, (day, of_day) in enumerate(days.items()):
         begin, said = len(frames), list[str]()
-        for hour in [one for one in hours if one.day == day]:
+        for hour in of_day:
             intention = hour.human.intention.text if hour.human else ""
             for outcome in _outcomes(hour):
                 text = outcome.act.describe()
@@ -176,7 +183,7 @@ def _write_episodes(run: RunDir, hours: Sequence[HourRecord], folder: Path) -> i
                         "next.success": outcome.ok,
                     }
                 )
-        first = next(one for one in hours if one.day == day)
+        first = of_day[0]
         episodes.append(
             {
                 "episode_index": number,

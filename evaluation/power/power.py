@@ -106,7 +106,14 @@ class _Studies:
 
     @classmethod
     def draw(
-        cls, spreads: Sequence[Floats], test: str, correction: str, seed: int, *, skewed: bool = False
+        cls,
+        spreads: Sequence[Floats],
+        test: str,
+        correction: str,
+        seed: int,
+        *,
+        skewed: bool = False,
+        studies: int = STUDIES,
     ) -> _Studies:
         rng = np.random.default_rng(seed)
         people = len(spreads[0])
@@ -114,8 +121,8 @@ class _Studies:
         def noise(*shape: int) -> Floats:
             return rng.exponential(size=shape) - 1 if skewed else rng.normal(size=shape)
 
-        shared = noise(STUDIES, people)
-        own = (_SHARED**0.5 * shared + (1 - _SHARED) ** 0.5 * noise(STUDIES, people) for _ in spreads)
+        shared = noise(studies, people)
+        own = (_SHARED**0.5 * shared + (1 - _SHARED) ** 0.5 * noise(studies, people) for _ in spreads)
         null = np.array([z * spread for z, spread in zip(own, spreads, strict=True)])
         return cls(null, np.array([TESTS[test](z) for z in null]).T, test, correction)
 
@@ -142,7 +149,7 @@ class _Studies:
             middle = (low + high) / 2
             low, high = (low, middle) if self.power(place, middle).value >= POWER else (middle, high)
         slope = (self.power(place, high + width).value - self.power(place, high - width).value) / (2 * width)
-        error = (POWER * (1 - POWER) / STUDIES) ** 0.5
+        error = (POWER * (1 - POWER) / self.null.shape[1]) ** 0.5
         return Simulated(high, error / slope if slope > 0 else 0.0)
 
     def false_alarms(self) -> Simulated:
@@ -212,7 +219,9 @@ def by_people(
     found = {}
     for people in sizes:
         spread = sample.of_size(people).spread(widest)
-        found[people] = _Studies.draw([spread] * len(scatters), test, correction, seed).detectable(0)
+        found[people] = _Studies.draw(
+            [spread] * len(scatters), test, correction, seed, studies=STUDIES // 4
+        ).detectable(0)
     return found
 
 

@@ -1,4 +1,4 @@
-"""A robot as data: a URDF, and a YAML file of some fifteen lines that says what its parts are for. `fetch.yaml` explains it."""
+"""A robot as data: a URDF, and some fifteen lines of YAML that say what its parts are for; see `fetch.yaml`."""
 
 from __future__ import annotations
 
@@ -126,7 +126,9 @@ def read_body(path: Path) -> MobileManipulator:
         if name not in urdf.hinges:
             raise ConfigError(f"{path}: {known('joint', name, list(urdf.hinges))}.")
         if not urdf.hinges[name].moves:
-            raise ConfigError(f"{path}: the joint {name!r} is of the type {urdf.hinges[name].kind!r}, which does not move.")
+            raise ConfigError(
+                f"{path}: the joint {name!r} is of the type {urdf.hinges[name].kind!r}, which does not move."
+            )
     return _Made(path, body, urdf).body()
 
 
@@ -172,9 +174,8 @@ class _Made:
             self._check_on("arm.joints", name, way, gripper.link)
             hinge = self._urdf.hinges[name]
             if not hinge.low < hinge.high:
-                raise ConfigError(
-                    f"{self._urdf.path}: the joint {name!r} cannot move: its limits are {hinge.low:g} and {hinge.high:g}."
-                )
+                limits = f"its limits are {hinge.low:g} and {hinge.high:g}"
+                raise ConfigError(f"{self._urdf.path}: the joint {name!r} cannot move: {limits}.")
         on_way = [hinge.name for hinge in way if hinge.name in arm.joints]
         if on_way != arm.joints:
             raise ConfigError(f"{self._path}, field arm.joints: from the base on they are {', '.join(on_way)}.")

@@ -1,8 +1,8 @@
 """What a robot's body must offer, and the bodies that there are: a mobile base with an arm and a head camera.
 
-To add a body: NAME.yaml in this folder (fetch.yaml explains it) and a URDF, beside it or in a package of PyPI. The tests
-of tests/simulation/bodies/test_robot.py then hold for it, too. A body may also stand elsewhere and be named by the path of
-its YAML file.
+To add a body: NAME.yaml in this folder (fetch.yaml explains it) and a URDF, beside it or in a package of PyPI. The
+tests of tests/simulation/bodies/test_robot.py then hold for it, too. A body may also stand elsewhere and be named by
+the path of its YAML file.
 """
 
 from __future__ import annotations

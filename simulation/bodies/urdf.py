@@ -1,4 +1,4 @@
-"""A robot's description as others publish it: a URDF, read within bounds and made ready for the engine and the renderer."""
+"""A robot's description as others publish it: a URDF, read within bounds, and made ready to be loaded and drawn."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from functools import cached_property
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path, PurePosixPath
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 from xml.etree import ElementTree
 
 import numpy as np
@@ -21,6 +21,7 @@ from coopera.core.registry import nearest
 from coopera.simulation.shapes.rotations import Array, about_x, about_y, about_z
 
 Element = ElementTree.Element
+_Read: TypeAlias = Callable[[str, str, Element, tuple[float, ...]], tuple[float, ...]]
 OF_PYBULLET = "pybullet_data/"
 """With this begins a mesh that comes from what ships with pybullet."""
 MOST_BYTES = 16 * 2**20
@@ -217,30 +218,40 @@ def _refuse_twice(path: Path, what: str, names: Sequence[str]) -> None:
 
 def _hinge(path: Path, joint: Element, links: set[str]) -> Hinge:
     name, kind = joint.get("name", ""), joint.get("type", "")
-    ends = []
+    ends = {}
     for tag in ("parent", "child"):
         end = joint.find(tag)
         link = "" if end is None else end.get("link", "")
         if link not in links:
             raise ConfigError(f"{path}: the {tag} of the joint {name!r} is the link {link!r}, which is missing.")
-        ends.append(link)
+        ends[tag] = link
     read = _reader(path, f"the joint {name!r}")
-    place, turn = read("origin", "xyz", joint, (0.0, 0.0, 0.0)), read("origin", "rpy", joint, (0.0, 0.0, 0.0))
+    turn = read("origin", "rpy", joint, (0.0, 0.0, 0.0))
     axis = np.array(read("axis", "xyz", joint, (1.0, 0.0, 0.0)))
     length = float(np.linalg.norm(axis))
     if kind in _MOVES and length < 1e-6:
         raise ConfigError(f"{path}: the joint {name!r} moves, but its axis has no length.")
-    low, high = -math.pi, math.pi
-    if kind in ("revolute", "prismatic"):
-        low, high = read("limit", "lower", joint, (0.0,))[0], read("limit", "upper", joint, (0.0,))[0]
-    mimic, follows = joint.find("mimic"), None
-    if mimic is not None:
-        factor, offset = read("mimic", "multiplier", joint, (1.0,))[0], read("mimic", "offset", joint, (0.0,))[0]
-        follows = Follows(mimic.get("joint", ""), factor, offset)
-    turned = _turned(turn) if any(turn) else None
+    limited = kind in ("revolute", "prismatic")
     return Hinge(
-        name, kind, *ends, np.array(place), turned, axis if length in (0.0, 1.0) else axis / length, low, high, follows
+        name,
+        kind,
+        ends["parent"],
+        ends["child"],
+        place=np.array(read("origin", "xyz", joint, (0.0, 0.0, 0.0))),
+        turn=_turned(turn) if any(turn) else None,
+        axis=axis if length in (0.0, 1.0) else axis / length,
+        low=read("limit", "lower", joint, (0.0,))[0] if limited else -math.pi,
+        high=read("limit", "upper", joint, (0.0,))[0] if limited else math.pi,
+        follows=_follows(joint, read),
     )
+
+
+def _follows(joint: Element, read: _Read) -> Follows | None:
+    mimic = joint.find("mimic")
+    if mimic is None:
+        return None
+    factor, offset = read("mimic", "multiplier", joint, (1.0,))[0], read("mimic", "offset", joint, (0.0,))[0]
+    return Follows(mimic.get("joint", ""), factor, offset)
 
 
 def _check_materials(path: Path, root: Element) -> None:
@@ -259,7 +270,9 @@ def _check_shapes(path: Path, link: Element) -> None:
             read("origin", part, visual, (0.0, 0.0, 0.0))
         for shape in visual.iterfind("geometry/*"):
             if shape.tag not in _SIZES:
-                raise ConfigError(f"{path}: the link {link.get('name')!r} has a shape {shape.tag!r}, which URDF has not.")
+                raise ConfigError(
+                    f"{path}: the link {link.get('name')!r} has a shape {shape.tag!r}, which URDF has not."
+                )
             within = _reader(path, f"a {shape.tag} in the link {link.get('name')!r}")
             for attribute, count in _SIZES[shape.tag].items():
                 within("", attribute, shape, (1.0,) * count)
@@ -276,7 +289,7 @@ def _finite(text: str) -> tuple[float, ...]:
     return found if all(math.isfinite(value) for value in found) else ()
 
 
-def _reader(path: Path, whose: str) -> Callable[[str, str, Element, tuple[float, ...]], tuple[float, ...]]:
+def _reader(path: Path, whose: str) -> _Read:
     """Read finite numbers of an attribute of a part of an element, or of itself; what is not there is as given."""
 
     def read(tag: str, attribute: str, element: Element, other: tuple[float, ...]) -> tuple[float, ...]:

@@ -58,7 +58,10 @@ def _dae(path: Path) -> Solid:
     if find_spec("trimesh") is None or find_spec("collada") is None:
         raise ConfigError(f"{path}: a mesh of this kind needs trimesh and pycollada (pip install trimesh pycollada).")
     trimesh: Any = import_module("trimesh")
-    mesh = trimesh.load(path, force="mesh")
+    try:
+        mesh = trimesh.load(path, force="mesh")
+    except Exception as err:  # whatever is wrong in it comes as an error of its own kind
+        raise ValueError(" ".join(str(err).split())[:200] or type(err).__name__) from err
     at, normal = mesh.vertices.astype(np.float32), mesh.vertex_normals.astype(np.float32)
     return Solid(at, normal, flat_uv(at, normal, 0), mesh.faces.astype(np.uint32))
 

@@ -16,8 +16,8 @@ FLAT = 0.9
 _LINES = 64  # along the longer side
 _FINEST, _COARSEST = 0.008, 0.08  # metres between lines
 _SAME = 1e-3
-_MOST_PAIRS = 1_000_000  # of a line and a triangle, looked at together
-_MOST_IN_ALL = 60_000_000
+_MOST_PAIRS = 500_000  # of a line and a triangle, looked at together
+_MOST_IN_ALL = 2_000_000
 
 
 class Raster(NamedTuple):
@@ -26,6 +26,13 @@ class Raster(NamedTuple):
     origin: tuple[float, float]
     step: float
     shape: tuple[int, int]
+
+    def holding(self, points: Array) -> Mask:
+        """The lines whose cells hold some of the points, shape (n, 3)."""
+        cells = np.round((points[:, :2] - self.origin) / self.step).astype(int)
+        mask = np.zeros(self.shape, bool)
+        mask[tuple(np.clip(cells, 0, np.array(self.shape) - 1).T)] = True
+        return mask
 
     def x(self, number: int) -> float:
         """Where the lines of a row stand."""
@@ -49,7 +56,10 @@ class Meeting(NamedTuple):
 
 
 class Free(NamedTuple):
-    """Pieces of surface that face up with room above them; all of shape (n,). `clear` is infinite under the sky."""
+    """Pieces of surface that face up with room above them; all of shape (n,), the lowest first.
+
+    `clear` is infinite under the sky.
+    """
 
     line: Indices
     z: Array
@@ -146,7 +156,8 @@ def free_above(met: Meeting, least: float) -> Free:
     above[last] = np.inf
     deep = np.cumsum(np.where(up, -1, 1))  # how many solids a line is in, after what it meets
     deep -= np.concatenate([[0], deep[:-1]])[first][number]
-    free = met.flat & np.where(told, up & (deep == 0), True) & (above - met.z >= least)
+    free = np.flatnonzero(met.flat & np.where(told, up & (deep == 0), True) & (above - met.z >= least))
+    free = free[np.argsort(met.z[free], kind="stable")]
     return Free(met.line[free], met.z[free], (above - met.z)[free])
 
 

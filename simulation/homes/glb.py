@@ -26,6 +26,7 @@ Indices = NDArray[np.int64]
 Item = TypeVar("Item")
 
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+_MOST_OF = {number: float(np.iinfo(kind).max) for number, kind in _TYPES.items() if kind != "<f4"}
 _TRIANGLES = 4
 _UNKNOWN: Array = np.full(3, np.nan)
 FARTHEST = 1e6  # metres from the origin
@@ -255,9 +256,11 @@ class _Reader:
         number = primitive.attributes["POSITION"]
         field = f"{field}.attributes.POSITION"
         accessor = self._at(self._document.accessors, number, field)
-        if accessor.buffer_view is None or accessor.sparse is not None or accessor.component_type != 5126:
+        if accessor.buffer_view is None or accessor.sparse is not None:
             return self._corners_of_box(accessor, f"accessors.{number}"), nothing
         points = self._values(accessor, 3, f"accessors.{number}").astype(np.float64)
+        if accessor.normalized and accessor.component_type in _MOST_OF:  # KHR_mesh_quantization
+            points = np.maximum(points / _MOST_OF[accessor.component_type], -1.0)
         if not np.isfinite(points).all():
             self._refuse(f"accessors.{number}", "holds a number that is not finite")
         if primitive.indices is None:
@@ -301,8 +304,8 @@ class _Reader:
         if accessor.min is None or accessor.max is None or len(accessor.min) != 3 or len(accessor.max) != 3:
             self._refuse(field, "must give min and max, three numbers each")
         ends = np.array([accessor.min, accessor.max])
-        if accessor.normalized and accessor.component_type in _TYPES:
-            ends = ends / np.iinfo(np.dtype(_TYPES[accessor.component_type])).max
+        if accessor.normalized and accessor.component_type in _MOST_OF:
+            ends = ends / _MOST_OF[accessor.component_type]
         grid = np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1)
         return np.asarray(grid.reshape(-1, 3))
 

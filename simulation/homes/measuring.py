@@ -33,6 +33,8 @@ _NARROWEST, _LEAST_AREA = 0.06, 0.008
 _PER_LEVEL = 6
 _BRIDGED = 0.045
 """Gaps up to this, as between slats, are bridged (metres)."""
+_PARTITION = (0.03, 0.15)
+"""What stands so high above a level, from and to, parts it (metres)."""
 _REACHED = (0.35, 1.4)
 """Places at these heights come first (metres above the object's base)."""
 _SEATS, _SOFT, _SEAT_SIDE, _HEADROOM = (0.03, 0.85), 0.03, 0.2, 0.5
@@ -72,7 +74,7 @@ def measure(mesh: Mesh, use: Use) -> Measured:
     free = free_above(met, _LEAST_CLEAR)
     points = surface_points(mesh)
     high = tops(met, raster)
-    levels = [row for height, at in _levels(free, raster) for row in _rectangles(free, at, height, raster)]
+    levels = [row for height, at in _levels(free, raster) for row in _rectangles(free, at, height, raster, points)]
     if use.carried:
         return Measured(inside=_cavity(levels, mesh))
     seat = _seat(free, high, raster) if use.sits else None
@@ -100,8 +102,8 @@ def _levels(free: Free, raster: Raster) -> list[tuple[float, Mask]]:
     left = np.ones(len(free.z), bool)
     found: list[tuple[float, Mask]] = []
     least = _LEAST_AREA / raster.step**2
-    while left.any() and len(found) < 2 * MOST_LEVELS:
-        z = np.sort(free.z[left])
+    while left.any() and len(found) < MOST_LEVELS:
+        z = free.z[left]
         until = np.searchsorted(z, z + _LEVEL, side="right")
         most = int((until - np.arange(len(z))).argmax())
         low = float(z[most])
@@ -113,12 +115,16 @@ def _levels(free: Free, raster: Raster) -> list[tuple[float, Mask]]:
     return found
 
 
-def _rectangles(free: Free, at: Mask, height: float, raster: Raster) -> list[Level]:
-    """Rectangles of one level: those under the sky first, then those under a ceiling."""
+def _rectangles(free: Free, at: Mask, height: float, raster: Raster, points: Array) -> list[Level]:
+    """Rectangles of one level: those under the sky first, then those under a ceiling; none goes through a partition."""
     rows: list[Level] = []
     sky = np.isinf(free.clear)
     for under in (at & sky, at & ~sky):
-        mask = _bridged(_mask(free.line[under], raster), raster)
+        if not under.any():
+            continue
+        over = height + min(0.8 * float(np.median(free.clear[under])), _PARTITION[1])
+        standing = points[(points[:, 2] > height + _PARTITION[0]) & (points[:, 2] < over)]
+        mask = _bridged(_mask(free.line[under], raster), raster) & ~raster.holding(standing)
         clear = np.full(raster.shape[0] * raster.shape[1], np.inf)
         np.minimum.at(clear, free.line[under], free.clear[under])
         for _ in range(_PER_LEVEL):
@@ -130,8 +136,9 @@ def _rectangles(free: Free, at: Mask, height: float, raster: Raster) -> list[Lev
             if min(wide, deep) < _NARROWEST or wide * deep < _LEAST_AREA:
                 break
             mask[i0 : i1 + 1, j0 : j1 + 1] = False
-            over = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
-            room = min(float(np.quantile(over[np.isfinite(over)], 0.05)), OPEN) if np.isfinite(over).any() else OPEN
+            ceiling = clear.reshape(raster.shape)[i0 : i1 + 1, j0 : j1 + 1]
+            lower = ceiling[np.isfinite(ceiling)]
+            room = min(float(np.quantile(lower, 0.05)), OPEN) if lower.size else OPEN
             rows.append(
                 (
                     round(height, 4),
@@ -214,7 +221,7 @@ def _largest_at(free: Free, heights: tuple[float, float], raster: Raster) -> tup
     for _ in range(4):
         if not left.any():
             break
-        z = np.sort(free.z[left])
+        z = free.z[left]
         until = np.searchsorted(z, z + 2 * _SOFT, side="right")
         low = float(z[int((until - np.arange(len(z))).argmax())])
         at = left & (free.z >= low) & (free.z <= low + 2 * _SOFT)

@@ -8,6 +8,7 @@ trimesh, from bytes that we have counted; it opens no further file but those bes
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,7 @@ def _read(path: Path, kind: str) -> list[Any]:
 
     data = read_limited(path, MOST_BYTES, "mesh")
     try:
-        beside: Any = _Beside(path.parent)
+        beside = _Beside(path.parent)
         scene = trimesh.load_scene(io.BytesIO(data), file_type=kind[1:], resolver=beside, process=False)
         return [one for one in scene.dump() if isinstance(one, trimesh.Trimesh)]
     except ConfigError:
@@ -51,16 +52,22 @@ def _read(path: Path, kind: str) -> list[Any]:
         raise ConfigError(f"{path}: the mesh cannot be read ({type(err).__name__}: {said}).") from err
 
 
-class _Beside:
-    """The files that a *.gltf names, in its own folder alone; those of materials are not needed."""
+class _Beside(Mapping[str, bytes]):
+    """The parts that a *.gltf names, in its own folder alone, read when asked for; no other file is there."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
-    def get(self, name: str) -> bytes:
+    def __getitem__(self, name: str) -> bytes:
         if Path(name).name != name or not name.endswith(".bin"):
-            raise FileNotFoundError(name)
+            raise KeyError(name)
         return read_limited(self._folder / name, MOST_BYTES, "part of the mesh")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(())
+
+    def __len__(self) -> int:
+        return 0
 
 
 def _checked(path: Path, found: list[Any]) -> Mesh:

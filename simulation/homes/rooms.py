@@ -37,7 +37,7 @@ class Room(Frozen):
     y0: Place
     x1: Place
     y1: Place
-    polygon: tuple[Corner, ...] | None = Field(None, max_length=MOST_CORNERS)
+    polygon: tuple[Corner, ...] | None = Field(None, min_length=3, max_length=MOST_CORNERS)
 
     @model_validator(mode="before")
     @classmethod

@@ -6,7 +6,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from itertools import chain, zip_longest
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +53,7 @@ def generate(
     """Generate a home in which everything can be walked up to and taken: several are tried, the fullest first.
 
     Should every one of them have a problem that `prove` finds, the one with the fewest is returned.
+    `generate_proved` says whether it has.
 
     Args:
         seed: Any integer; the same gives the same home on every machine.
@@ -66,6 +67,19 @@ def generate(
         ConfigError: If the number of rooms, a kind of room, or a class of thing is not known.
         SimulationError: If no layout of so many rooms was found.
     """
+    return generate_proved(seed, rooms, id, things=things, form=form)[0]
+
+
+def generate_proved(
+    seed: int,
+    rooms: int | Sequence[str] = 7,
+    id: str = "home",
+    *,
+    things: int | Sequence[str] | None = None,
+    form: Form | None = None,
+    attempts: int = _ATTEMPTS,
+) -> tuple[Scene, list[str]]:
+    """Generate a home as `generate` does, of so many `attempts` to furnish it; returns its problems, too."""
     kinds = _room_kinds(rooms)
     if not re.fullmatch(ID, id):
         raise ConfigError(f"A home's id is lower-case letters, digits, - and _, at most 64, not {id[:80]!r}.")
@@ -77,14 +91,17 @@ def generate(
     if unknown:
         raise ConfigError(f"There is no movable class {unknown[0]!r} in the catalogue.")
     form = form or Form()
-    homes = (home for draft in _drafts(seed, kinds, form) for home in _inhabit(draft, seed, id, things, form.style))
-    best, fewest = next(homes), math.inf
-    for home in chain([best], homes):
-        problems = len(prove(home))
-        if problems < fewest:
-            best, fewest = home, problems
+    homes = (
+        home for draft in _drafts(seed, kinds, form, attempts) for home in _inhabit(draft, seed, id, things, form.style)
+    )
+    best: tuple[Scene, list[str]] | None = None
+    for home in homes:
+        problems = prove(home)
+        if best is None or len(problems) < len(best[1]):
+            best = home, problems
         if not problems:
             break
+    assert best is not None  # at least one is drafted
     return best
 
 
@@ -125,10 +142,10 @@ def _room_kinds(rooms: int | Sequence[str]) -> list[str]:
     return list(rooms)
 
 
-def _drafts(seed: int, kinds: Sequence[str], form: Form) -> list[_Draft]:
+def _drafts(seed: int, kinds: Sequence[str], form: Form, attempts: int) -> list[_Draft]:
     """Furnish several layouts, up to the first that holds everything; those that hold most come first."""
     drafts: list[_Draft] = []
-    for attempt in range(_ATTEMPTS):
+    for attempt in range(attempts):
         drafts.append(_furnish(lay_out(kinds, rng_at(seed, "layout", attempt), form), seed, attempt))
         if drafts[-1].missing == 0:
             break

@@ -140,14 +140,13 @@ def _split(
 
 def _edges(rooms: Sequence[Room]) -> list[_Edge]:
     edges: list[_Edge] = []
-    for (i, a), (j, b) in combinations(enumerate(rooms), 2):
-        if a.bounds.gap(b.bounds) > TOUCH:
-            continue
-        for one, other in product(_from_high_y(a), _from_high_y(b)):
-            wall, start, end = one.wall, max(one.wall.start, other.wall.start), min(one.wall.end, other.wall.end)
-            opposite = wall.axis == other.wall.axis and sum(one.inward) == -sum(other.inward)
-            if opposite and abs(wall.at - other.wall.at) < TOUCH and end - start >= _SHARED:
-                edges.append(_Edge(i, j, wall.axis, wall.at, start, end))
+    sides = [_from_high_y(room) for room in rooms]
+    for i, j in combinations(range(len(rooms)), 2):
+        for (wall, inward, _), (other, outward, _) in product(sides[i], sides[j]):
+            if wall.axis == other.axis and abs(wall.at - other.at) < TOUCH and sum(inward) == -sum(outward):
+                start, end = max(wall.start, other.start), min(wall.end, other.end)
+                if end - start >= _SHARED:
+                    edges.append(_Edge(i, j, wall.axis, wall.at, start, end))
     return edges
 
 

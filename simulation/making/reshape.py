@@ -130,4 +130,5 @@ def _good(shape: shapely.Geometry) -> bool:
     half = _NARROWEST / 2
     with np.errstate(all="ignore"):  # GEOS divides by 0 where two sides nearly run along each other
         inner = shape.buffer(-half, join_style="mitre")
-        return inner.geom_type == "Polygon" and inner.buffer(half + 0.02, join_style="mitre").covers(shape.buffer(-0.6))
+        grown = inner.buffer(half + 0.02, join_style="mitre")
+        return inner.geom_type == "Polygon" and bool(grown.covers(shape.buffer(-0.6)))

@@ -7,18 +7,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coopera.core.errors import SimulationError
+from coopera.core.errors import ConfigError, SimulationError
 from coopera.core.household import plain
 from coopera.core.randomness import rng_at
 from coopera.simulation.homes.scene import Scene
-from coopera.simulation.making.generate import generate
+from coopera.simulation.making.generate import MOST_ROOMS as MOST_OF_ONE
+from coopera.simulation.making.generate import generate_proved
 from coopera.simulation.making.layout import Form
-from coopera.simulation.making.proof import prove
 from coopera.simulation.making.styles import STYLES
 
 MOST_HOMES = 1000
 FEWEST_ROOMS, MOST_ROOMS = 3, 11  # PAPER App. B: 4 to 11 rooms
-_TRIES = 6
+_TRIES, _DRAFTS = 8, 2
 _ALWAYS = ("living room", "kitchen", "bedroom", "bathroom")
 _OFTEN = {
     **{"hallway": 4.0, "bedroom": 3.0, "study": 2.0, "bathroom": 1.5, "dining room": 1.5, "hobby room": 1.2},
@@ -45,14 +45,21 @@ class Draw(NamedTuple):
 
 
 def draw(seed: int, rooms: int | None = None, attempt: int = 0) -> Draw:
-    """Draw what a home is like; `rooms` fixes how many rooms it has."""
+    """Draw what a home is like; `rooms` fixes how many rooms it has.
+
+    Raises:
+        ConfigError: If a home cannot have so many.
+    """
+    if rooms is not None and not 1 <= rooms <= MOST_OF_ONE:
+        raise ConfigError(f"A home has 1 to {MOST_OF_ONE} rooms, not {rooms}.")
     rng = rng_at(seed, "varied", attempt)
     count = rooms or int(rng.integers(FEWEST_ROOMS, MOST_ROOMS + 1))
     kinds = [*_ALWAYS] if count >= len(_ALWAYS) else ["living room", "bedroom", "bathroom"][:count]
     names, weights = list(_OFTEN), np.array(list(_OFTEN.values()))
     while len(kinds) < count:
         kind = names[int(rng.choice(len(names), p=weights / weights.sum()))]
-        if kinds.count(kind) < (4 if kind == "bedroom" else 2 if kind == "bathroom" else 1):
+        most = 4 if kind == "bedroom" else 2 if kind == "bathroom" else 1
+        if kinds.count(kind) < most * (1 + count // (MOST_ROOMS + 1)):
             kinds.append(kind)
     polygons = rng.random() < 0.75
     form = Form(
@@ -78,11 +85,12 @@ def varied(seed: int, id: str, *, rooms: int | None = None, things: int | None =
         drawn = draw(seed, rooms, attempt)
         try:
             wanted = drawn.things if things is None else things
-            home = generate(seed + 1_000_003 * attempt, drawn.kinds, id, things=wanted, form=drawn.form)
+            own = seed + 1_000_003 * attempt
+            home, found = generate_proved(own, drawn.kinds, id, things=wanted, form=drawn.form, attempts=_DRAFTS)
         except SimulationError as err:
             problem = str(err)
             continue
-        found = [*_missing(home), *prove(home)]
+        found = [*_missing(home), *found]
         if not found:
             return home.model_copy(update={"seed": seed})
         problem = found[0]

@@ -24,7 +24,7 @@ VIEW_FOV = 50.0
 _MARGIN, _TALL, _LENS = 1.2, 1.15, (22.0, 56.0)
 """How much more than what it is to show is in a picture from across the room, how many metres of it are so at least,
 and the narrowest and the widest lens."""
-_RING = ((2.0, 2.5, 3.0, 1.5), 24, (1.5, 1.9, 2.3))  # PAPER says no camera; radii (m), angles, heights (m) are ours
+_RING = ((2.0, 2.5, 1.5, 1.2), 24, (1.5, 1.9, 2.35))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _CORNER = (0.25, 2.2)
 _OFF_WALL = 0.12
 """How far from a room's walls, and how high, the cameras in its corners are (metres)."""
@@ -39,6 +39,8 @@ _GLANCES = 3
 _AT_ONCE = 48
 _SIGHT = 6.0
 """What it counts to see all of a body; the rest of a score is fractions of 1."""
+_ACROSS = 9.0
+"""The same for the camera across the room, which is in nobody's way."""
 _LEAST = 0.15
 """Who sees a smaller share of a body does not see it."""
 _SIDE, _BACK = 0.3, (1.75, 0.8)
@@ -333,7 +335,7 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
     away = np.hypot(eyes[:, 0] - placed.x, eyes[:, 1] - placed.y)
     cost = _from_behind(np.maximum(side, 0.7)) + 0.2 * np.abs(away - 2.0) + 0.2 * np.abs(eyes[:, 2] - 2.0)
     cost += _ASKANCE * np.maximum(side - _BESIDE, 0.0)
-    score = _SIGHT * share - cost
+    score = _ACROSS * share - cost
     best = _best_apart(eyes, score, _anywhere)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
     camera = cameras[_clearest(stage, cameras, score[best])]

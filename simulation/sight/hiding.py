@@ -20,7 +20,7 @@ from coopera.simulation.shapes.rotations import Array, about_z
 Hidden = NDArray[np.bool_]
 _SEEN = {"head": 2.0, "chest": 1.5, "pelvis": 1.0, "right_knee": 0.5, "left_knee": 0.5}
 _HAND = 3.0
-_WORK = 0.5
+_WORK = 0.8
 """What all that is worked with counts besides, where all of the body is 1."""
 _LOW, _FLAT, _STEPS, _SITS, _LARGE = 0.45, 0.35, 0.12, 0.8, 0.7
 """In metres: who has the pelvis below the first sits low, and lies if the head is less than the second above it; feet

@@ -29,7 +29,7 @@ _CHANGED = 0.35
 """What it counts that another thing is held, has been moved, is worn or is open (half of it, squared, each way)."""
 _BEFORE = 4
 """Of a motion's pictures one in so many may show what was before it: one, at least."""
-_TELLS = 0.02
+_TELLS = 0.015
 """A motion of which so much is not yet shown (a distance of poses, in metres) has the next picture."""
 _END = 1.0
 """The last so many seconds are the end."""
@@ -76,8 +76,11 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
             late = np.array(ticks) >= recording.ticks - _END * TICKS
             among = np.where(late, left, -1.0)
         among = among.copy()
-        if left[~before].max(initial=0.0) >= _TELLS:
-            among[before if before[chosen].sum() >= spare else elsewhere if spare == 1 else chosen] = -1.0
+        lively = left[~before].max(initial=0.0) >= _TELLS
+        if before[chosen].sum() >= (spare if lively else max(spare, count // 2)):
+            among[before] = -1.0
+        elif lively and spare == 1:
+            among[elsewhere] = -1.0
         among[chosen] = -2.0
         best = int(np.argmax(np.round(among, 6)))
         chosen.append(best)
@@ -109,7 +112,8 @@ def _candidates(recording: Recording, count: int) -> list[int]:
     found, start = set(), 0
     for shot in recording.shots:
         moves = set(range(start + shot.came, start + shot.ticks, step))
-        found |= {start + shot.came // 2, start + shot.deed, start + shot.ticks - 1} | moves
+        comes = shot.came // 2 if shot.begun is None else shot.came  # far from a motion's place few would see them
+        found |= {start + comes, start + shot.deed, start + shot.ticks - 1} | moves
         start += shot.ticks
     if len(found) <= count:
         found = set(range(recording.ticks))

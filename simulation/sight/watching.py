@@ -225,8 +225,8 @@ class Watcher:
         if who not in self.ground.robots:
             corners, tops = map(np.concatenate, zip(*(self._work(recording, one, who) for one in moments), strict=True))
             person = framed_of([one.bodies[who] for one in moments], whole=moment.outfits.get(who) == "sport")
-            body = at_work(focus.body, np.unique(tops.round(2), axis=0))
-            focus = focus._replace(body=body, framed=np.concatenate((person, corners, tops)))
+            busy = at_work(focus.body, np.unique(tops.round(2), axis=0))
+            focus = focus._replace(body=busy, framed=np.concatenate((person, corners, tops)))
         return view_camera(self.stage, self.ground.scene, focus)
 
     def _work(self, recording: Recording, moment: Moment, who: AgentId) -> tuple[Array, Array]:

@@ -70,7 +70,7 @@ def test_more_people_lives_or_days_find_smaller_differences() -> None:
     assert smallest(Sample(((3, 3, 3, 3),) * 9)) < base
     assert smallest(Sample(((9, 9),) * 9)) < base
     sizes = [one.value if one else None for one in by_people(NINE, [SCATTER], test="t", sizes=(9, 16)).values()]
-    assert sizes == pytest.approx([base, smallest(NINE.of_size(16))])
+    assert sizes == pytest.approx([base, smallest(NINE.of_size(16))], rel=0.1), "of a quarter as many studies"
 
 
 def test_scatter_of_few_people_is_taken_with_caution() -> None:

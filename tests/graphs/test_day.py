@@ -12,7 +12,7 @@ from langgraph.checkpoint.serde.jsonplus import JsonPlusSerializer
 from langgraph.checkpoint.sqlite import SqliteSaver
 
 from coopera.core.errors import ModelOutputError
-from coopera.core.hour import DayPlan, Evening, Example, HourRecord
+from coopera.core.hour import DayPlan, Evening, Example
 from coopera.core.household import HUMAN, SceneId
 from coopera.graphs import STATE_TYPES, Services, build_day_graph, build_study_graph, first_day
 from tests.fakes import MARA, FakeHome, FolderRecorder, ScriptedAsk, placing, reviewed, type2_answers
@@ -152,32 +152,6 @@ def test_each_act_of_the_robot_is_kept_in_pictures_that_it_is_never_shown(
             assert kept == {f"help-{n}-{k}.webp" for n in done for k in range(count)}
             assert not any("help" in name for name in hour.robot.observation.frames)
     assert seen[0] == seen[1]
-
-
-def test_an_hour_that_stands_has_all_its_pictures(make_services: MakeServices, tmp_path: Path) -> None:
-    home, missing = FakeHome(), []
-
-    class Counting(FolderRecorder):
-        def write_hour(self, record: HourRecord) -> None:
-            missing.append(len(home.late))
-            super().write_hour(record)
-
-    services = make_services(home=home, frames=2, help_frames=1)
-    run_study(replace(services, recorder=Counting(tmp_path)), n=1)
-    assert missing == [0, 0, 0]
-    assert len(list(tmp_path.glob("frames/*/*/*.webp"))) > 12
-
-
-@pytest.mark.parametrize("looks", [True, False])
-def test_a_robot_that_looks_at_pictures_has_them_before_it_thinks(make_services: MakeServices, looks: bool) -> None:
-    home, late = FakeHome(), []
-    answers = type2_answers()
-    tasks = answers["robot/tasks_type2"]
-    answers["robot/tasks_type2"] = lambda v: (late.append(len(home.late)), tasks(v))[1]
-    ask = ScriptedAsk(answers)
-    ask.seeing = {"robot"} if looks else set()
-    run_study(make_services(home=home, ask=ask, frames=2), n=1)
-    assert set(late) == {0 if looks else 4}
 
 
 @pytest.mark.parametrize(("relation", "left"), [("inside", 0), ("on", 1)])

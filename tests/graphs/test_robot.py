@@ -3,13 +3,14 @@ from __future__ import annotations
 import asyncio
 import dataclasses
 import threading
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from coopera.core.clock import Clock
 from coopera.core.errors import ModelOutputError, RunError
-from coopera.core.hour import DayPlan, Example, Observation
+from coopera.core.hour import DayPlan, Example, HourRecord, Observation
 from coopera.core.household import Percept, SceneId
 from coopera.core.people import Belief, BigFive
 from coopera.core.randomness import Address
@@ -18,8 +19,9 @@ from coopera.graphs import RobotContext, RobotView, build_robot_graph
 from coopera.graphs.hour import robot_view
 from coopera.graphs.robot import robot_hour
 from coopera.graphs.robots.robot_view import HomeView
-from tests.fakes import MARA, FakeHome, ScriptedAsk, placing, type2_answers
+from tests.fakes import MARA, FakeHome, FolderRecorder, ScriptedAsk, placing, type2_answers
 from tests.graphs.conftest import MakeServices
+from tests.graphs.test_day import run_study
 
 TEN = Clock(day=1, hour=10)
 SEEN = Observation(percept=Percept(room="kitchen", near=["stove_1"], motion="stirring"))
@@ -269,3 +271,29 @@ def test_a_robot_reads_its_memories_and_writes_none(make_services: MakeServices)
 
 def _labelled(candidate: str, yes: bool) -> Example:
     return Example(person=MARA.id, day=0, hour=9, candidate=candidate, label=yes)
+
+
+def test_an_hour_that_stands_has_all_its_pictures(make_services: MakeServices, tmp_path: Path) -> None:
+    home, missing = FakeHome(), []
+
+    class Counting(FolderRecorder):
+        def write_hour(self, record: HourRecord) -> None:
+            missing.append(len(home.late))
+            super().write_hour(record)
+
+    services = make_services(home=home, frames=2, help_frames=1)
+    run_study(dataclasses.replace(services, recorder=Counting(tmp_path)), n=1)
+    assert missing == [0, 0, 0]
+    assert len(list(tmp_path.glob("frames/*/*/*.webp"))) > 12
+
+
+@pytest.mark.parametrize("looks", [True, False])
+def test_a_robot_that_looks_at_pictures_has_them_before_it_thinks(make_services: MakeServices, looks: bool) -> None:
+    home, late = FakeHome(), []
+    answers = type2_answers()
+    tasks = answers["robot/tasks_type2"]
+    answers["robot/tasks_type2"] = lambda v: (late.append(len(home.late)), tasks(v))[1]
+    ask = ScriptedAsk(answers)
+    ask.seeing = {"robot"} if looks else set()
+    run_study(make_services(home=home, ask=ask, frames=2), n=1)
+    assert set(late) == {0 if looks else 4}

@@ -136,7 +136,7 @@ def glb(path: Path, solid: Solid) -> None:
         {"buffer": 0, "byteOffset": 0, "byteLength": points.nbytes},
         {"buffer": 0, "byteOffset": points.nbytes, "byteLength": index.nbytes},
     ]
-    ends = {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
+    ends = {"min": np.nanmin(points, axis=0).tolist(), "max": np.nanmax(points, axis=0).tolist()}
     document["accessors"] = [
         {"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", **ends},
         {"bufferView": 1, "componentType": 5125, "count": len(index), "type": "SCALAR"},

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import HandOver, Outcome
+from coopera.core.household import HUMAN, ROBOT, HandOver, Outcome
 from coopera.core.protocols import Home
 from coopera.simulation.acts.plans import Walk
 from coopera.simulation.homes.catalogue import surfaces
@@ -298,3 +298,17 @@ def test_nobody_teleports_and_nobody_walks_through_the_other(maple) -> None:
                 spots[step.agent] = step.points[-1]
         assert spots == {"human": plan.state.person().spot, "robot": plan.state.robot().spot}
         maple.state = plan.state
+
+
+def test_what_was_planned_for_its_seconds_is_not_planned_again_unless_the_home_has_changed() -> None:
+    with World(flat()) as world:
+        act = put("book_1", "kitchen_counter_1")
+        planned = world.plan(ROBOT, act)
+        assert world.perform(ROBOT, act).ok
+        assert world.state is planned.state
+        back = put("book_1", "coffee_table_1")
+        stale = world.plan(ROBOT, back)
+        assert world.perform(HUMAN, put("mug_1", "dining_table_1")).ok
+        assert world.perform(ROBOT, back).ok
+        assert world.state is not stale.state
+        assert world.on("mug", "dining_table")

@@ -7,7 +7,7 @@ from coopera.simulation.homes.scene import SceneObject
 
 ON_FLOOR = 0.06
 """What begins no higher than this above the floor stands on it (metres)."""
-_NEAR = 0.06
+_NEAR = 0.03
 _EXACT = 0.002
 _EDGE = 0.05
 _MOVED = 0.25
@@ -29,14 +29,12 @@ def put_on(thing: SceneObject, carriers: list[SceneObject]) -> SceneObject | Non
         for surface in surfaces(carrier):
             aside, place = _onto(surface, x, y)
             lifted = carrier.position[2] + surface.z - thing.position[2]
-            if abs(lifted) <= (_NEAR if aside <= _EDGE else 0.03) or (aside <= _EDGE and -_MOVED <= lifted <= _MOVED):
+            if (aside <= _EDGE and abs(lifted) <= _MOVED) or (abs(lifted) <= _NEAR and aside <= _MOVED):
                 there = carrier.to_world(*place, surface.z)
                 found.append((abs(lifted) + aside, carrier.id, carrier, there))
     if not found:
         return None
-    off, _, carrier, there = min(found, key=lambda row: row[:2])
-    if off > 2 * _MOVED:
-        return None
+    _, _, carrier, there = min(found, key=lambda row: row[:2])
     x, y, z = (round(part, 4) for part in there)
     if abs(z - thing.position[2]) <= _EXACT:
         z = thing.position[2]

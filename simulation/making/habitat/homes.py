@@ -18,7 +18,7 @@ from coopera.simulation.making.habitat.carrying import put_on
 from coopera.simulation.making.habitat.files import Folder, Template
 from coopera.simulation.making.habitat.names import Guesser, Nearest, carried, class_of, colour_of, slug
 from coopera.simulation.making.habitat.poses import Box, box_of
-from coopera.simulation.making.habitat.rooms import STOREY, Ground, ground_of
+from coopera.simulation.making.habitat.rooms import STOREY, ground_of
 from coopera.simulation.making.habitat.schema import Instance
 from coopera.simulation.making.habitat.shaping import shaped
 from coopera.simulation.making.proof import prove
@@ -184,6 +184,3 @@ def _carried(scene: Scene, objects: list[SceneObject], found: list[Recognised], 
             report.guessed.append(f"{one.what}: {thing.name}: moved by {100 * far:.0f} cm so that it lies on {where}")
         seen.append(settled)
     return seen
-
-
-__all__ = ["Ground", "Imported", "box_of", "import_scene", "scene_id"]

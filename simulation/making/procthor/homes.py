@@ -17,12 +17,14 @@ import numpy as np
 from coopera.core.errors import SimulationError
 from coopera.core.household import SceneId, plain
 from coopera.simulation.homes.catalogue import FLAT, catalogue, surfaces
+from coopera.simulation.homes.floorplan import Bounds
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at, taken_by
 from coopera.simulation.making.procthor.files import Asset, House, Item
 from coopera.simulation.making.procthor.plan import plan_of
 from coopera.simulation.making.procthor.things import Kind, kind_of
 from coopera.simulation.making.proof import prove
+from coopera.simulation.making.report import Report
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.ways.navigation import REACH, Navigator
 
@@ -36,19 +38,19 @@ _REACHED = 1.45
 """Things stand no higher: nobody gets at what is on top of a high fridge."""
 _MOVED = 0.15
 """What is shifted by less than this is where the house has it, in metres."""
+_BEFORE_DOOR = 0.7
+"""Furniture keeps this clear of the middle of a door where it can, in metres."""
 _RUN = 0.65
 """Depth of the runs of a counter that goes around a corner."""
 _GREY = ("#8a6d4f", "#6f7f8a", "#9a8f7a", "#7a6a84", "#6d8570", "#a07a62")
 
 
 class Imported(NamedTuple):
-    """A home, what `prove` says of it, and sentences on what was understood, guessed and left out."""
+    """A home, what `prove` says of it, and what was understood, guessed and left out."""
 
     scene: Scene
     problems: list[str]
-    understood: list[str]
-    guessed: list[str]
-    left_out: list[str]
+    report: Report
 
 
 class _Piece(NamedTuple):
@@ -75,18 +77,19 @@ def import_house(house: House, id: str, path: Path, assets: Mapping[str, Asset] 
     """
     plan = plan_of(house, path)
     maker = _Maker(Scene(id=SceneId(id), rooms=list(plan.rooms.values()), doors=plan.doors), assets or {})
-    maker.left_out += plan.left_out
-    maker.guessed += plan.guessed
+    report = maker.report
+    report.left_out.extend(plan.left_out)
+    report.guessed.extend(plan.guessed)
     for number, item in enumerate(house.objects):
         maker.take(item, f"objects.{number}")
     scene = maker.finished()
     polygons = sum(room.polygon is not None for room in scene.rooms)
     inside = sum(thing.on is not None for thing in scene.movable)
-    understood = [
-        f"{len(scene.rooms)} rooms, {polygons} of them no rectangles, and {len(scene.doors)} doors and openings",
-        f"{len(scene.fixed)} pieces of furniture, {len(scene.movable)} things that move, {inside} of them on furniture",
-    ]
-    return Imported(scene, prove(scene), understood, maker.guessed, maker.left_out)
+    things = f"{len(scene.movable)} things that move, {inside} of them on furniture"
+    ways = f"{len(scene.doors)} doors and openings"
+    report.understood.append(f"{len(scene.rooms)} rooms, {polygons} of them no rectangles, and {ways}")
+    report.understood.append(f"{len(scene.fixed)} pieces of furniture, {things}")
+    return Imported(scene, prove(scene), report)
 
 
 class _Maker:
@@ -95,8 +98,8 @@ class _Maker:
     def __init__(self, scene: Scene, assets: Mapping[str, Asset]) -> None:
         self.scene = scene
         self.assets = assets
-        self.guessed: list[str] = []
-        self.left_out: list[str] = []
+        self.report = Report()
+        self._doors = [Bounds(door.x, door.y, door.x, door.y).grown(_BEFORE_DOOR) for door in scene.doors]
         self.fixed: list[SceneObject] = []
         self._waiting: list[tuple[_Piece, str]] = []
         self._count: Counter[str] = Counter()
@@ -109,14 +112,14 @@ class _Maker:
         carrier = parent
         piece = _placed(told, item, kind)
         if kind.leave:
-            self.left_out.append(f"{told}: {kind.leave}")
+            self.report.left_out.append(f"{told}: {kind.leave}")
         elif piece.position[2] > HIGHEST:
-            self.left_out.append(f"{told}: hangs {piece.position[2]:.2f} m above the floor, out of reach")
+            self.report.left_out.append(f"{told}: hangs {piece.position[2]:.2f} m above the floor, out of reach")
         else:
             if kind.guess:
-                self.guessed.append(f"{told}: {kind.guess}")
+                self.report.guessed.append(f"{told}: {kind.guess}")
             if max(abs(math.remainder(turn, 360.0)) for turn in (item.rotation.x, item.rotation.z)) > 3.0:
-                self.guessed.append(f"{told}: it leans in the house, and stands upright here")
+                self.report.guessed.append(f"{told}: it leans in the house, and stands upright here")
             if kind.fixed:
                 names = [self._stand(one) for one in _runs(piece, self.scene)]
                 carrier = what
@@ -131,16 +134,15 @@ class _Maker:
         room = self.scene.room_at(*piece.position[:2])
         thing = _object(piece, room, 0, self._name(piece.kind.cls))
         thing = self._lifted(thing)
-        for x, y in _around(thing.xy):
-            moved = thing.model_copy(update={"position": (x, y, thing.position[2])})
-            if self._has_room(moved, room):
-                break
-        else:
-            self.left_out.append(f"{piece.what}: there is no room for it within {_FARTHEST} m")
+        places = [thing.model_copy(update={"position": (x, y, thing.position[2])}) for x, y in _around(thing.xy)]
+        beside = [one for one in places if not any(one.bounds.overlaps(space) for space in self._doors)]
+        moved = next((one for one in [*beside, *places] if self._has_room(one, room)), None)
+        if moved is None:
+            self.report.left_out.append(f"{piece.what}: there is no room for it within {_FARTHEST} m")
             return ""
         away = math.dist(moved.xy, thing.xy)
         if away > _MOVED:
-            self.guessed.append(
+            self.report.guessed.append(
                 f"{piece.what}: shifted by {away:.2f} m, for it would stand in a wall or in another piece"
             )
         self.fixed.append(moved)
@@ -206,14 +208,18 @@ class _Maker:
                 if best is None or cost < best[0]:
                     best = (cost, carrier, spot)
         if best is None and carriers:
-            self.left_out.append(f"{piece.what}: there is no room for it within reach on {plain(carriers[0].name)}")
+            self.report.left_out.append(
+                f"{piece.what}: there is no room for it within reach on {plain(carriers[0].name)}"
+            )
             return None
         if best is None:
             return self._lay_down(piece, scene, things)
         carrier, spot = best[1], best[2]
         away = math.dist(spot[:3], piece.position)
         if away > _MOVED:
-            self.guessed.append(f"{piece.what}: {away:.2f} m from where the house has it on {plain(carrier.name)}")
+            self.report.guessed.append(
+                f"{piece.what}: {away:.2f} m from where the house has it on {plain(carrier.name)}"
+            )
         taken[carrier.name].append(taken_at(spot, piece.kind.size))
         room = scene.room(carrier.room) or scene.rooms[0]
         named = _object(piece, room, 0, self._name(piece.kind.cls))
@@ -232,7 +238,7 @@ class _Maker:
                 for other in filled
             ):
                 return moved
-        self.left_out.append(f"{piece.what}: there is no room for it on the floor")
+        self.report.left_out.append(f"{piece.what}: there is no room for it on the floor")
         return None
 
 

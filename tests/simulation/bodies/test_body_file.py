@@ -106,7 +106,9 @@ def test_a_body_whose_frame_is_elsewhere_stands_with_its_middle_on_the_floor(min
 
 
 def test_a_body_that_works_to_its_right_turns_its_right_to_the_thing(mine: Path) -> None:
-    rewrite(mine.with_suffix(".urdf"), 'xyz="0.119525 0 0.34858" rpy="0 0 0"', 'xyz="0.0 -0.1 0.34858" rpy="0 0 -1.5707963"')
+    rewrite(
+        mine.with_suffix(".urdf"), 'xyz="0.119525 0 0.34858" rpy="0 0 0"', 'xyz="0.0 -0.1 0.34858" rpy="0 0 -1.5707963"'
+    )
     change(mine, "arm.pan", {"joint": "shoulder_pan"})
     change(mine, "base", {"works_at": -90})
     with World(flat(), robot=str(mine)) as world:
@@ -117,7 +119,11 @@ def test_a_body_that_works_to_its_right_turns_its_right_to_the_thing(mine: Path)
 
 
 def test_joints_that_go_with_another_one_follow_it_in_every_posture(mine: Path) -> None:
-    rewrite(mine.with_suffix(".urdf"), '<child link="right_finger"/>', '<child link="right_finger"/><mimic joint="left_finger" multiplier="2"/>')
+    rewrite(
+        mine.with_suffix(".urdf"),
+        '<child link="right_finger"/>',
+        '<child link="right_finger"/><mimic joint="left_finger" multiplier="2"/>',
+    )
     change(mine, "gripper.joints", ["left_finger"])
     for posture in ("reaching", "tucked", "carrying"):
         data = yaml.safe_load(mine.read_text())
@@ -139,19 +145,52 @@ def test_joints_that_go_with_another_one_follow_it_in_every_posture(mine: Path) 
         ("base", {"footprint": 0.5}, "mine.yaml, field base.footprint: Input should be less than or equal to 0.3."),
         ("arm.pan", {"joint": "neck"}, "mine.yaml: arm.pan.joint must be one of arm.joints, not 'neck'."),
         ("gripper.joints", ["elbow_flex"], "mine.yaml: the joint 'elbow_flex' is named twice."),
-        ("postures.tucked.nose", 1.0, "mine.yaml: postures.tucked names 'nose', which is none of the joints named above."),
+        (
+            "postures.tucked.nose",
+            1.0,
+            "mine.yaml: postures.tucked names 'nose', which is none of the joints named above.",
+        ),
         ("postures.carrying.elbow_flex", 7.0, "mine.yaml: postures.carrying has elbow_flex at 7, beyond its limits."),
-        ("gripper.joints", ["left_finger", "right_finger", "wrist_rol"], "mine.yaml: the URDF has no joint 'wrist_rol' (did you mean wrist_roll?)."),
+        (
+            "gripper.joints",
+            ["left_finger", "right_finger", "wrist_rol"],
+            "mine.yaml: the URDF has no joint 'wrist_rol' (did you mean wrist_roll?).",
+        ),
         ("gripper.link", "hand", "mine.yaml, field gripper.link: the URDF has no link 'hand'."),
-        ("camera.link", "head_tild", "mine.yaml, field camera.link: the URDF has no link 'head_tild' (did you mean head_tilt?)."),
-        ("gripper.link", "head_tilt", "mine.yaml, field arm.joints: the joint 'shoulder_pan' is not between the base and 'head_tilt'."),
-        ("camera", {"link": "base", "pan": "head_pan", "tilt": "head_tilt"}, "mine.yaml, field camera.pan: the joint 'head_pan' is not between the base and 'base'."),
+        (
+            "camera.link",
+            "head_tild",
+            "mine.yaml, field camera.link: the URDF has no link 'head_tild' (did you mean head_tilt?).",
+        ),
+        (
+            "gripper.link",
+            "head_tilt",
+            "mine.yaml, field arm.joints: the joint 'shoulder_pan' is not between the base and 'head_tilt'.",
+        ),
+        (
+            "camera",
+            {"link": "base", "pan": "head_pan", "tilt": "head_tilt"},
+            "mine.yaml, field camera.pan: the joint 'head_pan' is not between the base and 'base'.",
+        ),
         ("urdf", "yours.urdf", "yours.urdf: there is no such URDF."),
-        ("urdf", {"package": "no-such-robot", "file": "a.urdf"}, "mine.yaml: this robot's description is in the package no-such-robot, which is not installed (pip install --no-deps no-such-robot)."),
-        ("urdf", {"package": "numpy", "file": "../a.urdf"}, "mine.yaml, field urdf.file: the path must lead down from site-packages."),
-        ("urdf", {"package": "numpy", "file": "a.urdf"}, "mine.yaml, field urdf.file: the package numpy has no file a.urdf."),
+        (
+            "urdf",
+            {"package": "no-such-robot", "file": "a.urdf"},
+            "mine.yaml: this robot's description is in the package no-such-robot, which is not installed "
+            "(pip install --no-deps no-such-robot).",
+        ),
+        (
+            "urdf",
+            {"package": "numpy", "file": "../a.urdf"},
+            "mine.yaml, field urdf.file: the path must lead down from site-packages.",
+        ),
+        (
+            "urdf",
+            {"package": "numpy", "file": "a.urdf"},
+            "mine.yaml, field urdf.file: the package numpy has no file a.urdf.",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_wrong_field_is_named_with_its_file(mine: Path, field: str, value: Any, sentence: str) -> None:
     change(mine, field, value)
     assert refusal(mine) == sentence
@@ -167,22 +206,70 @@ def test_the_arms_joints_are_named_from_the_base_on(mine: Path) -> None:
     ("old", "new", "sentence"),
     [
         ("<robot name", "<mujoco name", "mine.urdf, line 96: this is not valid XML."),
-        ('lower="-1.221"', 'lower="nan"', "mine.urdf: limit lower of the joint 'shoulder_lift' must be a finite number, not 'nan'."),
-        ('lower="-1.221"', 'lower="2"', "mine.urdf: the joint 'shoulder_lift' cannot move: its limits are 2 and 1.518."),
-        ('xyz="0.117 0 0.06"', 'xyz="0.117 0"', "mine.urdf: origin xyz of the joint 'shoulder_lift' must be 3 finite numbers, not '0.117 0'."),
-        ('<parent link="shoulder_pan"/>', '<parent link="nowhere"/>', "mine.urdf: the parent of the joint 'shoulder_lift' is the link 'nowhere', which is missing."),
-        ('<child link="elbow_flex"/>', '<child link="head_pan"/>', "mine.urdf: the link 'head_pan' is the child of two joints."),
-        ('<parent link="base"/>', '<parent link="elbow_flex"/>', "mine.urdf: the link 'elbow_flex' does not hang on the base 'base'."),
-        ('name="shoulder_lift" type="revolute"', 'name="shoulder_lift" type="floating"', "mine.yaml: the joint 'shoulder_lift' is of the type 'floating', which does not move."),
-        ('filename="ball.obj"', 'filename="ears.stl"', "mine.urdf: the mesh 'ears.stl' is missing; it must be in this file's folder."),
-        ('filename="ball.obj"', 'filename="package://fetch/ears.stl"', "mine.urdf: the mesh 'package://fetch/ears.stl' is missing; no folder above this file is called 'fetch'."),
-        ('size="0.11 0.16 0.05"', 'size="wide"', "mine.urdf: size of a box in the link 'head_pan' must be 3 finite numbers, not 'wide'."),
-        ('radius="0.075"', 'radius="inf"', "mine.urdf: radius of a cylinder in the link 'shoulder_pan' must be a finite number, not 'inf'."),
-        ('scale="0.008 0.02 0.02"', 'scale="0.008"', "mine.urdf: scale of a mesh in the link 'head_tilt' must be 3 finite numbers, not '0.008'."),
+        (
+            'lower="-1.221"',
+            'lower="nan"',
+            "mine.urdf: limit lower of the joint 'shoulder_lift' must be a finite number, not 'nan'.",
+        ),
+        (
+            'lower="-1.221"',
+            'lower="2"',
+            "mine.urdf: the joint 'shoulder_lift' cannot move: its limits are 2 and 1.518.",
+        ),
+        (
+            'xyz="0.117 0 0.06"',
+            'xyz="0.117 0"',
+            "mine.urdf: origin xyz of the joint 'shoulder_lift' must be 3 finite numbers, not '0.117 0'.",
+        ),
+        (
+            '<parent link="shoulder_pan"/>',
+            '<parent link="nowhere"/>',
+            "mine.urdf: the parent of the joint 'shoulder_lift' is the link 'nowhere', which is missing.",
+        ),
+        (
+            '<child link="elbow_flex"/>',
+            '<child link="head_pan"/>',
+            "mine.urdf: the link 'head_pan' is the child of two joints.",
+        ),
+        (
+            '<parent link="base"/>',
+            '<parent link="elbow_flex"/>',
+            "mine.urdf: the link 'elbow_flex' does not hang on the base 'base'.",
+        ),
+        (
+            'name="shoulder_lift" type="revolute"',
+            'name="shoulder_lift" type="floating"',
+            "mine.yaml: the joint 'shoulder_lift' is of the type 'floating', which does not move.",
+        ),
+        (
+            'filename="ball.obj"',
+            'filename="ears.stl"',
+            "mine.urdf: the mesh 'ears.stl' is missing; it must be in this file's folder.",
+        ),
+        (
+            'filename="ball.obj"',
+            'filename="package://fetch/ears.stl"',
+            "mine.urdf: the mesh 'package://fetch/ears.stl' is missing; no folder above this file is called 'fetch'.",
+        ),
+        (
+            'size="0.11 0.16 0.05"',
+            'size="wide"',
+            "mine.urdf: size of a box in the link 'head_pan' must be 3 finite numbers, not 'wide'.",
+        ),
+        (
+            'radius="0.075"',
+            'radius="inf"',
+            "mine.urdf: radius of a cylinder in the link 'shoulder_pan' must be a finite number, not 'inf'.",
+        ),
+        (
+            'scale="0.008 0.02 0.02"',
+            'scale="0.008"',
+            "mine.urdf: scale of a mesh in the link 'head_tilt' must be 3 finite numbers, not '0.008'.",
+        ),
         ('rgba="0.', 'rgba="x 0.', "mine.urdf: the colour of the material 'white' must be 4 finite numbers."),
         ('<link name="elbow_flex">', '<link name="head_pan">', "mine.urdf: two links are called 'head_pan'."),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_in_a_description_is_named_with_its_place(mine: Path, old: str, new: str, sentence: str) -> None:
     rewrite(mine.with_suffix(".urdf"), old, new)
     assert refusal(mine) == sentence

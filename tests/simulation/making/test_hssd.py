@@ -270,3 +270,26 @@ def test_a_scene_without_a_stage_has_no_walls_and_says_so(hssd: Path) -> None:
     assert found.scene.walls() == []
     assert any(line.startswith("stage_instance") for line in found.report.left_out)
     assert json.loads(found.scene.model_dump_json())["stage"] == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "number", "normalized"), [("<i2", 5122, True), ("<u2", 5123, True), ("<i2", 5122, False)]
+)
+def test_a_mesh_of_quantised_positions_is_read_as_it_is(
+    tmp_path: Path, kind: str, number: int, normalized: bool
+) -> None:
+    """KHR_mesh_quantization, as gltfpack writes it: whole numbers, of which a node's scale makes metres."""
+    document, data = boxes_document([((0, 0, 0), (1, 1, 1))], scale=[2, 1, 1])
+    most = np.iinfo(kind).max if normalized else 1
+    corners = (np.frombuffer(data[: 8 * 12], "<f4").reshape(8, 3) * most).astype(kind)
+    padded = np.zeros((8, 4), kind)
+    padded[:, :3] = corners
+    document["accessors"][0] |= {"componentType": number, "normalized": normalized}
+    document["bufferViews"] = [
+        {"buffer": 0, "byteOffset": 0, "byteLength": 64, "byteStride": 8},
+        {"buffer": 0, "byteOffset": 64, "byteLength": len(data) - 96},
+    ]
+    write_glb(tmp_path / "q.glb", document, padded.tobytes() + data[96:])
+    mesh = read_glb(tmp_path / "q.glb")
+    assert mesh.corners.max(axis=0) == pytest.approx((2, 1, 1))
+    assert len(mesh.triangles) == 12
