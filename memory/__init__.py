@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from coopera.memory.retriever import MemoryRetriever
     from coopera.memory.search import Search
     from coopera.memory.store import streams
-    from coopera.memory.stream import MemoryStream, Recollection
+    from coopera.memory.stream import MemoryStream, Recollection, extend_together
     from coopera.memory.transfer import export_jsonl, import_jsonl
 
 _HOMES = {
@@ -30,6 +30,7 @@ _HOMES = {
     "as_array": "coopera.memory.embeddings",
     "bundled": "coopera.memory.embeddings",
     "export_jsonl": "coopera.memory.transfer",
+    "extend_together": "coopera.memory.stream",
     "hugging_face": "coopera.memory.embeddings",
     "import_jsonl": "coopera.memory.transfer",
     "repair": "coopera.memory.rebuild",
@@ -47,6 +48,7 @@ __all__ = [
     "as_array",
     "bundled",
     "export_jsonl",
+    "extend_together",
     "hugging_face",
     "import_jsonl",
     "repair",

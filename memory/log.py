@@ -132,6 +132,11 @@ class Log:
             part = slice(start, start + _PER_CALL)
             self._append(texts[part], vectors[part], hours[part], metadata[part])
 
+    def keep(self, texts: Sequence[str], vectors: Vector) -> None:
+        """Keep vectors, shape (n, d), of texts that will be added to streams of this store and model."""
+        if self._vectors is not None and len(texts) <= _PER_CALL:
+            self._vectors.add(texts, vectors)
+
     def cut(self, length: int) -> None:
         """Drop all records from this position on, at once or not at all."""
         if length >= self._length:

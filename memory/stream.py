@@ -14,6 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+import numpy as np
 from langchain_core.embeddings import Embeddings
 
 from coopera.core.errors import ConfigError, MemoryStoreError
@@ -162,19 +163,19 @@ class MemoryStream:
             ConfigError: If a record cannot be taken; nothing is then added.
             MemoryStoreError: If the store fails; whole pages of 1000 may then have been added.
         """
+        extend_together([(self, records)])
+
+    def _append(self, records: Sequence[Record], vectors: Vector) -> None:
+        """Add checked records, oldest first, with their vectors, shape (n, d)."""
         log = self._open_log
-        records = [self._checked(record) for record in records]
-        if not records:
-            return
-        texts = [record.text for record in records]
-        vectors = self._vectors(texts)
         with log.lock:
             newest = log.last_hour
             for record in records:
                 if newest is not None and record.hour < newest:
                     raise ConfigError(f"{self._where}: hour {record.hour} is before hour {newest}, and it comes later")
                 newest = record.hour
-            log.append(texts, vectors, [record.hour for record in records], [record.metadata for record in records])
+            texts, hours, own = zip(*records, strict=True)
+            log.append(texts, vectors, hours, own)
 
     def recall(self, query: str, now: int, k: int, since: int | None = None) -> list[Recollection]:
         """Return the k records with the highest score, best first; newer first where scores are equal.
@@ -312,6 +313,25 @@ class MemoryStream:
         except (TypeError, ValueError) as err:
             raise ConfigError(f"{self._where}: metadata must be JSON data: {err}") from err
         return Record(record.text, _whole(record.hour, "the hour of a memory"), dict(record.metadata))
+
+
+def extend_together(parts: Sequence[tuple[MemoryStream, Sequence[Record]]]) -> None:
+    """Add records to streams of one store and model, as `MemoryStream.extend` does; all new vectors are one write.
+
+    A write takes the store some milliseconds, whatever it is of.
+
+    Raises:
+        ConfigError: If a record cannot be taken; nothing is then added to its stream or those after it.
+        MemoryStoreError: If the store fails; whole pages of 1000 may then have been added.
+    """
+    checked = [(stream, [stream._checked(record) for record in records]) for stream, records in parts]
+    ready = [(stream, some, stream._vectors([one.text for one in some])) for stream, some in checked if some]
+    if len(ready) > 1:
+        ready[0][0]._open_log.keep(
+            [record.text for _, some, _ in ready for record in some], np.concatenate([vectors for *_, vectors in ready])
+        )
+    for stream, some, vectors in ready:
+        stream._append(some, vectors)
 
 
 def _check_text(text: str, what: str) -> None:

@@ -1,7 +1,8 @@
 """Where a run's processor time goes: by stage of the hour, and by kind of work, each moment counted once.
 
 Functions of coopera and LangGraph are wrapped for the time of a measurement; nothing of a run is changed by it. Time is
-the processor's, of the thread that works, so that other work on the machine counts little.
+the processor's, of the thread that works, so that other work on the machine counts little. Chroma works in threads of
+its own, while the one that asked waits: theirs is the time that the process takes besides.
 """
 
 from __future__ import annotations
@@ -15,12 +16,14 @@ from contextlib import ExitStack, contextmanager
 from typing import Any
 from unittest.mock import patch
 
+from chromadb.api.rust import RustBindingsAPI
 from langgraph.checkpoint.sqlite import SqliteSaver
 from langgraph.graph import StateGraph
 from langgraph.pregel import Pregel
 
 from coopera import Config
 from coopera.graphs import day, hour, life
+from coopera.graphs.robots import robot_view
 from coopera.graphs.robots.learning import Learner
 from coopera.memory import MemoryStream
 from coopera.models.asking import Backend
@@ -66,6 +69,22 @@ class Clock:
         def counted(*args: Any, **kwargs: Any) -> Any:
             with self.within(stage, kind):
                 return function(*args, **kwargs)
+
+        return counted
+
+    def elsewhere(self, function: Callable[..., Any], kind: str) -> Callable[..., Any]:
+        """The function, with the time counted that other threads take meanwhile."""
+
+        @functools.wraps(function)
+        def counted(*args: Any, **kwargs: Any) -> Any:
+            began = time.process_time() - time.thread_time()
+            try:
+                return function(*args, **kwargs)
+            finally:
+                spent = time.process_time() - time.thread_time() - began
+                stack = self._stack()
+                with self._lock:
+                    self.seconds[stack[-1][0] if stack else "between", kind] += max(spent, 0.0)
 
         return counted
 
@@ -154,6 +173,9 @@ def _wraps(clock: Clock) -> Iterator[tuple[Any, str, Callable[..., Any]]]:
     yield Pregel, "invoke", clock.wrapped(Pregel.invoke, None, "LangGraph")
     yield Backend, "ask", clock.wrapped(Backend.ask, None, "models")
     yield Learner, "learn", clock.wrapped(Learner.learn, None, "training")
+    yield robot_view, "extend_together", clock.wrapped(robot_view.extend_together, None, "memory")
+    for name in ("_add", "_get", "_count", "_modify", "get_or_create_collection", "get_collection"):
+        yield RustBindingsAPI, name, clock.elsewhere(getattr(RustBindingsAPI, name), "memory")
     for name in ("put", "put_writes"):
         yield SqliteSaver, name, clock.wrapped(getattr(SqliteSaver, name), "between", "checkpoints")
     for owner, kind, names in (

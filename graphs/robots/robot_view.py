@@ -19,7 +19,7 @@ from coopera.core.household import Act, AgentId, Collab, ObjectMap, SceneId
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Ask, Home, Reply
 from coopera.core.randomness import Address
-from coopera.memory import MemoryStream, Recollection, Record
+from coopera.memory import MemoryStream, Recollection, Record, extend_together
 
 
 class RobotAsk(Protocol):
@@ -149,15 +149,16 @@ class Memories(NamedTuple):
 
     def add(self, intention: str, tasks: Sequence[str], now: int, *, seen: Sequence[str] = ()) -> None:
         """Append one hour; what a robot has `seen` of its tasks is marked as such, and comes first."""
-        self.intentions.extend([Record(intention, now, {})])
         known = [Record(task, now, {"source": "seen"}) for task in seen]
-        self.tasks.extend([*known, *(Record(task, now, {}) for task in tasks)])
+        done = [*known, *(Record(task, now, {}) for task in tasks)]
+        extend_together([(self.intentions, [Record(intention, now, {})]), (self.tasks, done)])
 
     def extend(self, hours: Iterable[tuple[int, str, Sequence[str]]]) -> None:
         """Append hours, each with its intention and tasks, at once: a write takes the store as long as an hour's do."""
         added = list(hours)
-        self.intentions.extend([Record(intention, now, {}) for now, intention, _ in added])
-        self.tasks.extend([Record(task, now, {}) for now, _, tasks in added for task in tasks])
+        intentions = [Record(intention, now, {}) for now, intention, _ in added]
+        done = [Record(task, now, {}) for now, _, tasks in added for task in tasks]
+        extend_together([(self.intentions, intentions), (self.tasks, done)])
 
 
 @dataclass(frozen=True, slots=True)
