@@ -114,7 +114,8 @@ class Stage:
 
     def show(self, state: HomeState, moment: Moment) -> None:
         """Put everything where it is at a moment."""
-        for agent, placed in moment.bodies.items():
+        bodies = {**moment.bodies, **(moment.drawn if self._draws else {})}
+        for agent, placed in bodies.items():
             if agent in self.robots:
                 self._put_robot(agent, placed)
             else:
@@ -128,14 +129,14 @@ class Stage:
         self._unused, self._carried = self._carried, set()
         held = {held.name for held in moment.held.values()}
         self._things(state, moment, held.union(*moment.worn.values()))
-        for agent, placed in moment.bodies.items():
+        for agent, placed in bodies.items():
             if agent in moment.held:
                 self._carry(state, moment.held[agent], agent, placed)
             for name in moment.worn.get(agent, ()):
                 self._wear(state, name, placed)
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
-        self._doors.show(moment.opened, moment.bodies)
+        self._doors.show(moment.opened, bodies)
 
     def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
         """How a person looks, and what they wear."""
@@ -151,7 +152,7 @@ class Stage:
         for thing in state.objects(self.scene):
             name = thing.name
             where = moment.moved.get(name) or (None if name in borne else state.thing(thing))
-            if where is not None and where.inside in borne:
+            if where is not None and (where.inside in borne or (self._draws and name in moment.unseen)):
                 where = None
             if name in with_people or (name in state.box and where is None):
                 continue

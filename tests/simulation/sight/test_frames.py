@@ -14,8 +14,9 @@ from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of, person_body
 from coopera.simulation.sight.labels import Name, labelled
-from coopera.simulation.sight.recording import Recording, Shot, watching
+from coopera.simulation.sight.recording import Recording, Shot
 from coopera.simulation.sight.sampling import telling_ticks
+from coopera.simulation.sight.turning import watching
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
