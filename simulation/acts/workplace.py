@@ -12,6 +12,8 @@ import numpy as np
 from coopera.core.affordances import affordances
 from coopera.core.household import plain
 from coopera.simulation.homes.catalogue import Surface, surfaces
+from coopera.simulation.homes.magic_box import shape_of
+from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import CARRIED, LAP, Grip, Worktop, grip, to_tools
 from coopera.simulation.motions.library import Motion
@@ -169,6 +171,46 @@ def surface_at_work(
     """The surface that a person works at in a setting, in the frame of the body that has stepped up to it."""
     found = worktop_before(scene, person, _near(scene, state, person, moved), motion)
     return None if found is None else found.top.stepped(setting.step)
+
+
+def reaching_in(scene: Scene, person: PersonState, motion: Motion) -> Motion | None:
+    """The motion as it is done inside the furniture at which a person stands, behind its doors.
+
+    None for a motion that is not done inside things, and at furniture without doors.
+    """
+    at = scene.object(person.at) if person.at is not None else None
+    if at is None or motion.keys.inside is None or not opened(at).leaves:
+        return None
+    return motion.model_copy(update={"keys": motion.keys.model_copy(update={"right": motion.keys.inside})})
+
+
+def kept_from_sight(
+    scene: Scene, state: HomeState, person: PersonState, moved: Mapping[str, ThingState], brought: Sequence[str]
+) -> frozenset[str]:
+    """Things near a person that pictures leave out, since a thing of the same kind is shown in use there.
+
+    Of each kind that is brought it is the nearest thing that stands about and bears no other.
+
+    Args:
+        scene: The home.
+        state: What is where in it.
+        person: Where and how the body is.
+        moved: What was put elsewhere since that state.
+        brought: What is shown besides the home's own things, by its class or its text.
+    """
+    kinds = {shape_of(plain(one)).cls for one in brought}
+    if not kinds:
+        return frozenset()
+    placed = {thing.name: moved.get(thing.name) or state.thing(thing) for thing in state.objects(scene)}
+    bearing = {name for where in placed.values() for name in (where.on, where.inside)}
+    found: dict[str, tuple[float, str]] = {}
+    for thing, where in _near(scene, state, person, moved):
+        known, away = state.box.get(thing.name), round(math.dist(where.position[:2], person.place), 6)
+        cls = thing.cls if known is None else shape_of(known.text).cls
+        about = not thing.fixed and thing.name not in bearing and where.inside is None
+        if cls in kinds and about and state.bearer(thing.name) is None:
+            found[cls] = min(found.get(cls, (math.inf, "")), (away, thing.name))
+    return frozenset(name for _, name in found.values())
 
 
 def _near(scene: Scene, state: HomeState, person: PersonState, since: Mapping[str, ThingState]) -> Standing:

@@ -126,6 +126,7 @@ class Keys(Frozen):
     neck: Path3 = (0.0, 0.0, 0.0)
     right: HandPath | None = None
     left: HandPath | None = None
+    inside: HandPath | None = None
     right_foot: Path3 = (0.0, 0.0, 0.0)
     left_foot: Path3 = (0.0, 0.0, 0.0)
     elbows: float = 0.15

@@ -148,13 +148,13 @@ class Boxes(NamedTuple):
     yaws: Array
 
 
-def boxes_of(furniture: Sequence[SceneObject]) -> Boxes:
-    """The opaque parts of furniture."""
+def boxes_of(furniture: Sequence[SceneObject], *, opaque: bool = True) -> Boxes:
+    """The parts of furniture, or those that are `opaque`."""
     middles, halves, yaws = [], [], []
     for thing in furniture:
         turn = about_z(thing.yaw)
         for solid in solids(thing):
-            if solid.opaque:
+            if solid.opaque or not opaque:
                 middles.append(turn @ np.array(solid.middle) + np.array(thing.position))
                 halves.append(solid.half)
                 yaws.append(thing.yaw)

@@ -14,12 +14,10 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from coopera.core.household import AgentId
-from coopera.simulation.acts.handling import to_body
 from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Placed, Play, Step, Turn, Walk
-from coopera.simulation.acts.workplace import surface_at_work, thing_of, working
+from coopera.simulation.acts.workplace import kept_from_sight, reaching_in, surface_at_work, thing_of, working
 from coopera.simulation.bodies.humanoid import blend
-from coopera.simulation.bodies.humanoid_reach import carrying, reaching, standing
-from coopera.simulation.bodies.robot import RobotBody
+from coopera.simulation.bodies.humanoid_reach import carrying, standing
 from coopera.simulation.motions.aids import Used, aids, now
 from coopera.simulation.motions.holding import CARRIED, Grip
 from coopera.simulation.motions.poses import pose_at
@@ -38,9 +36,9 @@ from coopera.simulation.sight.timing import (
     TICKS,
     TURN,
 )
+from coopera.simulation.sight.turning import receiving, watching
 from coopera.simulation.sight.walks import Track, between_bodies, mixed, walking
 from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
-from coopera.simulation.ways.navigation import Stand
 
 
 class Held(NamedTuple):
@@ -59,7 +57,8 @@ class Moment(NamedTuple):
     """One tick: everybody's body, what those hold who hold something, and the things that were moved by then.
 
     `worn` is what people have put on, `opened` which furniture is open. `outfits` is how those are dressed who are not
-    dressed for the day; it is drawn, and nothing else knows of it.
+    dressed for the day, `drawn` how pictures show a body that is in fact otherwise, `unseen` which things they leave
+    out: nothing else knows of these.
     """
 
     bodies: Mapping[AgentId, Placed]
@@ -68,6 +67,8 @@ class Moment(NamedTuple):
     worn: Mapping[AgentId, tuple[str, ...]] = MappingProxyType({})
     opened: frozenset[str] = frozenset()
     outfits: Mapping[AgentId, Outfit] = MappingProxyType({})
+    drawn: Mapping[AgentId, Placed] = MappingProxyType({})
+    unseen: frozenset[str] = frozenset()
 
 
 @dataclass(slots=True)
@@ -267,17 +268,27 @@ class Filming:
         total = settled + round(max(MOTION, 2 * motion.keys.period) * TICKS)
         others = self._frozen(agent)
         moved, outfit = self.moved, _outfit(person)
+        scene, state, inside = self.ground.scene, self.recording.state, reaching_in(self.ground.scene, person, motion)
+        brought = [state.box[person.thing].text] if person.thing in state.box else []
+        doubled = kept_from_sight(scene, state, person, moved, brought)
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
-                return others(walk_at(tick), carried, moved)
+                return others(walk_at(tick), carried, moved)._replace(unseen=doubled)
             seconds = max(tick - settled, 0) / TICKS
-            pose = pose_at(motion, seconds, setting)
-            body = Placed(*person.place, person.yaw, pose)
+            body = Placed(*person.place, person.yaw, pose_at(motion, seconds, setting))
             if tick < settled:
-                return others(between(came, body, (tick - walk_ticks) / SETTLE), carried, moved)
-            moment = others(body, held(seconds), moved)
-            return moment._replace(outfits={**moment.outfits, agent: outfit})
+                comes = between(came, body, (tick - walk_ticks) / SETTLE)
+                return others(comes, carried, moved)._replace(unseen=doubled)
+            holds = held(seconds)
+            used = () if holds is None or holds.drawn is None else (*holds.aids, *holds.drawn.props)
+            unseen = doubled | kept_from_sight(scene, state, person, moved, [one.thing for one in used])
+            moment = others(body, holds, moved)
+            moment = moment._replace(outfits={**moment.outfits, agent: outfit}, unseen=unseen)
+            if inside is None or person.at is None:
+                return moment
+            drawn = body._replace(pose=pose_at(inside, seconds, setting))
+            return moment._replace(opened=moment.opened | {person.at}, drawn={agent: drawn})
 
         self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks, settled))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
@@ -311,7 +322,7 @@ class Filming:
         robots = (None, thing) if step.back else (thing, None)
         persons = (thing, None) if step.back else (other, thing)
         stands = self.recording.state.person(step.receiver).posture == "stand"
-        taking = _receiving(waiting, step) if stands else waiting
+        taking = receiving(waiting, step) if stands else waiting
         others = self._frozen(step.agent)
 
         def at(tick: int) -> Moment:
@@ -380,21 +391,3 @@ def _with(held: Mapping[AgentId, Held], agent: AgentId, thing: Held | None) -> d
     """What everybody holds, once an agent holds a thing, or nothing."""
     others = {one: what for one, what in held.items() if one != agent}
     return others if thing is None else {**others, agent: thing}
-
-
-def _receiving(person: Placed, step: Give) -> Placed:
-    """The person turned to the robot, with a hand at the thing."""
-    yaw = math.atan2(step.stand.y - person.y, step.stand.x - person.x)
-    pose = reaching(to_body(Stand(person.x, person.y, yaw, 0.0, 0.0), step.point))
-    return person if pose is None else person._replace(yaw=yaw, pose=pose)
-
-
-def watching(body: RobotBody, robot: Placed, person: Placed) -> Placed:
-    """The robot with its head turned to the person's body."""
-    stand = Stand(robot.x, robot.y, robot.yaw, 0.0, 0.0)
-    return robot._replace(pose=body.look_at(robot.pose, to_body(stand, (person.x, person.y, eye_level(person)))))
-
-
-def eye_level(person: Placed) -> float:
-    """At which height of a person a robot looks (metres)."""
-    return min(max(float(person.pose[2]) + 0.15, 0.3), 1.1)

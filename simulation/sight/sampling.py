@@ -31,6 +31,8 @@ _BEFORE = 4
 """Of a motion's pictures one in so many may show what was before it: one, at least."""
 _TELLS = 0.015
 """A motion of which so much is not yet shown (a distance of poses, in metres) has the next picture."""
+_BETWEEN = 3.0
+"""How much it counts to differ from the pictures just before and after, where that to differ from all counts 1."""
 _END = 1.0
 """The last so many seconds are the end."""
 
@@ -45,8 +47,9 @@ class _Look(NamedTuple):
 def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], count: int) -> list[int]:
     """Choose moments of a recording that differ most from each other (farthest-point sampling), in order of time.
 
-    The deed comes first, then the end: of the last second whatever is least like the deed, since motions repeat. One
-    moment of each walk may be among the others; of a motion, few show what was before it.
+    The deed comes first, then the end: whatever late moment is least like the deed, since motions repeat. The others
+    differ from all and, even more, from those before and after them: the phases of a motion take turns. One moment of
+    each walk may be among them; of a motion, few show what was before it.
 
     Args:
         recording: With at least one shot.
@@ -73,7 +76,7 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
     for number in range(1, count):
         among = left
         if number == 1:
-            late = np.array(ticks) >= recording.ticks - _END * TICKS
+            late = np.array(ticks) >= recording.ticks - _late(recording)
             among = np.where(late, left, -1.0)
         among = among.copy()
         lively = left[~before].max(initial=0.0) >= _TELLS
@@ -82,10 +85,28 @@ def telling_ticks(recording: Recording, robots: Mapping[AgentId, RobotBody], cou
         elif lively and spare == 1:
             among[elsewhere] = -1.0
         among[chosen] = -2.0
+        if number > 1:
+            among = among + _BETWEEN * _from_neighbours(places, chosen) * (among >= 0)
         best = int(np.argmax(np.round(among, 6)))
         chosen.append(best)
         left = np.minimum(left, np.linalg.norm(places - places[best], axis=1))
     return sorted(ticks[i] for i in chosen)
+
+
+def _from_neighbours(places: Array, chosen: list[int]) -> Array:
+    """How far each moment is from the nearer of the chosen ones just before and just after it; shape (n,)."""
+    order = sorted(chosen)
+    after = np.searchsorted(order, np.arange(len(places)))
+    sides = [order[0], *order, order[-1]]
+    gaps = [np.linalg.norm(places - places[[sides[i + step] for i in after]], axis=1) for step in (0, 1)]
+    found: Array = np.minimum(*gaps)
+    return found
+
+
+def _late(recording: Recording) -> float:
+    """How many of the last ticks are the end: of a motion, which repeats itself, the last quarter."""
+    last = recording.shots[-1]
+    return _END * TICKS if last.begun is None else max(_END * TICKS, (last.ticks - last.begun) / 4)
 
 
 def _begun(recording: Recording) -> int:

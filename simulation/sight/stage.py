@@ -28,13 +28,13 @@ from coopera.simulation.drawing.renderer import Renderer as Drawer
 from coopera.simulation.drawing.renderer import bodies_of
 from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.magic_box import Point3, Shape, shape_of
-from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import Scene, SceneObject
 from coopera.simulation.motions.holding import held_at
 from coopera.simulation.motions.worn import worn_at
 from coopera.simulation.people.appearance import Appearance, Outfit, appearance_of
 from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaternion
 from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print
+from coopera.simulation.sight.doors import OPEN, Doors
 from coopera.simulation.sight.figures import Balls, Person, Robot
 from coopera.simulation.sight.recording import Held, Moment
 from coopera.simulation.state.home_state import HomeState, ThingState
@@ -43,7 +43,6 @@ BODIES = Path(__file__).parents[1] / "bodies"
 _AWAY = (0.0, 0.0, -50.0)
 _KEPT = 8
 _NEAR, _FAR = 0.05, 30.0
-_OPEN = ":open"
 Image = NDArray[np.uint8]
 __all__ = ["Camera", "Image", "Stage"]
 
@@ -96,7 +95,7 @@ class Stage:
         self._box: dict[str, Shape] = {}
         self._carried: set[str] = set()
         self._unused: set[str] = set()
-        self._doors: set[str] = set()
+        self._doors = Doors(scene, self.home, robots)
 
     def close(self) -> None:
         """Give the client back; a second time does nothing."""
@@ -115,7 +114,8 @@ class Stage:
 
     def show(self, state: HomeState, moment: Moment) -> None:
         """Put everything where it is at a moment."""
-        for agent, placed in moment.bodies.items():
+        bodies = {**moment.bodies, **(moment.drawn if self._draws else {})}
+        for agent, placed in bodies.items():
             if agent in self.robots:
                 self._put_robot(agent, placed)
             else:
@@ -129,14 +129,14 @@ class Stage:
         self._unused, self._carried = self._carried, set()
         held = {held.name for held in moment.held.values()}
         self._things(state, moment, held.union(*moment.worn.values()))
-        for agent, placed in moment.bodies.items():
+        for agent, placed in bodies.items():
             if agent in moment.held:
                 self._carry(state, moment.held[agent], agent, placed)
             for name in moment.worn.get(agent, ()):
                 self._wear(state, name, placed)
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
-        self._open(moment.opened)
+        self._doors.show(moment.opened, bodies)
 
     def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
         """How a person looks, and what they wear."""
@@ -152,7 +152,7 @@ class Stage:
         for thing in state.objects(self.scene):
             name = thing.name
             where = moment.moved.get(name) or (None if name in borne else state.thing(thing))
-            if where is not None and where.inside in borne:
+            if where is not None and (where.inside in borne or (self._draws and name in moment.unseen)):
                 where = None
             if name in with_people or (name in state.box and where is None):
                 continue
@@ -174,20 +174,6 @@ class Stage:
         elif name in self.home.bodies:
             self.home.move(name, _AWAY, 0.0)
             self._shown.pop(name, None)
-
-    def _open(self, names: frozenset[str]) -> None:
-        """Show doors and drawers of open furniture; open things that are carried look as ever."""
-        for name in sorted(self._doors - names):
-            self.home.move(_door(name), _AWAY, 0.0)
-        self._doors &= names
-        for name in sorted(names - self._doors):
-            thing = self.scene.object(name)
-            parts = opened(thing) if thing is not None else []
-            if thing is not None and parts:
-                if _door(name) not in self.home.bodies:
-                    self.home.show_only(_door(name), parts, thing.cls)
-                self.home.move(_door(name), thing.position, thing.yaw)
-                self._doors.add(name)
 
     def _put_person(self, agent: AgentId, person: Placed) -> None:
         heading = about_z(person.yaw)
@@ -302,7 +288,7 @@ class Stage:
         if self.drawer is None:
             raise ConfigError("renderer: depth and segmentation are drawn by gl alone.")
         names = {body: name for name, body in self.home.rooms.items()}
-        names |= {body: name.removesuffix(_OPEN) for name, body in self.home.bodies.items()}
+        names |= {body: name.partition(OPEN)[0] for name, body in self.home.bodies.items()}
         names |= {body: str(agent) for agent, body in self.bodies.items()}
         return self.drawer.view(camera, size, names)
 
@@ -331,10 +317,6 @@ class Stage:
             )
         image: Image = np.asarray(colours, dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
         return image, np.asarray(mask, dtype=np.int64).reshape(height, width)
-
-
-def _door(name: str) -> str:
-    return name + _OPEN
 
 
 def _looks(state: HomeState, thing: SceneObject) -> str:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.sight.cameras import robot_camera
 from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of, person_body
 from coopera.simulation.sight.labels import Name, labelled
-from coopera.simulation.sight.recording import Recording, Shot, watching
+from coopera.simulation.sight.recording import Recording, Shot
 from coopera.simulation.sight.sampling import telling_ticks
+from coopera.simulation.sight.turning import watching
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 
@@ -120,6 +122,19 @@ def test_most_frames_of_a_motion_are_of_the_motion(home, count, before) -> None:
     last = home._recording.shots[-1]
     begun = home._recording.ticks - last.ticks + last.begun
     assert 1 <= sum(tick < begun for tick in ticks_of(home, count)) <= before
+
+
+def test_of_a_motion_with_two_phases_frames_show_them_by_turns(home) -> None:
+    home.restore({})
+    assert home.perform(HUMAN, move("dining_table_1", "bowl", "eat a meal"), record=True).ok
+    recording = home._recording
+    shot = recording.shots[-1]
+    up, down = (shot.at(shot.begun + round(share * (shot.ticks - shot.begun))) for share in (0.0, 0.25))
+    phases = [tick // 20 % 2 == 1 for tick in range(240)]
+    twofold = replace(recording, shots=[Shot(240, lambda tick: up if phases[tick] else down, 120, 0, 0)])
+    assert not np.allclose(up.bodies[HUMAN].pose, down.bodies[HUMAN].pose)
+    shown = [phases[tick] for tick in telling_ticks(twofold, home._ground.robots, 5)]
+    assert all(one is not other for one, other in zip(shown, shown[1:], strict=False))
 
 
 def test_few_frames_show_the_taking_the_carrying_and_the_putting_down(home) -> None:
