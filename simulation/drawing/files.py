@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from functools import lru_cache
 from importlib import import_module
 from importlib.util import find_spec
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_limited
 from coopera.simulation.drawing.geometry import Faces, Floats, Solid, flat_uv
 
 _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("extra", "<u2")])
@@ -58,8 +60,9 @@ def _dae(path: Path) -> Solid:
     if find_spec("trimesh") is None or find_spec("collada") is None:
         raise ConfigError(f"{path}: a mesh of this kind needs trimesh and pycollada (pip install trimesh pycollada).")
     trimesh: Any = import_module("trimesh")
+    data = read_limited(path, what="mesh")
     try:
-        mesh = trimesh.load(path, force="mesh")
+        mesh = trimesh.load(io.BytesIO(data), file_type="dae", force="mesh")
     except Exception as err:  # whatever is wrong in it comes as an error of its own kind
         raise ValueError(" ".join(str(err).split())[:200] or type(err).__name__) from err
     at, normal = mesh.vertices.astype(np.float32), mesh.vertex_normals.astype(np.float32)
