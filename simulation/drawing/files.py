@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import io
 from functools import lru_cache
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -57,9 +55,10 @@ def _faceted(corners: Floats) -> Solid:
 
 
 def _dae(path: Path) -> Solid:
-    if find_spec("trimesh") is None or find_spec("collada") is None:
-        raise ConfigError(f"{path}: a mesh of this kind needs trimesh and pycollada (pip install trimesh pycollada).")
-    trimesh: Any = import_module("trimesh")
+    if find_spec("collada") is None:
+        raise ConfigError(f"{path}: a mesh of this kind needs pycollada (pip install pycollada).")
+    import trimesh  # noqa: PLC0415 - heavy
+
     data = read_limited(path, what="mesh")
     try:
         mesh = trimesh.load(io.BytesIO(data), file_type="dae", force="mesh")
