@@ -1,1 +1,4 @@
-"""Homes of ProcTHOR: house JSON as it is published, read, understood and drawn from our own shapes or as boxes."""
+"""Import of ProcTHOR's houses: rooms and doors as they are published, objects as ours of the published sizes.
+
+What is guessed and what is left out is said in a report.
+"""
