@@ -85,7 +85,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def answer(self, body: str | bytes, status: int = 200, **more: str) -> None:
         data = body.encode() if isinstance(body, str) else body
-        kind = {"content_type": "application/json", **more}
+        kind = {"content_type": "application/json", "connection": "close", **more}
         self.raw([self.head(status, **{"content_length": str(len(data)), **kind}), data])
 
 

@@ -1,4 +1,4 @@
-"""Import of ProcTHOR's houses: rooms and doors as they are published, objects as ours of the published sizes.
+"""Homes of ProcTHOR: house JSON as it is published becomes a home of ours.
 
-What is guessed and what is left out is said in a report.
+Its objects are drawn by our own shapes where their types or names say what they are, and as boxes where not.
 """

@@ -136,7 +136,7 @@ def test_a_mistake_in_a_flag_names_the_flag(tmp_path: Path, flags: dict[str, Any
         ({"setting": 2}, "scenes: setting 2 needs 5, and only maple exists."),
         ({"setting": 4}, "scenes: setting 4 needs 3, and only maple exists."),
         ({"setting": 3, "humans": ["amara", "bruno"]}, "humans: setting 3 takes 3 or a multiple of it, not 2"),
-        ({"robot": "tank"}, "robot: there is no robot 'tank' (known are fetch, husky_panda)."),
+        ({"robot": "tank"}, "robot: there is no robot 'tank' (known are fetch, husky_panda, stretch, tiago)."),
         ({"motions": Path("/nowhere")}, "motions: /nowhere must be a folder with .npy or .npz clips"),
         ({"prompts": Path("/nowhere")}, "prompts: /nowhere must be a folder of prompt files"),
     ],
