@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 RUN = (sys.executable, "-c", "import sys; from coopera.cli import main; sys.exit(main())")
-PAUSE = 0.02
 HELP, FIRST = 0.3, 3.0
 
 

@@ -150,7 +150,7 @@ def _grid_text(bench: Benchmark) -> str:
 
 
 def _check_grid(bench: Benchmark) -> dict[str, Any] | None:
-    """Return the endpoint of the folder's grid.yaml, if there is one; refuse  a grid that differs in what may not."""
+    """Return the endpoint of the folder's grid.yaml, if there is one; refuse a grid that differs in what may not."""
     path = bench.root / "grid.yaml"
     if not path.is_file():
         return None

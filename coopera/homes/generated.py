@@ -20,6 +20,11 @@ class Wanted(NamedTuple):
     rooms: int | None = None
     things: int | None = None
 
+    def fits(self, home: Scene) -> bool:
+        """Whether a home has as many rooms, and no more things: those that find no place are left out."""
+        rooms = self.rooms is None or len(home.rooms) == self.rooms
+        return rooms and (self.things is None or len(home.movable) <= self.things)
+
     def flags(self) -> str:
         """As the command line has it."""
         return "".join(f" --{name} {value}" for name, value in self._asdict().items() if value is not None)
@@ -70,8 +75,8 @@ def make_many(
         id: What they are called before their number, and the card.
         folder: Where homes are stored; the card lies beside this folder.
         wanted: Rooms and things of each; else 3 to 11 rooms, and about 8 things for each room.
-        force: Replace homes that are there already; else one that is there from the same seed is kept, so that the
-            same command goes on where it was ended.
+        force: Replace homes that are there already; else one that is there from the same seed, with as many rooms as
+            are asked for and no more things, is kept, so that the same command goes on where it was ended.
         say: Told what is done.
 
     Raises:
@@ -83,7 +88,7 @@ def make_many(
     if not 1 <= count <= MOST_HOMES:
         raise ConfigError(f"--count must be from 1 to {MOST_HOMES}, not {count}.")
     ids = [f"{id}-{number:04d}" for number in range(count)]
-    kept = {} if force else _kept(ids, seed, folder)
+    kept = {} if force else _kept(ids, seed, folder, wanted)
     files = [folder / f"{one}.json" if one in kept else place_for(one, folder, force=force) for one in ids]
     homes = []
     for number, (name, file) in enumerate(zip(ids, files, strict=True)):
@@ -99,8 +104,12 @@ def make_many(
     return Made(homes, files, folder.parent / f"{id}.card.md")
 
 
-def _kept(ids: Sequence[str], seed: int, folder: Path) -> dict[str, Scene]:
-    """The homes that are there from the seeds that are asked for."""
+def _kept(ids: Sequence[str], seed: int, folder: Path, wanted: Wanted) -> dict[str, Scene]:
+    """The homes that are there and could be those that are asked for, by their seeds, rooms and things."""
     there = {name: folder / f"{name}.json" for name in ids}
     found = {name: load_scene(file) for name, file in there.items() if file.is_file()}
-    return {name: home for name, home in found.items() if home.seed == seed + ids.index(name)}
+    return {
+        name: home
+        for number, name in enumerate(ids)
+        if (home := found.get(name)) is not None and home.seed == seed + number and wanted.fits(home)
+    }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -17,6 +17,8 @@ from coopera.studies.own_files import meshes_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from coopera.simulation.making.report import Imported
 
 _INSTANCE = ".scene_instance.json"
 _DATASET = ".scene_dataset_config.json"
@@ -31,6 +33,12 @@ class Told(NamedTuple):
     problems: Sequence[str]
     understood: Sequence[str] = ()
     guessed: Sequence[str] = ()
+
+    @classmethod
+    def of(cls, found: Imported) -> Told:
+        """What an importer says."""
+        said = found.report
+        return cls(said.left_out, found.problems, said.understood, said.guessed)
 
     def lines(self) -> list[str]:
         """All of it, a sentence each."""
@@ -136,9 +144,7 @@ def bring_in(
     for name in wanted:
         place_for(scene_id(name), folder, force=force)
         found = import_scene(dataset, name, skip_missing=skip_missing, nearest=_nearest)
-        said = found.report
-        told = Told(said.left_out, found.problems, said.understood, said.guessed)
-        arrivals.append(_arrive(found.scene, told, folder, meshes=found.meshes, force=force))
+        arrivals.append(_arrive(found.scene, Told.of(found), folder, meshes=found.meshes, force=force))
     return arrivals
 
 
@@ -155,8 +161,7 @@ def _house(path: Path, folder: Path, assets: Path | None, *, force: bool) -> Arr
     id = "-".join(re.findall(r"[a-z0-9]+", path.name.lower().removesuffix(".json")))[:60] or "house"
     place_for(id, folder, force=force)
     found = import_house(read_house(path), id, path, read_assets(assets) if assets else None)
-    told = Told(found.report.left_out, found.problems, found.report.understood, found.report.guessed)
-    return _arrive(found.scene, told, folder, meshes={}, force=force)
+    return _arrive(found.scene, Told.of(found), folder, meshes=found.meshes, force=force)
 
 
 def _need_doors(home: Scene, path: Path) -> None:
@@ -168,7 +173,7 @@ def _need_doors(home: Scene, path: Path) -> None:
             )
 
 
-def _arrive(scene: Scene, told: Told, folder: Path, *, meshes: dict[str, str], force: bool) -> Arrival:
+def _arrive(scene: Scene, told: Told, folder: Path, *, meshes: Mapping[str, str], force: bool) -> Arrival:
     file = place_for(scene.id, folder, force=force)
     for name, text in meshes.items():
         write_output(folder / f"{scene.id}.meshes" / name, text)

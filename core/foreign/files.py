@@ -90,6 +90,14 @@ def read_json(path: Path, what: str = "JSON file", most_bytes: int = MOST_TEXT) 
         raise ConfigError(f"{path}: this is not valid JSON ({err}).") from err
 
 
+def exists(path: Path) -> bool:
+    """Whether there is such a file; no error of a name that no file can have."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def _inside(one: dict[str, Any] | list[Any]) -> list[Any]:
     inner = one.values() if isinstance(one, dict) else one
     return [value for value in inner if isinstance(value, dict | list)]

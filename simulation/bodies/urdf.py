@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from coopera.core.errors import ConfigError
-from coopera.core.foreign.files import read_text
+from coopera.core.foreign.files import exists, read_text
 from coopera.core.registry import nearest
 from coopera.simulation.shapes.rotations import Array, about_x, about_y, about_z
 
@@ -26,6 +26,8 @@ OF_PYBULLET = "pybullet_data/"
 """With this begins a mesh that comes from what ships with pybullet."""
 MOST_BYTES = 16 * 2**20
 MOST_LINKS = 1000
+DEEPEST = 20
+"""No element lies deeper: of what URDF has none lies deeper than five, and copying recurses."""
 FLOOR = "the_floor_under_the_robot"
 """The link that is put before the root of a description whose origin is not under the robot's middle."""
 _MOVES = ("revolute", "continuous", "prismatic")
@@ -162,6 +164,7 @@ def read_urdf(path: Path) -> Urdf:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as err:
         raise ConfigError(f"{path}, line {err.position[0]}: this is not valid XML.") from err
+    _check_depth(path, root)
     if root.tag != "robot":
         kind = _OTHERS.get(root.tag)
         said = f"this is {kind}; only URDF is read" if kind else f"a URDF begins with <robot>, not <{root.tag}>"
@@ -206,6 +209,14 @@ def known(of: str, name: str, names: Sequence[str] | frozenset[str]) -> str:
     """The end of a sentence about a name that a description does not have."""
     hint = nearest(name, sorted(names)).strip()
     return f"the URDF has no {of} {name!r}" + (f" ({hint})" if hint else "")
+
+
+def _check_depth(path: Path, root: Element) -> None:
+    level = [root]
+    for _ in range(DEEPEST):
+        level = [inner for one in level for inner in one]
+    if level:
+        raise ConfigError(f"{path}: its elements lie more than {DEEPEST} deep within each other.")
 
 
 def _refuse_twice(path: Path, what: str, names: Sequence[str]) -> None:
@@ -343,7 +354,7 @@ def _mesh(path: Path, name: str) -> str:
             raise ConfigError(f"{path}: the mesh {name!r} is missing; no folder above this file is called {package!r}.")
     else:
         found = path.absolute().parent / name.removeprefix("file://")
-    if found is None or not found.is_file():
+    if found is None or not exists(found):
         where = "" if "://" in name else "; it must be in this file's folder"
         raise ConfigError(f"{path}: the mesh {name!r} is missing{where}.")
     return str(found)

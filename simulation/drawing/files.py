@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import io
 from functools import lru_cache
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_limited, read_text
 from coopera.simulation.drawing.geometry import Faces, Floats, Solid, flat_uv
 
 _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("extra", "<u2")])
@@ -33,7 +34,7 @@ def read_solid(path: Path) -> Solid:
 
 
 def _stl(path: Path) -> Solid:
-    data = path.read_bytes()
+    data = read_limited(path, what="mesh")
     count = int.from_bytes(data[80:84], "little")
     if len(data) == 84 + count * _STL.itemsize:
         corners = np.frombuffer(data, _STL, count, 84)["corners"]
@@ -55,11 +56,13 @@ def _faceted(corners: Floats) -> Solid:
 
 
 def _dae(path: Path) -> Solid:
-    if find_spec("trimesh") is None or find_spec("collada") is None:
-        raise ConfigError(f"{path}: a mesh of this kind needs trimesh and pycollada (pip install trimesh pycollada).")
-    trimesh: Any = import_module("trimesh")
+    if find_spec("collada") is None:
+        raise ConfigError(f"{path}: a mesh of this kind needs pycollada (pip install pycollada).")
+    import trimesh  # noqa: PLC0415 - heavy
+
+    data = read_limited(path, what="mesh")
     try:
-        mesh = trimesh.load(path, force="mesh")
+        mesh: Any = trimesh.load(io.BytesIO(data), file_type="dae", force="mesh")
     except Exception as err:  # whatever is wrong in it comes as an error of its own kind
         raise ValueError(" ".join(str(err).split())[:200] or type(err).__name__) from err
     at, normal = mesh.vertices.astype(np.float32), mesh.vertex_normals.astype(np.float32)
@@ -70,7 +73,7 @@ def _obj(path: Path) -> Solid:
     points: list[list[float]] = []
     normals: list[list[float]] = []
     corners: list[tuple[int, int]] = []
-    for line in path.read_text(encoding="utf-8").splitlines():
+    for line in read_text(path, "mesh").splitlines():
         kind, _, rest = line.partition(" ")
         if kind == "v":
             points.append([float(word) for word in rest.split()[:3]])

@@ -11,7 +11,7 @@ import numpy as np
 from coopera.simulation.drawing.geometry import Mesh, Solid, fine_box, flat_uv, merged, painted
 from coopera.simulation.drawing.materials import PANE, Material, wooden
 from coopera.simulation.homes.catalogue import catalogue, parts_of
-from coopera.simulation.homes.floorplan import WALL_THICKNESS, Block, Wall, wall_on
+from coopera.simulation.homes.floorplan import PARALLEL, WALL_THICKNESS, Block, Wall, wall_on
 from coopera.simulation.homes.scene import Doorway, Room, Scene, rgb_of
 from coopera.simulation.shapes.kit import WHITE, Colour, shade
 from coopera.simulation.shapes.rotations import about_z
@@ -23,8 +23,6 @@ _CEILING: Colour = (0.96, 0.955, 0.945)
 _SKIRTING = 0.07
 _STEP = 0.8
 """Floors and walls are divided into pieces no larger, since daylight is reckoned at their corners."""
-_PARALLEL = 0.01
-"""Lines whose slopes differ by less run along each other."""
 _TILED = ("kitchen", "bathroom", "laundry room", "garage")
 
 
@@ -123,7 +121,7 @@ def faces_of(room: Room, wall: Wall) -> list[Block]:
     for side, inward, turns_in in room.edges:
         start, end = max(wall.start, side.start), min(wall.end, side.end)
         own = side.line
-        if side.axis != wall.axis or end - start < 0.02 or abs(own.slope - line.slope) > _PARALLEL:
+        if side.axis != wall.axis or end - start < 0.02 or abs(own.slope - line.slope) > PARALLEL:
             continue
         middle = (start + end) / 2
         if abs(own.across(middle) - line.across(middle)) >= 0.03:

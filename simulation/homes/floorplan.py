@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Literal, NamedTuple, TypeAlias
 
+PARALLEL = 0.01
+"""Lines whose slopes differ by less run along each other."""
 TOUCH = 0.02
 """Rooms whose edges lie within this distance share a wall."""
 WALL_THICKNESS = 0.10

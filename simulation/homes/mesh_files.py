@@ -44,6 +44,8 @@ def _read(path: Path, kind: str) -> list[Any]:
     try:
         beside = _Beside(path.parent)
         scene = trimesh.load_scene(io.BytesIO(data), file_type=kind[1:], resolver=beside, process=False)
+        shown = [scene.geometry[scene.graph[node][1]] for node in scene.graph.nodes_geometry]
+        _check_count(path, [one for one in shown if isinstance(one, trimesh.Trimesh)])
         return [one for one in scene.dump() if isinstance(one, trimesh.Trimesh)]
     except ConfigError:
         raise
@@ -70,6 +72,12 @@ class _Beside(Mapping[str, bytes]):
         return 0
 
 
+def _check_count(path: Path, shown: list[Any]) -> None:
+    """Refuse too many corners before they are copied for each node that shows them."""
+    if max(sum(len(one.vertices) for one in shown), sum(len(one.faces) for one in shown)) > MOST_CORNERS:
+        raise ConfigError(f"{path}: the mesh has more than {MOST_CORNERS} corners or triangles.")
+
+
 def _checked(path: Path, found: list[Any]) -> Mesh:
     corners, triangles, colours, count = [], [], [], 0
     for one in found:
@@ -79,8 +87,6 @@ def _checked(path: Path, found: list[Any]) -> Mesh:
         count += len(corners[-1])
     if not sum(map(len, triangles)):
         raise ConfigError(f"{path}: the mesh shows nothing.")
-    if count > MOST_CORNERS or sum(map(len, triangles)) > MOST_CORNERS:
-        raise ConfigError(f"{path}: the mesh has more than {MOST_CORNERS} corners or triangles.")
     mesh = Mesh(np.concatenate(corners), np.concatenate(triangles), np.concatenate(colours))
     if not np.isfinite(mesh.corners).all():
         raise ConfigError(f"{path}: the mesh holds a number that is not finite.")

@@ -22,7 +22,7 @@ from coopera.core.foreign.files import load_json, read_text
 from coopera.core.household import ObjectMap, SceneId
 from coopera.core.notebook.cards import card
 from coopera.core.people import Frozen
-from coopera.simulation.homes.floorplan import TOUCH, Bounds, Line, Point, Wall, cut, merge, wall_on
+from coopera.simulation.homes.floorplan import PARALLEL, TOUCH, Bounds, Line, Point, Wall, cut, merge, wall_on
 from coopera.simulation.homes.measured import Measured
 from coopera.simulation.homes.plan_card import Area, Footprint, floor_plan
 from coopera.simulation.homes.rooms import Place
@@ -32,8 +32,6 @@ SHIPPED = Path(__file__).parents[1] / "scenes"
 SCHEMA_VERSION = 1
 DOOR_WIDTH = 0.95
 MOST_ROOMS, MOST_THINGS = 500, 10_000
-_PARALLEL = 0.01
-"""Lines whose slopes differ by less run along each other."""
 
 ID = r"^[a-z0-9][a-z0-9_-]{0,63}$"
 """What a home may be called."""
@@ -267,7 +265,7 @@ def _beside(door: Doorway, line: Line, side: Wall) -> bool:
     if side.axis != line.axis or not side.start <= along <= side.end:
         return False
     own = side.line
-    return abs(own.slope - line.slope) < _PARALLEL and abs(own.across(along) - line.across(along)) <= 2 * TOUCH
+    return abs(own.slope - line.slope) < PARALLEL and abs(own.across(along) - line.across(along)) <= 2 * TOUCH
 
 
 def _gap(door: Doorway, line: Line) -> tuple[float, float]:

@@ -26,8 +26,9 @@ _MARGIN, _TALL, _LENS = 1.2, 1.15, (22.0, 56.0)
 and the narrowest and the widest lens."""
 _RING = ((2.0, 2.5, 1.5, 1.2), 24, (1.5, 1.9, 2.35))  # PAPER says no camera; radii (m), angles, heights (m) are ours
 _CORNER = (0.25, 2.2)
-_OFF_WALL = 0.12
 """How far from a room's walls, and how high, the cameras in its corners are (metres)."""
+_OFF_WALL = 0.12
+"""How far from a room's walls any camera across the room is, at least (metres)."""
 _WATCH = (1.1, 4.5)
 _COMFORT = 2.1
 _KEEP_OFF = (0.65, 0.9)

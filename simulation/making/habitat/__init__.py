@@ -1,4 +1,4 @@
-"""The import of homes from the Habitat Synthetic Scenes Dataset (HSSD).
+"""Import of homes in Habitat's layout, those of HSSD and ReplicaCAD among them.
 
-Its files, names and walls become a home of ours.
+Their files, names, meshes and walls become homes of ours.
 """

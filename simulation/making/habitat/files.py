@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import exists, read_text
 from coopera.core.foreign.files import read_json as read_any_json
-from coopera.core.foreign.files import read_text
 from coopera.core.foreign.tables import read_table
 from coopera.simulation.homes.glb import Array
 from coopera.simulation.homes.mesh_files import FORMATS
@@ -183,7 +183,7 @@ class Folder:
         file = Path(os.path.normpath(source.base.parent / asset))
         if not file.is_relative_to(os.path.normpath(self.root)):
             raise ConfigError(f"{path}, field {field}: must name a file within {self.root}, not {asset!r}.")
-        if not _exists(file):
+        if not exists(file):
             raise FileNotFoundError(f"{path}, field {field}: there is no file {file}.")
         label = "" if config.semantic_id is None else self._words.get(config.semantic_id, "")
         return Template(config, file, _frame(config, path), row, "openings" in path.parts, name, label)
@@ -261,13 +261,6 @@ def _find(found: dict[str, _Source], handle: str, end: str) -> tuple[str, _Sourc
     if key not in found:
         key = next((one for one in sorted(found) if key and key in one), "")
     return (key, found[key]) if key else None
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):  # a name that no file can have
-        return False
 
 
 def _frame(config: AssetConfig, path: Path) -> Array:

@@ -22,20 +22,9 @@ from coopera.simulation.making.habitat.rooms import STOREY, ground_of
 from coopera.simulation.making.habitat.schema import Instance
 from coopera.simulation.making.habitat.shaping import shaped
 from coopera.simulation.making.proof import prove
-from coopera.simulation.making.report import Report
+from coopera.simulation.making.report import HIGHEST, Imported, Report
 
-HIGHEST = 2.0
-"""What hangs higher above the floor is left out: nobody gets there."""
 LONGEST = 20.0
-
-
-class Imported(NamedTuple):
-    """A home, the report of its import, what `prove` says of it, and the files of its meshes by their names."""
-
-    scene: Scene
-    report: Report
-    problems: list[str]
-    meshes: dict[str, str]
 
 
 class Recognised(NamedTuple):

@@ -13,6 +13,7 @@ from coopera.core.household import plain
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.magic_box import looks
 from coopera.simulation.making.habitat.schema import CatalogueRow
+from coopera.simulation.making.report import PLAIN
 
 Nearest: TypeAlias = Callable[[str, tuple[str, ...]], tuple[str, float] | None]
 """Which of some words come nearest to a text in meaning, and how near in [0, 1]; None where none is near."""
@@ -43,7 +44,6 @@ _ALSO = {
     **{"handbag": "handbag", "bag": "handbag", "knife": "kitchen_knife", "shoe": "shoes", "photo": "picture_frame"},
 }
 """Further words that names of files are made of; only where nobody says more."""
-_COLOURS = ("#8a6d4f", "#6f7f8a", "#9a8f7a", "#7a6a84", "#6d8570", "#a07a62")
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _LARGER = 4.0
 _LONGEST, _LARGEST = 0.45, 0.015  # of what is carried, metres and cubic metres
@@ -136,7 +136,7 @@ def carried(cls: str, size: tuple[float, float, float]) -> bool:
 def colour_of(cls: str, category: str) -> str:
     """A colour for an imported object, the same for all of its class."""
     known = catalogue().fixed.get(cls) or catalogue().movable.get(cls)
-    return known.colours[0] if known else _COLOURS[zlib.crc32(f"{category} {cls}".encode()) % len(_COLOURS)]
+    return known.colours[0] if known else PLAIN[zlib.crc32(f"{category} {cls}".encode()) % len(PLAIN)]
 
 
 def _classes() -> frozenset[str]:

@@ -119,7 +119,7 @@ def _rooms(regions: list[Region], floor: float, report: Report) -> list[Room]:
             report.left_out.append(f"{region.title}: the region is narrower than 0.8 m")
             continue
         kind = slug(region.title.partition("_")[0] or region.title, " ") or "room"
-        kind = kind.strip(" 0123456789") or "room"
+        kind = kind.strip(" 0123456789")[:50].strip() or "room"
         count[kind] += 1
         name = kind if count[kind] == 1 else f"{kind} {count[kind]}"
         loop = [(round(x, 4), round(-z, 4)) for x, _, z in region.poly_loop]

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from coopera.simulation.homes.glb import Array
+from coopera.simulation.homes.rooms import MOST_CORNERS, Place
 from coopera.simulation.homes.scene import MOST_ROOMS, MOST_THINGS
 from coopera.simulation.homes.untrusted import Loose
 
@@ -87,11 +88,10 @@ class Region(Loose):
 
     name: str | None = None
     label: str | None = None
-    poly_loop: list[Three] = Field([], max_length=MOST_THINGS)
+    poly_loop: list[tuple[Place, Place, Place]] = Field([], max_length=MOST_CORNERS)
     floor_height: float | None = None
-    extrusion_height: float | None = None
-    min_bounds: Three | None = None
-    max_bounds: Three | None = None
+    min_bounds: tuple[Place, Place, Place] | None = None
+    max_bounds: tuple[Place, Place, Place] | None = None
 
     @property
     def title(self) -> str:
@@ -103,7 +103,7 @@ class Region(Loose):
         """Height of its floor."""
         if self.floor_height is not None:
             return self.floor_height
-        return self._corners[:, 1].min() if self.has_place else 0.0
+        return float(self._corners[:, 1].min()) if self.has_place else 0.0
 
     @property
     def has_place(self) -> bool:

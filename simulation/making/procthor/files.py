@@ -20,6 +20,8 @@ from coopera.simulation.homes.scene import MOST_ROOMS, MOST_THINGS
 from coopera.simulation.homes.untrusted import Loose, read_json
 
 Length = Annotated[float, Field(ge=-1e4, le=1e4)]
+Near = Annotated[float, Field(ge=-90, le=90)]
+"""A home of ours reaches 100 m from its origin; parts of things may stand beside their places."""
 Text = Annotated[str, Field(max_length=200)]
 MOST_ASSETS = 100_000
 
@@ -37,12 +39,19 @@ class Vector(Loose):
         return round(self.x, 4), round(self.z, 4)
 
 
+class Place(Vector):
+    """A place in a home."""
+
+    x: Near = 0.0
+    z: Near = 0.0
+
+
 class Item(Loose):
     """An object, and what lies in or on it; `position` is the middle of its box, and not relative to its parent."""
 
     id: Text = ""
     asset: Text = Field(alias="assetId")
-    position: Vector
+    position: Place
     rotation: Vector = Vector()
     children: list[Item] = Field([], max_length=MOST_THINGS)
 
@@ -52,7 +61,7 @@ class RoomRow(Loose):
 
     id: Text
     kind: Text = Field(alias="roomType", min_length=1)
-    corners: list[Vector] = Field(alias="floorPolygon", min_length=3, max_length=MOST_CORNERS)
+    corners: list[Place] = Field(alias="floorPolygon", min_length=3, max_length=MOST_CORNERS)
 
 
 class WallRow(Loose):
@@ -60,7 +69,7 @@ class WallRow(Loose):
 
     id: Text
     room: Text = Field("", alias="roomId")
-    corners: list[Vector] = Field(alias="polygon", min_length=2, max_length=16)
+    corners: list[Place] = Field(alias="polygon", min_length=2, max_length=16)
     empty: bool = False
 
     @property

@@ -24,12 +24,10 @@ from coopera.simulation.making.procthor.files import Asset, House, Item
 from coopera.simulation.making.procthor.plan import plan_of
 from coopera.simulation.making.procthor.things import Kind, kind_of
 from coopera.simulation.making.proof import prove
-from coopera.simulation.making.report import Report
+from coopera.simulation.making.report import HIGHEST, PLAIN, Imported, Report
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.ways.navigation import REACH, Navigator
 
-HIGHEST = 2.0
-"""What hangs higher above the floor is left out: nobody gets there."""
 _OFF_WALL = 0.055
 """From a room's edge to furniture: half a wall, and a hair."""
 _STEP, _FARTHEST = 0.05, 0.8
@@ -42,15 +40,6 @@ _BEFORE_DOOR = 0.7
 """Furniture keeps this clear of the middle of a door where it can, in metres."""
 _RUN = 0.65
 """Depth of the runs of a counter that goes around a corner."""
-_GREY = ("#8a6d4f", "#6f7f8a", "#9a8f7a", "#7a6a84", "#6d8570", "#a07a62")
-
-
-class Imported(NamedTuple):
-    """A home, what `prove` says of it, and what was understood, guessed and left out."""
-
-    scene: Scene
-    problems: list[str]
-    report: Report
 
 
 class _Piece(NamedTuple):
@@ -89,7 +78,7 @@ def import_house(house: House, id: str, path: Path, assets: Mapping[str, Asset] 
     ways = f"{len(scene.doors)} doors and openings"
     report.understood.append(f"{len(scene.rooms)} rooms, {polygons} of them no rectangles, and {ways}")
     report.understood.append(f"{len(scene.fixed)} pieces of furniture, {things}")
-    return Imported(scene, prove(scene), report)
+    return Imported(scene, report, prove(scene))
 
 
 class _Maker:
@@ -277,7 +266,7 @@ def _runs(piece: _Piece, scene: Scene) -> list[_Piece]:
 def _object(piece: _Piece, room: Room, id: int, name: str) -> SceneObject:
     kind = piece.kind
     known = catalogue().fixed.get(kind.cls) or catalogue().movable.get(kind.cls)
-    colours = known.colours if known else _GREY
+    colours = known.colours if known else PLAIN
     return SceneObject(
         id=id,
         name=name,

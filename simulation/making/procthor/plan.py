@@ -97,7 +97,7 @@ def _open_walls(house: House, rooms: dict[str, Room]) -> list[Doorway]:
         if wall.empty and wall.room in rooms:
             sides.setdefault(tuple(sorted(wall.foot)), []).append(wall.room)
     doors = []
-    for (begin, end), both in sorted((key, value) for key, value in sides.items()):
+    for (begin, end), both in sorted(sides.items()):
         length = math.dist(begin, end) - 2 * _TRIM
         if len(set(both)) != 2 or length < NARROWEST:
             continue

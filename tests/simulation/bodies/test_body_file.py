@@ -287,6 +287,10 @@ def test_what_is_wrong_in_a_description_is_named_with_its_place(mine: Path, old:
         ),
         ("<robot/>", "mine.urdf: exactly one link must be no joint's child, the base; here it is none."),
         ("<robot>" + "<link/>" * 2000 + "</robot>", "mine.urdf: it has 2000 links, and at most 1000 are read."),
+        (
+            "<robot>" + "<a>" * 99 + "</a>" * 99 + "</robot>",
+            "mine.urdf: its elements lie more than 20 deep within each other.",
+        ),
         (" " * (17 << 20), "mine.urdf: the URDF has more than 16 MiB, and at most that many are read."),
     ],
 )

@@ -19,8 +19,9 @@ from coopera.core.errors import ConfigError
 from coopera.simulation.homes.catalogue import interiors, surfaces
 from coopera.simulation.homes.mesh_files import read_mesh
 from coopera.simulation.making.habitat.files import Folder
-from coopera.simulation.making.habitat.homes import Imported, import_scene
+from coopera.simulation.making.habitat.homes import import_scene
 from coopera.simulation.making.habitat.names import Guesser
+from coopera.simulation.making.report import Imported
 from tests.simulation.synthetic_habitat import CUSHION, DESK, MATTRESS, SCENE, box, glb, obj, placed, write_habitat
 from tests.simulation.synthetic_hssd import SCENE as HSSD_SCENE
 from tests.simulation.synthetic_hssd import change, write_hssd, write_json
@@ -222,6 +223,43 @@ def test_a_gltf_of_several_files_is_read_and_names_no_file_elsewhere(tmp_path: P
     (tmp_path / "box.gltf").write_text(json.dumps(document))
     with pytest.raises(ConfigError, match=r"box\.gltf: the mesh cannot be read"):
         read_mesh(tmp_path / "box.gltf")
+
+
+def test_a_gltf_that_shows_one_mesh_a_thousand_times_is_refused_before_it_is_copied(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = trimesh.Scene()
+    mesh = trimesh.creation.icosphere(subdivisions=4)
+    for _ in range(1000):
+        scene.add_geometry(mesh, geom_name="ball")
+    for name, data in scene.export(file_type="gltf").items():
+        (tmp_path / name.replace("model", "balls")).write_bytes(data)
+    monkeypatch.setattr(trimesh.Scene, "dump", lambda *_: pytest.fail("copied"))
+    with pytest.raises(ConfigError, match="more than 2000000 corners or triangles"):
+        read_mesh(tmp_path / "balls.gltf")
+
+
+@pytest.mark.parametrize(
+    ("region", "said"),
+    [
+        ({"label": "hall", "poly_loop": [[0, 0, -6], [700, 0, -6], [700, 0, 0]]}, "region_annotations.0.poly_loop.1.0"),
+        ({"label": "hall", "poly_loop": [[n / 99, 0, -6] for n in range(600)]}, "region_annotations.0.poly_loop"),
+        ({"label": "hall", "min_bounds": [0, 0, -6], "max_bounds": [7, 1e9, 0]}, "region_annotations.0.max_bounds.1"),
+    ],
+)
+def test_a_region_that_cannot_be_is_one_sentence(flat: Path, region: dict[str, object], said: str) -> None:
+    write_json(flat / f"configs/scenes/{SCENE}.semantic_config.json", {"region_annotations": [region]})
+    with pytest.raises(ConfigError, match=said):
+        import_scene(Folder(flat), SCENE)
+
+
+def test_a_region_with_a_long_name_is_a_room_with_a_shorter_one(flat: Path) -> None:
+    halves = [
+        {"label": "hall" * 30, "poly_loop": [[x, 0, -6], [x + 3.5, 0, -6], [x + 3.5, 0, 0], [x, 0, 0]]}
+        for x in (0, 3.5)
+    ]
+    write_json(flat / f"configs/scenes/{SCENE}.semantic_config.json", {"region_annotations": halves})
+    assert len({room.name for room in import_scene(Folder(flat), SCENE).scene.rooms}) == 2
 
 
 @pytest.mark.parametrize("kind", ["ply", "stl", "obj"])

@@ -15,7 +15,8 @@ from coopera.core.errors import ConfigError
 from coopera.simulation.homes.glb import read_glb
 from coopera.simulation.homes.scene import SceneObject
 from coopera.simulation.making.habitat.files import AssetConfig, CatalogueRow, Folder, Instance, Template
-from coopera.simulation.making.habitat.homes import HIGHEST, Imported, box_of, import_scene
+from coopera.simulation.making.habitat.homes import box_of, import_scene
+from coopera.simulation.making.report import HIGHEST, Imported
 from tests.simulation.synthetic_hssd import (
     BED,
     INSTANCES,

@@ -13,8 +13,9 @@ from coopera.core.household import PickPlace
 from coopera.simulation import World
 from coopera.simulation.homes.scene import SceneObject, load_scene
 from coopera.simulation.making.procthor.files import Item, read_assets, read_house
-from coopera.simulation.making.procthor.homes import Imported, import_house
+from coopera.simulation.making.procthor.homes import import_house
 from coopera.simulation.making.procthor.things import kind_of
+from coopera.simulation.making.report import Imported
 from tests.simulation.procthor_house import ASSETS, house, thing
 
 
@@ -147,6 +148,8 @@ def _put(*path: Any, value: Any) -> Any:
         (_put("objects", 0, "position", "x", value="left"), "field objects.0.position.x"),
         (_put("objects", 1, "children", 0, "position", value=3), "field objects.1.children.0.position"),
         (_put("objects", 0, "position", "x", value=1e9), "field objects.0.position.x"),
+        (_put("objects", 0, "position", "x", value=500.0), "field objects.0.position.x"),
+        (_put("walls", 2, "polygon", 0, "x", value=5000.0), "field walls.2.polygon.0.x"),
     ],
 )
 def test_a_house_that_cannot_be_is_one_sentence_and_nothing_is_written(

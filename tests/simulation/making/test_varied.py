@@ -89,6 +89,9 @@ def test_many_homes_come_with_a_card_and_are_not_made_twice(tmp_path: Path, caps
     assert main([*command[:3], "3", *command[4:], "--seed", "7"]) == 2
     assert "there is a home of this id already" in capsys.readouterr().err
     assert not (tmp_path / "scenes" / "few-0002.json").exists()
+    others = str(len(load_scene(file).rooms) + 1)
+    assert main([*command, "--rooms", others]) == 2  # a home of other rooms is not taken for one of these
+    assert "there is a home of this id already" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

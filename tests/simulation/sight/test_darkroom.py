@@ -48,8 +48,11 @@ def test_closing_leaves_undone_what_has_not_begun_and_waits_for_what_has(darkroo
     darkroom.add(lambda: (begun.set(), go.wait(), done.append("first")))
     darkroom.add(lambda: done.append("second"))
     begun.wait()
-    threading.Timer(0.05, go.set).start()
+    darkroom._jobs[1].add_done_callback(lambda _: go.set())  # as soon as it is given up
+    late = threading.Timer(30, go.set)  # so that it ends where it is not
+    late.start()
     darkroom.close()
+    late.cancel()
     assert done == ["first"]
 
 
