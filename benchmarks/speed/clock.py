@@ -173,7 +173,8 @@ def _wraps(clock: Clock) -> Iterator[tuple[Any, str, Callable[..., Any]]]:
     yield Pregel, "invoke", clock.wrapped(Pregel.invoke, None, "LangGraph")
     yield Backend, "ask", clock.wrapped(Backend.ask, None, "models")
     yield Learner, "learn", clock.wrapped(Learner.learn, None, "training")
-    yield robot_view, "extend_together", clock.wrapped(robot_view.extend_together, None, "memory")
+    together = "extend_together"
+    yield robot_view, together, clock.wrapped(getattr(robot_view, together), None, "memory")
     for name in ("_add", "_get", "_count", "_modify", "get_or_create_collection", "get_collection"):
         yield RustBindingsAPI, name, clock.elsewhere(getattr(RustBindingsAPI, name), "memory")
     for name in ("put", "put_writes"):
