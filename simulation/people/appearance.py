@@ -31,6 +31,8 @@ BODIES = "COOPERA_BODIES"
 """The environment variable that names a folder of body models, whose bodies then take the place of ours."""
 
 T = TypeVar("T")
+_YOUNGEST = 16
+"""Bodies are adults': who is younger is drawn as of this age."""
 _FRAMES: tuple[Literal["round", "square"], ...] = ("round", "square")
 
 _I_AM = r"\bI(?:'m| am)\b(?:(?!\b(?:my|to|with|for|the|his|her|not)\b)[^.;:!?]){0,70}?\b"
@@ -114,7 +116,7 @@ def stated_looks(profile: str) -> Looks:
     if age is None and _STUDENT.search(profile):
         age = 22
     return Looks(
-        age=age,
+        age=None if age is None else max(age, _YOUNGEST),
         figure="woman" if _WOMAN.search(profile) else "man" if _MAN.search(profile) else None,
         build="slim" if _ACTIVE.search(profile) else None,
         glasses=True if _GLASSES.search(profile) else None,

@@ -52,6 +52,10 @@ def test_a_profile_is_read_for_what_it_says_of_its_writer_alone() -> None:
     assert stated_looks("I am 20 minutes from work.") == Looks()
 
 
+def test_a_child_is_drawn_as_the_youngest_body_there_is() -> None:
+    assert stated_looks("I am 12 years old. I like video games.").age == 16
+
+
 def test_what_a_file_states_comes_first_and_leaves_the_rest_as_drawn() -> None:
     drawn = appearance_of("I am 70.", "somebody", Looks(figure="woman"))
     stated = appearance_of("I am 70.", "somebody", Looks(figure="woman", hair="bun", hair_colour="red", glasses=True))
