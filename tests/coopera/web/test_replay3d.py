@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import io
 import math
 import sys
@@ -22,17 +21,13 @@ from coopera.people.shipped import find
 from coopera.simulation import load_scene
 from coopera.simulation.bodies.robot import load_robot, usable_robots
 from coopera.simulation.people.weights import PARTS
-from tests.coopera.conftest import Said
-from tests.coopera.web.browser import Watched, browsing, needs_browser
-
-if importlib.util.find_spec("trimesh") is None:
-    pytest.skip("trimesh is not installed; it comes with viser", allow_module_level=True)
-
 from coopera.web.replay3d import solids
 from coopera.web.replay3d.film import write_film
 from coopera.web.replay3d.installed import need_viser
 from coopera.web.replay3d.page import _frames, write_page
 from coopera.web.replay3d.poses import GONE, Frame, Pose, acts_of
+from tests.coopera.conftest import Said
+from tests.coopera.web.browser import Watched, browsing, needs_browser
 
 
 def _viser_problem() -> str:
