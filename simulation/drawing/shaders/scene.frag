@@ -38,17 +38,10 @@ float lit(vec3 normal, float leaves) {
     vec2 texel = there.xy * size - 0.5;
     vec2 base = floor(texel), part = texel - base;
     float low = there.z - leaves / sun.w, high = there.z - 0.0012;
-    float total = 0.0;
-    for (int j = 0; j < 2; j++)
-        for (int i = 0; i < 2; i++) {
-            vec2 corner = (base + vec2(i * 2, j * 2)) / size;
-            vec4 depth = textureGather(shadows, corner);
-            vec4 free = vec4(greaterThan(depth, vec4(high))) + vec4(lessThan(depth, vec4(low)));
-            vec2 x = i == 0 ? vec2(1.0 - part.x, 1.0) : vec2(1.0, part.x);
-            vec2 y = j == 0 ? vec2(1.0 - part.y, 1.0) : vec2(1.0, part.y);
-            total += dot(min(free, 1.0), vec4(x.x * y.y, x.y * y.y, x.y * y.x, x.x * y.x));
-        }
-    return total / 9.0;
+    vec4 depth = textureGather(shadows, (base + 1.0) / size);
+    vec4 free = vec4(greaterThan(depth, vec4(high))) + vec4(lessThan(depth, vec4(low)));
+    vec2 rest = 1.0 - part;
+    return dot(min(free, 1.0), vec4(rest.x * part.y, part.x * part.y, part.x * rest.y, rest.x * rest.y));
 }
 
 // How far inside a window's opening a point on a wall is: 0 outside, 1 well inside.
