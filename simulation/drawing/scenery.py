@@ -47,7 +47,7 @@ class Piece(NamedTuple):
     casts: bool
     """Whether it casts a shadow."""
     closed: bool
-    """Whether it has no inside to be looked at, as our own shapes have none; what comes from files may be inside out."""
+    """Whether it is drawn from without only, as our own shapes are; what comes from files may be inside out."""
 
 
 @dataclass(slots=True)
@@ -117,7 +117,9 @@ class Scenery:
             if not len(face):
                 continue
             low, high = corner["at"].min(axis=0).tolist(), corner["at"].max(axis=0).tolist()
-            pieces.append(Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts, scene.meshes is None))
+            pieces.append(
+                Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts, scene.meshes is None)
+            )
             corners.append(corner)
             faces.append(face + np.uint32(start))
             start, first = start + len(corner), first + face.size
