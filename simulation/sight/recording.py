@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cache, partial
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -242,7 +242,7 @@ class Filming:
             held, places, doors = then if tick >= reached + HOLD // 2 else first
             return others(body, held, places)._replace(opened=doors)
 
-        self.recording.shots.append(Shot(done + BACK, at, reached + HOLD // 2 - 1, walk_ticks))
+        self.recording.shots.append(Shot(done + BACK, cache(at), reached + HOLD // 2 - 1, walk_ticks))
         self.opened = opened
         self._finish(agent, away, after, moved)
 
@@ -271,6 +271,7 @@ class Filming:
         scene, state, inside = self.ground.scene, self.recording.state, reaching_in(self.ground.scene, person, motion)
         brought = [state.box[person.thing].text] if person.thing in state.box else []
         doubled = kept_from_sight(scene, state, person, moved, brought)
+        also = cache(partial(kept_from_sight, scene, state, person, moved))
 
         def at(tick: int) -> Moment:
             if tick < walk_ticks:
@@ -282,15 +283,15 @@ class Filming:
                 return others(comes, carried, moved)._replace(unseen=doubled)
             holds = held(seconds)
             used = () if holds is None or holds.drawn is None else (*holds.aids, *holds.drawn.props)
-            unseen = doubled | kept_from_sight(scene, state, person, moved, [one.thing for one in used])
             moment = others(body, holds, moved)
+            unseen = doubled | also(tuple(one.thing for one in used))
             moment = moment._replace(outfits={**moment.outfits, agent: outfit}, unseen=unseen)
             if inside is None or person.at is None:
                 return moment
             drawn = body._replace(pose=pose_at(inside, seconds, setting))
             return moment._replace(opened=moment.opened | {person.at}, drawn={agent: drawn})
 
-        self.recording.shots.append(Shot(total, at, settled + (total - settled) // 2, walk_ticks, settled))
+        self.recording.shots.append(Shot(total, cache(at), settled + (total - settled) // 2, walk_ticks, settled))
         self.worn, self._outfits[agent] = {**self.worn, agent: person.worn}, outfit
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held(0.0), moved)
 
@@ -341,7 +342,7 @@ class Filming:
             held = _with(moment.held, step.receiver, persons[given])
             return moment._replace(bodies={**moment.bodies, step.receiver: person}, held=held)
 
-        self.recording.shots.append(Shot(done + BACK, at, reached, walk_ticks))
+        self.recording.shots.append(Shot(done + BACK, cache(at), reached, walk_ticks))
         self._finish(step.agent, after, robots[1], moved)
         self.held = _with(self.held, step.receiver, persons[1])
 

@@ -15,7 +15,7 @@ from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.drawing.context import Renderer
+from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.magic_box import shape_of
@@ -52,7 +52,7 @@ class Take(NamedTuple):
 
 
 class Watcher:
-    """Owns the stages of a home, one for rays and one for pictures; made at the first recording."""
+    """Owns the stages of a home: for the robots' eyes, for choosing cameras beside the hour, and for pictures."""
 
     def __init__(
         self, ground: Ground, renderer: Renderer = "auto", looks: Mapping[AgentId, Appearance] | None = None
@@ -61,15 +61,16 @@ class Watcher:
         self.ground, self._looks = ground, looks
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
         self._renderer = renderer
+        self._sought: Stage | None = None
         self._drawn: Stage | None = None
         self._darkroom = Darkroom()
 
     def close(self) -> None:
         """Give pybullet back; pictures that nobody waited for may be missing."""
         self._darkroom.close()
-        self.stage.close()
-        if self._drawn is not None:
-            self._drawn.close()
+        for stage in (self.stage, self._sought, self._drawn):
+            if stage is not None:
+                stage.close()
 
     @property
     def drawn(self) -> Stage:
@@ -82,6 +83,12 @@ class Watcher:
             ground = self.ground
             self._drawn = Stage(ground.scene, ground.people, ground.robots, self._renderer, self._looks)
         return self._drawn
+
+    def _seeking(self) -> Stage:
+        """The stage in which the darkroom looks for cameras, while the other one shows the home as it goes on."""
+        if self._sought is None:
+            self._sought = Stage(self.ground.scene, self.ground.people, self.ground.robots, renderer=None)
+        return self._sought
 
     def watch(self, plan: Plan, robot: AgentId, who: AgentId, deeds: Sequence[Placed], spot: Point) -> None:
         """Add to a plan: a robot drives to where it will see an act of a person, out of their way.
@@ -102,7 +109,7 @@ class Watcher:
             self.stage,
             self.ground.navigator,
             Eyes(self.ground.robots[robot], plan.state.agents[robot].spot),
-            self._focus({**bodies, who: deed}, who, later=deeds[1:]),
+            self._focus(self.stage, {**bodies, who: deed}, who, later=deeds[1:]),
             [*(route.points or []), spot, (deed.x, deed.y)],
             taken_by_others(plan.state, robot),
         )
@@ -138,17 +145,18 @@ class Watcher:
         Returns:
             The files, view by view, in order of time: STEM-0.webp ….
         """
-        ticks = telling_ticks(recording, self.ground.robots, count)
-        takes = list(self._takes(recording, ticks, tuple(stems)))
 
         def develop() -> None:
+            ticks = telling_ticks(recording, self.ground.robots, count)
+            takes = list(self._takes(recording, ticks, tuple(stems)))
             write_frames(folder, self._developed(recording, takes, size, stems, labels))
 
-        if self._set().drawer is None:
-            develop()
-        else:
+        if chosen(self._renderer) == "gl":
             self._darkroom.add(develop)
-        return [frame_file(folder, stem, i) for stem in stems.values() for i in range(len(takes))]
+        else:
+            develop()
+        shots = min(count, recording.ticks)
+        return [frame_file(folder, stem, i) for stem in stems.values() for i in range(shots)]
 
     def finish(self) -> None:
         """Wait for all pictures that were taken.
@@ -219,15 +227,16 @@ class Watcher:
         moment = shot.at(shot.deed)
         body = moment.bodies[who]
         away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
-        self.stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
+        stage = self._seeking()
+        stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
         moments = [moment, *(shot.at(round(shot.came + share * (shot.ticks - shot.came))) for share in _MOMENTS)]
-        focus = self._focus(moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
+        focus = self._focus(stage, moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
         if who not in self.ground.robots:
             corners, tops = map(np.concatenate, zip(*(self._work(recording, one, who) for one in moments), strict=True))
             person = framed_of([one.bodies[who] for one in moments], whole=moment.outfits.get(who) == "sport")
             busy = at_work(focus.body, np.unique(tops.round(2), axis=0))
             focus = focus._replace(body=busy, framed=np.concatenate((person, corners, tops)))
-        return view_camera(self.stage, self.ground.scene, focus)
+        return view_camera(stage, self.ground.scene, focus)
 
     def _work(self, recording: Recording, moment: Moment, who: AgentId) -> tuple[Array, Array]:
         """Where what a person works with is drawn at a moment, in the world.
@@ -247,6 +256,7 @@ class Watcher:
 
     def _focus(
         self,
+        stage: Stage,
         bodies: Mapping[AgentId, Placed],
         who: AgentId,
         held: Mapping[AgentId, Held] = _NOTHING,
@@ -258,7 +268,7 @@ class Watcher:
         body = person_body(placed, *later) if robot is None else robot_body(robot, placed)
         others = tuple(person_body(bodies[one]) for one in self.ground.people if one != who)
         ignore = dict.fromkeys((*around(scene, placed), *within(scene, body.points)))
-        things = tuple(thing.name for thing in held.values() if thing.name in self.stage.home.bodies)
+        things = tuple(thing.name for thing in held.values() if thing.name in stage.home.bodies)
         return Focus(placed, body, tuple(ignore), scene.room_at(placed.x, placed.y).name, others, things)
 
     def _names(self, recording: Recording, moment: Moment, drawn: Stage) -> list[Name]:
