@@ -1,4 +1,4 @@
-"""Pictures are drawn and written beside what goes on in the home, on a thread of their own."""
+"""What pictures need is done beside what goes on in the home, on a thread of its own."""
 
 from __future__ import annotations
 
@@ -24,13 +24,14 @@ class Darkroom:
             for job in self._jobs:
                 job.result()
         finally:
-            self._drop()
+            self.drop()
 
     def close(self) -> None:
         """Leave undone what has not begun, and wait for what has; a second time does nothing."""
-        self._drop()
+        self.drop()
         self._pool.shutdown()
 
-    def _drop(self) -> None:
+    def drop(self) -> None:
+        """Leave undone what has not begun, and wait for what has."""
         jobs, self._jobs = self._jobs, []
         wait([job for job in jobs if not job.cancel()])

@@ -5,7 +5,7 @@ The same pictures give the same video on any processor.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
@@ -38,23 +38,17 @@ def frame_file(folder: Path, name: str, number: int) -> Path:
     return folder / f"{name}-{number}.webp"
 
 
-def write_frames(folder: Path, pictures: Mapping[str, Sequence[NDArray[np.uint8]]]) -> list[Path]:
-    """Write pictures (height, width, 3) as NAME-0.webp … into a folder, name by name.
+def write_frame(path: Path, picture: NDArray[np.uint8]) -> None:
+    """Write a picture (height, width, 3) as WebP.
 
     Raises:
-        SimulationError: If the folder cannot be written.
+        SimulationError: If its folder cannot be written.
     """
-    paths = []
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, some in pictures.items():
-            for i, image in enumerate(some):
-                path = frame_file(folder, name, i)
-                Image.fromarray(image).save(path, "WEBP", **WEBP)
-                paths.append(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        Image.fromarray(picture).save(path, "WEBP", **WEBP)
     except OSError as err:
-        raise SimulationError(f"The frames cannot be written to {folder}: {err}.") from err
-    return paths
+        raise SimulationError(f"The frames cannot be written to {path.parent}: {err}.") from err
 
 
 def write_video(path: Path, pictures: Iterable[NDArray[np.uint8]]) -> Path:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, NamedTuple, TypeAlias
@@ -30,7 +31,7 @@ from coopera.simulation.sight.labels import Name, labelled
 from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
-from coopera.simulation.sight.video import frame_file, write_frames
+from coopera.simulation.sight.video import frame_file, write_frame
 from coopera.simulation.state.home_state import HomeState
 from coopera.simulation.state.looks import states_in_sight
 
@@ -63,19 +64,20 @@ class Watcher:
         self._renderer = renderer
         self._sought: Stage | None = None
         self._drawn: Stage | None = None
-        self._darkroom = Darkroom()
+        self._choosing, self._drawing, self._writing = self._rooms = Darkroom(), Darkroom(), Darkroom()
 
     def close(self) -> None:
         """Give pybullet back; pictures that nobody waited for may be missing."""
-        self._darkroom.close()
+        for room in self._rooms:  # each gives work to the next
+            room.close()
         for stage in (self.stage, self._sought, self._drawn):
             if stage is not None:
                 stage.close()
 
     @property
     def drawn(self) -> Stage:
-        """The stage that pictures are taken of, once the darkroom has done with it."""
-        self._darkroom.finish()
+        """The stage that pictures are taken of, once the darkrooms have done with it."""
+        self.finish()
         return self._set()
 
     def _set(self) -> Stage:
@@ -85,7 +87,7 @@ class Watcher:
         return self._drawn
 
     def _seeking(self) -> Stage:
-        """The stage in which the darkroom looks for cameras, while the other one shows the home as it goes on."""
+        """The stage in which a darkroom looks for cameras, while the other one shows the home as it goes on."""
         if self._sought is None:
             self._sought = Stage(self.ground.scene, self.ground.people, self.ground.robots, renderer=None)
         return self._sought
@@ -139,22 +141,31 @@ class Watcher:
     ) -> list[Path]:
         """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
 
-        With our own renderer that is done in the darkroom, while the home goes on: `finish` waits for it, and raises
-        what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is done at once.
+        With our own renderer that is done in darkrooms, one for each step, while the home goes on: `finish` waits for
+        it, and raises what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is
+        done at once.
 
         Returns:
             The files, view by view, in order of time: STEM-0.webp ….
         """
+        aside = chosen(self._renderer) == "gl"
 
-        def develop() -> None:
+        def then(room: Darkroom, job: Callable[[], None]) -> None:
+            if aside:
+                room.add(job)
+            else:
+                job()
+
+        def choose() -> None:
             ticks = telling_ticks(recording, self.ground.robots, count)
             takes = list(self._takes(recording, ticks, tuple(stems)))
-            write_frames(folder, self._developed(recording, takes, size, stems, labels))
+            then(self._drawing, lambda: draw(takes))
 
-        if chosen(self._renderer) == "gl":
-            self._darkroom.add(develop)
-        else:
-            develop()
+        def draw(takes: list[Take]) -> None:
+            for stem, number, picture in self._developed(recording, takes, size, stems, labels):
+                then(self._writing, partial(write_frame, frame_file(folder, stem, number), picture))
+
+        then(self._choosing, choose)
         shots = min(count, recording.ticks)
         return [frame_file(folder, stem, i) for stem in stems.values() for i in range(shots)]
 
@@ -164,7 +175,12 @@ class Watcher:
         Raises:
             SimulationError: If the files cannot be written.
         """
-        self._darkroom.finish()
+        try:
+            for room in self._rooms:
+                room.finish()
+        finally:
+            for room in self._rooms:
+                room.drop()
 
     def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
         """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
@@ -204,19 +220,15 @@ class Watcher:
         size: tuple[int, int],
         stems: Mapping[Viewpoint, str],
         labels: bool,
-    ) -> dict[str, list[Image]]:
-        """The pictures, by stem."""
+    ) -> Iterator[tuple[str, int, Image]]:
+        """The pictures, with stem and number."""
         stage = self._set()
-        pictures: dict[str, list[Image]] = {stem: [] for stem in stems.values()}
-        for moment, cameras in takes:
+        for number, (moment, cameras) in enumerate(takes):
             stage.show(recording.state, moment)
             names = self._names(recording, moment, stage) if labels else []
             for view, camera in cameras.items():
-                if names:
-                    pictures[stems[view]].append(labelled(*stage.picture(camera, size), names))
-                else:
-                    pictures[stems[view]].append(stage.colours(camera, size))
-        return pictures
+                picture = labelled(*stage.picture(camera, size), names) if names else stage.colours(camera, size)
+                yield stems[view], number, picture
 
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
