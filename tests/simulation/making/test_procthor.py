@@ -86,9 +86,10 @@ def test_furniture_that_overlaps_gives_way_alike_wherever_in_the_room_it_stands(
     data["rooms"] = [{"id": "room|2", "roomType": "LivingRoom", "floorPolygon": corners(30, 30)}]
     middles = [(x, z + more) for x in (4.0, 7.96, 12.1, 27.5) for z in (3.9, 9.0, 25.75) for more in (0, 0.53)]
     data["objects"] = [thing(f"Sofa|{n}", "Sofa_221_1", x, 0.45, z) for n, (x, z) in enumerate(middles)]
-    sofas = imported(tmp_path, data, ASSETS).scene.fixed
-    assert [one.xy for one in sofas[::2]] == [pytest.approx(middle) for middle in middles[::2]]
-    assert [one.xy for one in sofas[1::2]] == [pytest.approx((x, z + 0.3)) for x, z in middles[1::2]]
+    home = imported(tmp_path, data, ASSETS)
+    sofas = [the(home, f"sofa_{n + 1}").xy for n in range(len(middles))]
+    assert sofas[::2] == [pytest.approx(middle) for middle in middles[::2]]
+    assert sofas[1::2] == [pytest.approx((x, z + 0.3)) for x, z in middles[1::2]]
 
 
 def test_the_account_says_what_was_understood_guessed_and_left_out(home: Imported) -> None:
