@@ -132,7 +132,8 @@ def _untransformed(some: Samples, quantile: Floats) -> Floats:
     at = quantile / np.sqrt(some.people) - some.skew / (6 * some.people)
     straight = np.abs(some.skew) < 1e-6
     skew = np.where(straight, 1.0, some.skew)
-    return np.where(straight, at, 3 / skew * (np.cbrt(1 + skew * at) - 1))
+    found: Floats = np.where(straight, at, 3 / skew * (np.cbrt(1 + skew * at) - 1))
+    return found
 
 
 def both(some: Samples) -> Ends:
@@ -217,7 +218,7 @@ class Held(NamedTuple):
 def held(candidate: Callable[[Samples], Ends], population: Population, people: int, draws: int) -> Held:
     """What a candidate does for so many studies; the same studies for each candidate."""
     rng = np.random.default_rng(people)
-    found: list[tuple[Floats, Floats]] = []
+    found: list[tuple[NDArray[np.bool_], Floats]] = []
     for _ in range(0, draws, CHUNK):
         low, high = candidate(Samples(population.draw(rng, (CHUNK, people))))
         found.append(((low <= population.mean) & (population.mean <= high), high - low))
