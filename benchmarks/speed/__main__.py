@@ -102,12 +102,12 @@ def sizes(full: bool) -> list[Table]:
     some = shipped_ids()
     counts = (1, 10, FIFTY) if full else (1, 5, FIFTY)
     clips = (0, 100, 1000) if full else (0, 100)
-    hours_ = 6 if full else 3
-    long = ["--days", "1", "--hours", str(hours_)]
+    each, hours_ = 6 if full else 3, 6
+    day, long = (["--days", "1", "--hours", str(count)] for count in (each, hours_))
     with tempfile.TemporaryDirectory(prefix="speed-") as name:
         folder = Path(name)
         many = [some[n] if n < len(some) else str(_copy(folder, some[n % len(some)], n)) for n in range(FIFTY)]
-        people = [(f"{n} people", ["--humans", ",".join(many[:n]), *long], n * hours_) for n in counts]
+        people = [(f"{n}", ["--humans", ",".join(many[:n]), *day], n * each) for n in counts]
         objects = sorted((len(load_scene(home).objects), home) for home in HOMES)
         homes = [(f"{n} ({home})", ["--humans", "amara", "--scenes", home, *long], hours_) for n, home in objects]
         shipped = len(load_library().captions)
@@ -115,7 +115,11 @@ def sizes(full: bool) -> list[Table]:
             (f"{shipped + n:,}", ["--humans", "amara", *long, *_motions(folder / str(n), n)], hours_) for n in clips
         ]
         return [
-            growth("People", "Each lives a day of their own with the robot in one run.", people),
+            growth(
+                "People",
+                "Each lives a day of their own with the robot in one run; their texts are encoded in it for the first time.",
+                people,
+            ),
             growth("Objects", "In the shipped homes (`coopera list homes`).", homes),
             growth("Motions", "The shipped ones, and as many clips of a folder of one's own (`--motions`).", motions),
         ]
