@@ -117,7 +117,7 @@ def sizes(full: bool) -> list[Table]:
         return [
             growth(
                 "People",
-                "Each lives a day of their own with the robot in one run; their texts are encoded in it for the first time.",
+                "A day each, with the robot, in one run, which encodes their texts for the first time.",
                 people,
             ),
             growth("Objects", "In the shipped homes (`coopera list homes`).", homes),
