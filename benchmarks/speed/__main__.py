@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import statistics
 import sys
 import tempfile
@@ -19,8 +20,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from benchmarks.speed.measures import Table, child, commit, default_run, growth, machine, start_up, took
 from coopera.people.shipped import shipped_ids
+from coopera.simulation.homes.scene import load_scene
+from coopera.simulation.motions.library import load_library
 
 Parts = Mapping[str, Callable[[bool], list[Table]]]
 FIFTY = 50
@@ -95,18 +100,42 @@ def memory(full: bool) -> list[Table]:
 
 
 def sizes(full: bool) -> list[Table]:
-    """People, homes and motions."""
+    """People, objects and motions."""
     some = shipped_ids()
-    counts = (1, 10, FIFTY) if full else (1, 5, 10)
-    folder = Path(tempfile.mkdtemp(prefix="speed-"))
-    many = [some[n % len(some)] if n < len(some) else str(_copy(folder, some[n % len(some)], n)) for n in range(FIFTY)]
-    long = ["--days", "1", "--hours", "6" if full else "3"]
-    people = [(f"{n} people", ["--humans", ",".join(many[:n]), *long], n * int(long[-1])) for n in counts]
-    homes = [(home, ["--humans", "amara", "--scenes", home, *long], int(long[-1])) for home in HOMES]
-    return [
-        growth("People", "Each lives a day of their own with the robot in one run.", people),
-        growth("Homes", "The shipped homes, from 90 to 217 objects (`coopera list homes`).", homes),
-    ]
+    counts = (1, 10, FIFTY) if full else (1, 5, FIFTY)
+    clips = (0, 100, 1000) if full else (0, 100)
+    hours_ = 6 if full else 3
+    long = ["--days", "1", "--hours", str(hours_)]
+    with tempfile.TemporaryDirectory(prefix="speed-") as name:
+        folder = Path(name)
+        many = [some[n] if n < len(some) else str(_copy(folder, some[n % len(some)], n)) for n in range(FIFTY)]
+        people = [(f"{n} people", ["--humans", ",".join(many[:n]), *long], n * hours_) for n in counts]
+        objects = sorted((len(load_scene(home).objects), home) for home in HOMES)
+        homes = [(f"{n} ({home})", ["--humans", "amara", "--scenes", home, *long], hours_) for n, home in objects]
+        shipped = len(load_library().captions)
+        motions = [
+            (f"{shipped + n:,}", ["--humans", "amara", *long, *_motions(folder / str(n), n)], hours_) for n in clips
+        ]
+        return [
+            growth("People", "Each lives a day of their own with the robot in one run.", people),
+            growth("Objects", "In the shipped homes (`coopera list homes`).", homes),
+            growth("Motions", "The shipped ones, and as many clips of a folder of one's own (`--motions`).", motions),
+        ]
+
+
+def _motions(folder: Path, count: int) -> list[str]:
+    """The flags for a folder with so many clips of half a second, called as the shipped motions and numbered."""
+    if not count:
+        return []
+    folder.mkdir()
+    captions = load_library().captions
+    for n in range(count):
+        turns = np.zeros((15, 156))
+        turns[:, 0] = math.pi / 2  # upright
+        name = folder / f"{n}.npz"
+        np.savez(name, poses=turns, trans=np.zeros((15, 3)), mocap_framerate=30.0)
+        name.with_suffix(".txt").write_text(f"{captions[n % len(captions)][:50]} {n}", encoding="utf-8")
+    return ["--motions", str(folder)]
 
 
 def _copy(folder: Path, person: str, number: int) -> Path:
