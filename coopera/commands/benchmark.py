@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from importlib import import_module
 from pathlib import Path
 from threading import Thread
 from typing import Annotated, Any
@@ -124,9 +125,8 @@ def benchmark(
 
 def _load_results() -> None:
     """Import what the results are made with: a second that would else come after the last run."""
-    import matplotlib.backends.backend_svg
-
-    import coopera.benchmark.results_files  # noqa: F401
+    for name in ("coopera.benchmark.results_files", "matplotlib.backends.backend_svg"):
+        import_module(name)
 
 
 def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:

@@ -12,7 +12,10 @@ _NEW_OBJECTS = 10_000
 
 
 def rare_collections() -> None:
-    """Look for garbage in cycles every 10,000 new objects, not 700: a sixth of a start, and a twentieth of its hours."""
+    """Look for cycles that are garbage every 10,000 new objects, not every 700.
+
+    A tenth of a process's start, and some of each hour, went into looking.
+    """
     gc.set_threshold(_NEW_OBJECTS)
 
 
