@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 import ctypes
+import gc
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8  # of glibc's malloc.h
 _LARGE = 2**20
 """Bytes from which on memory is the system's again once it is free."""
+_NEW_OBJECTS = 10_000
+
+
+def rare_collections() -> None:
+    """Look for cycles that are garbage every 10,000 new objects, not every 700.
+
+    A tenth of a process's start, and some of each hour, went into looking.
+    """
+    gc.set_threshold(_NEW_OBJECTS)
 
 
 def steady_heap() -> bool:
