@@ -325,11 +325,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="up to 100,000 records, and 10,000 of LangChain's")
     parser.add_argument("--rounds", type=int, default=200, help="questions per size")
+    parser.add_argument("--sizes", type=int, nargs="+", help="numbers of records, the least first")
     parser.add_argument("--langchain-most", type=int, help="records [default: 100,000]")
     parser.add_argument("--store", type=Path, help="folder that keeps the stores for another run")
     parser.add_argument("--out", type=Path, help="JSON file for the figures")
     given = parser.parse_args()
-    sizes = [1000, 10_000, 100_000, *([] if given.quick else [1_000_000])]
+    sizes = given.sizes or [1000, 10_000, 100_000, *([] if given.quick else [1_000_000])]
     most = given.langchain_most or (10_000 if given.quick else 100_000)
     folder = given.store or Path(tempfile.mkdtemp(prefix="memory-benchmark-"))
     try:
