@@ -232,7 +232,7 @@ class Log:
                 ids=ids,
                 embeddings=np.stack(vectors) if self._vectors is None else np.ones((len(rows), 1), np.float32),
                 documents=texts,
-                metadatas=entries,  # type: ignore[arg-type]
+                metadatas=entries,
             )
         if not self._exclusive:
             self._check_written(ids, entries)
