@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 4  # 3 MB of MiniLM's, where no text is said twice
-_TEXTS_IN_RAM = 8 * BLOCK  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
+_BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's, where no text is said twice
+_TEXTS_IN_RAM = (
+    _BLOCKS_IN_RAM * BLOCK
+)  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
 
 
@@ -232,7 +234,7 @@ class Log:
                 ids=ids,
                 embeddings=np.stack(vectors) if self._vectors is None else np.ones((len(rows), 1), np.float32),
                 documents=texts,
-                metadatas=entries,  # type: ignore[arg-type]
+                metadatas=entries,
             )
         if not self._exclusive:
             self._check_written(ids, entries)

@@ -221,9 +221,10 @@ class MemoryStream:
             found = top(log, vector, k, now=now, decay=self.decay, since=since)
             self.scanned = found.scanned
             records = log.records([hit.position for hit in found.hits])
+        fades = {hour: float(self.decay ** (now - hour)) for hour in {hit.hour for hit in found.hits}}
         recalled = []
         for hit, record in zip(found.hits, records, strict=True):
-            recency = float(self.decay ** (now - hit.hour))
+            recency = fades[hit.hour]
             score = hit.relevance * recency
             recalled.append(Recollection(record.text, hit.hour, hit.relevance, recency, score, record.metadata))
         return recalled
