@@ -14,7 +14,7 @@ _NEW_OBJECTS = 10_000
 def rare_collections() -> None:
     """Look for cycles that are garbage every 10,000 new objects, not every 700.
 
-    A tenth of a process's start, and some of each hour, went into looking.
+    A tenth of a process's start went into looking.
     """
     gc.set_threshold(_NEW_OBJECTS)
 

@@ -131,10 +131,10 @@ class FakeRay:
 
     def __init__(self, dying: str = "", gone: bool = False, raylet_dies: bool = False) -> None:
         self.dying, self.gone, self.raylet_dies = dying, gone, raylet_dies
-        self.open = False
+        self.open, self.given = False, dict[str, object]()
 
     def init(self, **given: object) -> None:
-        self.open = True
+        self.open, self.given = True, given
 
     def shutdown(self) -> None:
         self.open = False
@@ -175,6 +175,14 @@ def test_a_killed_worker_of_a_cluster_costs_its_job_and_no_other(
     died = "its process died 3 times (WorkerCrashedError)"
     assert ended == {"b": None, "doomed": died, "late": f"doomed failed: {died}"}
     assert not ray.open
+
+
+def test_a_local_cluster_is_one_of_its_own_even_where_another_runs_already(monkeypatch: pytest.MonkeyPatch) -> None:
+    ray = FakeRay()
+    monkeypatch.setitem(sys.modules, "ray", ray)
+    assert not list(work_on_ray([], go, address="local", workers=3))
+    assert ray.given["address"] == "local"  # without an address, Ray joins the one that runs
+    assert ray.given["num_cpus"] == 3
 
 
 @pytest.mark.parametrize("ray", [FakeRay(gone=True), FakeRay(raylet_dies=True)], ids=["head", "raylet"])
