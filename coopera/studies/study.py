@@ -377,8 +377,8 @@ def _stream(
             if mode == "custom":
                 now |= {"day": data["day"], "hour": data["hour"]}
                 if data["success"]:
-                    scored.append(Counts.model_validate(data["success"]["predicate"]))
-                    now["success"] = pool(scored).f1
+                    scored[:] = [pool([*scored, Counts.model_validate(data["success"]["predicate"])])]
+                    now["success"] = scored[0].f1
             if on_event is not None:
                 nodes = [data["node"]] if mode == "custom" else list(data)
                 for node in nodes:
