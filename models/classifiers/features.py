@@ -209,10 +209,11 @@ class Similarity:
 
     def _people(self, batch: Batch) -> _People:
         who = _shared(batch, batch.profile, 0.0)
-        columns = (who.of, np.unique(batch.big_five, axis=0, return_inverse=True)[1].reshape(-1), batch.person)
-        codes = np.stack([np.unique(column, return_inverse=True)[1] for column in columns], axis=1)
-        _, first, of = np.unique(codes, axis=0, return_index=True, return_inverse=True)
-        return _People(who.rows[who.of[first]], batch.big_five[first] / self.traits, batch.person[first], of.reshape(-1))
+        traits = np.unique(batch.big_five, axis=0, return_inverse=True)[1].reshape(-1)
+        names = np.unique(batch.person, return_inverse=True)[1]
+        _, first, of = np.unique(np.stack([who.of, traits, names]), axis=1, return_index=True, return_inverse=True)
+        profile, big_five = who.rows[who.of[first]], batch.big_five[first] / self.traits
+        return _People(profile, big_five, batch.person[first], of.reshape(-1))
 
     def _same_person(self, a: _People, b: _People) -> Floats:
         """1 for the same person; for others at most `kin`, less the less their profiles and traits are alike."""
