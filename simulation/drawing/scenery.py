@@ -46,6 +46,8 @@ class Piece(NamedTuple):
     """Whether it is left out for a camera above the walls."""
     casts: bool
     """Whether it casts a shadow."""
+    closed: bool
+    """Whether it is drawn from without only, as our own shapes are; what comes from files may be inside out."""
 
 
 @dataclass(slots=True)
@@ -64,6 +66,7 @@ class _Slot:
     mesh: Mesh
     vertices: NDArray[np.void]
     """Once there is a batch, the part of it that is this thing's."""
+    closed: bool
     first: int = 0
     placed: tuple[float, ...] = ()
     low: Floats = field(default_factory=lambda: np.zeros(3, dtype=np.float32))
@@ -114,7 +117,9 @@ class Scenery:
             if not len(face):
                 continue
             low, high = corner["at"].min(axis=0).tolist(), corner["at"].max(axis=0).tolist()
-            pieces.append(Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts))
+            pieces.append(
+                Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts, scene.meshes is None)
+            )
             corners.append(corner)
             faces.append(face + np.uint32(start))
             start, first = start + len(corner), first + face.size
@@ -129,9 +134,9 @@ class Scenery:
         """Number of the room that holds a point; `OUTSIDE` for none."""
         return next((number for number, room in enumerate(self.scene.rooms) if room.contains(x, y)), OUTSIDE)
 
-    def add(self, name: str, mesh: Mesh, body: int, cls: str) -> None:
-        """Have one more thing that moves, out of sight until it is put somewhere."""
-        self._slots[name] = slot = _Slot(mesh, packed(mesh, self._tag(body, cls), OUTSIDE))
+    def add(self, name: str, mesh: Mesh, body: int, cls: str, *, closed: bool = True) -> None:
+        """Have one more thing that moves, out of sight until it is put somewhere; for `closed` see `Piece`."""
+        self._slots[name] = slot = _Slot(mesh, packed(mesh, self._tag(body, cls), OUTSIDE), closed)
         slot.vertices["at"][:, 2] -= _BELOW
         slot.low = slot.high = np.full(3, -_BELOW, dtype=np.float32)
         self._whole = None
@@ -175,7 +180,9 @@ class Scenery:
         """All that moves, as it now is; what is deep below the floor is left out."""
         batch = self._moving()
         batch.pieces = [
-            Piece(slot.first, slot.mesh.faces.size, tuple(slot.low), tuple(slot.high), slot.room, False, True)
+            Piece(
+                slot.first, slot.mesh.faces.size, tuple(slot.low), tuple(slot.high), slot.room, False, True, slot.closed
+            )
             for slot in self._slots.values()
             if slot.mesh.faces.size and slot.high[2] > _SEEN
         ]

@@ -225,6 +225,7 @@ def staged(home: BuiltHome, scene: Scene) -> Scenery:
     """What another renderer draws of a home that was built, kept up to date from now on."""
     home.scenery = Scenery(scene, {**home.rooms, **home.bodies})
     for thing in scene.movable:
-        home.scenery.add(thing.name, thing_mesh(scene, thing), home.bodies[thing.name], thing.cls)
+        mesh, closed = thing_mesh(scene, thing), not thing.mesh
+        home.scenery.add(thing.name, mesh, home.bodies[thing.name], thing.cls, closed=closed)
         home.move(thing.name, thing.position, thing.yaw)
     return home.scenery

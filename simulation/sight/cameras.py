@@ -37,7 +37,7 @@ _CROWDED = 1.2
 """What each metre costs that it stands nearer to the way than it would like."""
 _MANY = 400
 _GLANCES = 3
-_AT_ONCE = 48
+_AT_ONCE = 16
 _SIGHT = 6.0
 """What it counts to see all of a body; the rest of a score is fractions of 1."""
 _ACROSS = 9.0
@@ -131,25 +131,66 @@ def _point(place: Array) -> tuple[float, float, float]:
     return float(place[0]), float(place[1]), float(place[2])
 
 
-def seen_share(stage: Stage, scene: Scene, eyes: Array, focus: Focus, aim: Lens) -> Array:
-    """Weighted share of the body's points that each eye sees through a lens; eyes of shape (n, 3) to (n,).
+def _unhidden(scene: Scene, eyes: Array, focus: Focus, aim: Lens) -> NDArray[np.bool_]:
+    """Which points of the body each eye may see through a lens, before rays are cast; shape (eyes, points).
 
-    Furniture hides what is behind the box around it, but for what the body is on or in: that hides by its parts. The
-    body hides itself, and other bodies hide it.
+    What the body is on or in hides by its parts, and the body hides itself; other bodies hide it, too.
     """
-    points, weights = focus.body.points, focus.body.weights
+    points = focus.body.points
     starts, ends = np.repeat(eyes, len(points), axis=0), np.tile(points, (len(eyes), 1))
     bodies = (focus.body, *focus.others)
     balls, radii = (np.concatenate([getattr(body, name) for body in bodies]) for name in ("balls", "radii"))
-    free = ~behind_balls(starts, ends, balls, radii)
-    free &= aim.shows(starts, ends)
-    free &= ~behind_boxes(starts, ends, boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore]))
+    free = aim.shows(starts, ends)
+    free[free] = ~behind_balls(starts[free], ends[free], balls, radii)
+    boxes = boxes_of([thing for thing in scene.fixed if thing.name in focus.ignore])
+    free[free] = ~behind_boxes(starts[free], ends[free], boxes)
+    return free.reshape(len(eyes), len(points))
+
+
+def _struck(stage: Stage, eyes: Array, focus: Focus, free: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of the points that each eye may see it does see: other furniture hides what is behind the box around it."""
+    of_eye, of_point = np.nonzero(free)
+    hits = stage.rays(eyes[of_eye], focus.body.points[of_point])
+    seen = free.copy()
+    seen[free] = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
+    return seen
+
+
+def _best_seeing(  # noqa: PLR0913 - what is looked for, from where, and what counts
+    stage: Stage,
+    scene: Scene,
+    eyes: Array,
+    places: Array,
+    focus: Focus,
+    aim: Lens,
+    worth: float,
+    convenience: Array,
+    allowed: Callable[[Point], bool],
+    least: float = -1.0,
+) -> tuple[list[int], Array]:
+    """The few best eyes at allowed places that lie apart, best first, and the scores of all that may be among them.
+
+    A score is the share of the body that is seen, times its `worth`, and the eye's `convenience`, shape (n,); eyes that
+    see no more than the `least` share are left out. Rays cost most: they are cast for the most promising eyes first,
+    and for none that could not be among the best. What the body is on or in is out of the way of rays meanwhile.
+    """
+    weights = focus.body.weights
+    free = _unhidden(scene, eyes, focus, aim)
+    hoped = worth * (free @ weights) + convenience
+    score = np.full(len(eyes), -np.inf)
+    best: list[int] = []
+    left, many = np.argsort(-hoped, kind="stable"), _AT_ONCE
     stage.hide(focus.ignore)
-    hits = stage.rays(starts[free], ends[free])
+    while len(left):
+        some, left, many = left[:many], left[many:], 2 * many
+        share = _struck(stage, eyes[some], focus, free[some]) @ weights
+        score[some] = np.where(share > least, worth * share + convenience[some], -np.inf)
+        known = np.flatnonzero(np.isfinite(score))
+        best = [int(known[i]) for i in _best_apart(places[known], score[known], allowed)]
+        if len(best) == _GLANCES and len(left) and score[best[-1]] > hoped[left[0]] + 1e-5:
+            break
     stage.unhide(focus.ignore)
-    free[free] = (hits < 0) | np.isin(hits, [stage.home.bodies[name] for name in focus.held])
-    share: Array = free.reshape(len(eyes), len(points)) @ weights
-    return share
+    return best, score
 
 
 def watching_place(
@@ -229,17 +270,7 @@ def _best_sight(  # noqa: PLR0913 - what is looked for, by whom, and where
     side = angle_from_front(person, cells[:, 0], cells[:, 1])
     convenience = -0.25 * np.abs(away - _COMFORT) - _from_behind(side) - 0.02 * drive - close
     lens = Lens((person.x, person.y, eye_level(person)), ROBOT_FOV)
-    share, score = np.zeros(len(cells)), convenience
-    best: list[int] = []
-    left = np.argsort(-convenience, kind="stable")
-    while len(left):  # rays cost most: none for what cannot be better than the best, however much is seen from there
-        some, left = left[:_AT_ONCE], left[_AT_ONCE:]
-        share[some] = seen_share(stage, scene, eyes[some], focus, lens)
-        score = _SIGHT * share + convenience
-        seeing = np.flatnonzero(share > _LEAST)
-        best = [int(seeing[i]) for i in _best_apart(cells[seeing], score[seeing], allowed)]
-        if len(best) == _GLANCES and len(left) and score[best[-1]] > _SIGHT + convenience[left[0]] + 1e-5:
-            break
+    best, score = _best_seeing(stage, scene, eyes, cells, focus, lens, _SIGHT, convenience, allowed, _LEAST)
     if not best:
         return None
     stage.hide(focus.ignore)
@@ -331,13 +362,12 @@ def view_camera(stage: Stage, scene: Scene, focus: Focus) -> Camera:
         corner = room.centre
         return Camera((corner[0], corner[1], _OVERHEAD), target, VIEW_FOV)
     eyes = eyes[inside]
-    share = seen_share(stage, scene, eyes, focus, Lens(target, VIEW_FOV))
     side = angle_from_front(placed, eyes[:, 0], eyes[:, 1])
     away = np.hypot(eyes[:, 0] - placed.x, eyes[:, 1] - placed.y)
     cost = _from_behind(np.maximum(side, 0.7)) + 0.2 * np.abs(away - 2.0) + 0.2 * np.abs(eyes[:, 2] - 2.0)
     cost += _ASKANCE * np.maximum(side - _BESIDE, 0.0)
-    score = _ACROSS * share - cost
-    best = _best_apart(eyes, score, _anywhere)
+    lens = Lens(target, VIEW_FOV)
+    best, score = _best_seeing(stage, scene, eyes, eyes, focus, lens, _ACROSS, -cost, _anywhere)
     cameras = [Camera(_point(eyes[i]), target, VIEW_FOV) for i in best]
     camera = cameras[_clearest(stage, cameras, score[best])]
     return camera if focus.framed is None else _closed_in(camera, focus.framed)

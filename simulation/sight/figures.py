@@ -49,7 +49,7 @@ class Person:
             return
         if skin is not self._skin:
             self._scenery.remove(self._agent)
-            self._scenery.add(self._agent, _mesh(skin), self._body, "person")
+            self._scenery.add(self._agent, _mesh(skin), self._body, "person", closed=looks.model is None)
             self._skin = skin
         vertices, normals = posed(skin, forward(person.pose))
         turn = about_z(person.yaw).astype(np.float32).T
@@ -101,7 +101,7 @@ class Robot:
         self._links: list[tuple[str, int]] = []
         for link, mesh in links_of(looks.urdf).items():
             name = f"{agent}/{link}"
-            scenery.add(name, mesh, body, "robot")
+            scenery.add(name, mesh, body, "robot", closed=False)
             self._links.append((name, links.get(link, -1)))
 
     def put(self, robot: Placed) -> None:

@@ -267,7 +267,7 @@ class Stage:
     def rays(self, starts: Array, ends: Array) -> NDArray[np.int64]:
         """Body that each ray hits first, -1 for none; starts and ends have shape (n, 3)."""
         hits: list[int] = []
-        batch = 8192  # pybullet takes at most 16384 rays at once
+        batch = 64  # of a large one each ray takes pybullet several times as long
         for i in range(0, len(starts), batch):
             found = pybullet.rayTestBatch(
                 starts[i : i + batch].tolist(), ends[i : i + batch].tolist(), physicsClientId=self.client

@@ -23,7 +23,9 @@ layout(location = 1) out int tagged;
 
 const float CEILING = 2.4;
 const int WINDOWS = 3;
-const int GATES = 3;  // windows towards the sun that a room has at most: the renderer fills it in
+// The renderer fills these in:
+const int GATES = 3;      // windows towards the sun that a room has at most
+const bool SOFT = true;   // whether the shadow's edge is wide enough to be looked at closely
 const int LAMP = 9, WINDOW = 8, METAL = 6, GLASS = 7, TILES = 4, WALL_TILES = 13, PLANKS = 3, SKIN = 10;
 
 float near(float metres) {
@@ -38,6 +40,12 @@ float lit(vec3 normal, float leaves) {
     vec2 texel = there.xy * size - 0.5;
     vec2 base = floor(texel), part = texel - base;
     float low = there.z - leaves / sun.w, high = there.z - 0.0012;
+    if (!SOFT) {
+        vec4 depth = textureGather(shadows, (base + 1.0) / size);
+        vec4 free = vec4(greaterThan(depth, vec4(high))) + vec4(lessThan(depth, vec4(low)));
+        vec2 rest = 1.0 - part;
+        return dot(min(free, 1.0), vec4(rest.x * part.y, part.x * part.y, part.x * rest.y, rest.x * rest.y));
+    }
     float total = 0.0;
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 2; i++) {

@@ -16,6 +16,7 @@ from coopera.core.errors import ConfigError, SimulationError
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.homes.magic_box import shape_of
 from coopera.simulation.homes.scene import load_scene
+from coopera.simulation.sight import cameras
 from coopera.simulation.sight.stage import Stage
 from coopera.simulation.sight.video import need_video
 from coopera.simulation.world import World
@@ -246,3 +247,15 @@ def test_egl_draws_where_it_is_to_be_had(tmp_path) -> None:
         return
     assert done.stdout == "4\n"  # the plugin itself writes nothing that one sees
     assert all(np.asarray(Image.open(path)).std() > 10 for path in tmp_path.glob("*.webp"))
+
+
+def test_a_camera_is_chosen_as_if_rays_were_cast_for_every_place(home, monkeypatch) -> None:
+    assert home.perform("human", move("sofa_1", "book", "sit and read"), record=True).ok
+    recording, cast = home._recording, []
+    rays = Stage.rays
+    monkeypatch.setattr(Stage, "rays", lambda stage, a, b: cast.append(len(a)) or rays(stage, a, b))
+    few = [home._watcher._view(recording, shot) for shot in recording.shots]
+    some = sum(cast)
+    monkeypatch.setattr(cameras, "_AT_ONCE", 10_000)
+    assert [home._watcher._view(recording, shot) for shot in recording.shots] == few
+    assert some < (sum(cast) - some) / 2
