@@ -10,7 +10,6 @@ import json
 import operator
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import nullcontext, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
@@ -109,7 +108,8 @@ class MemoryStream:
             decay: Factor per hour, in (0, 1]. It is not stored: a stream can be read with any.
             create: Whether an unknown stream, or a missing folder, is made.
             durable: Whether what `add` has returned from is on disk. If not, `flush` and `close` put it there, and so
-                does each five hundredth record. A crash then loses the newest, and never one before another.
+                does each five hundredth record. A crash, or an error that leaves the `with`, then loses the newest,
+                and never one before another.
 
         Raises:
             ConfigError: If the folder is no store, or the name, the decay or (without `create`) the stream is unknown.
@@ -278,11 +278,14 @@ class MemoryStream:
         Raises:
             MemoryStoreError: If the store fails; it is closed all the same.
         """
+        self._let_go(flushed=True)
+
+    def _let_go(self, *, flushed: bool) -> None:
         log, self._log = self._log, None
         if log is None:
             return
         try:
-            if self._store.pid == os.getpid():
+            if flushed and self._store.pid == os.getpid():
                 log.flush()
         finally:
             self._store.unshare(self.name)
@@ -295,9 +298,11 @@ class MemoryStream:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Close the stream; of two errors the one that is under way is told."""
-        with suppress(MemoryStoreError) if error else nullcontext():
-            self.close()
+        """Close the stream; after an error as a crash would, without a `flush`.
+
+        A disk may be full by then, and Chroma, once refused a write, may wait for ever for the next.
+        """
+        self._let_go(flushed=error is None)
 
     @property
     def model(self) -> str:

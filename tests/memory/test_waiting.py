@@ -109,15 +109,7 @@ def test_a_store_that_fails_says_so_and_the_stream_has_what_the_store_has(tmp_pa
     assert on_disk(tmp_path / "m") == {"x": DAY}
 
 
-def test_a_store_that_fails_as_it_is_closed_is_closed_and_hides_no_other_error(tmp_path: Path) -> None:
-    def work(stream: MemoryStream) -> None:
-        with stream:
-            stream.extend(DAY)
-            failing(stream)
-            raise ZeroDivisionError
-
-    with pytest.raises(ZeroDivisionError):
-        work(opened(tmp_path / "m"))
+def test_a_store_that_fails_as_it_is_closed_says_so_and_is_closed(tmp_path: Path) -> None:
     stream = opened(tmp_path / "m")
     stream.extend(DAY)
     failing(stream)
@@ -125,6 +117,21 @@ def test_a_store_that_fails_as_it_is_closed_is_closed_and_hides_no_other_error(t
         stream.close()
     with opened(tmp_path / "m") as again:
         assert len(again) == 0
+
+
+def test_after_an_error_a_store_is_asked_for_nothing_more(tmp_path: Path) -> None:
+    """Chroma that was refused a write on a full disk may keep whoever asks for the next waiting for ever."""
+
+    def work(stream: MemoryStream) -> None:
+        with stream:
+            stream.extend(DAY[:6])
+            stream.flush()
+            stream.extend(DAY[6:])
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        work(opened(tmp_path / "m"))
+    assert on_disk(tmp_path / "m") == {"x": DAY[:6]}
 
 
 def test_a_forked_child_writes_nothing_of_what_waits(tmp_path: Path) -> None:
