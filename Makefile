@@ -9,7 +9,7 @@ PIP_ARGS ?=
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
-.PHONY: run test check bench audit clean
+.PHONY: run test check bench bench-learning audit clean
 
 run: $(READY)
 	$(BIN)/coopera run $(ARGS)
@@ -26,10 +26,13 @@ check: $(READY)
 	$(BIN)/pytest -n 2 --dist worksteal $(ARGS)
 
 bench: $(READY)
-	$(BIN)/python -m benchmarks.classifier
-	$(BIN)/python -m benchmarks.learning
-	$(BIN)/python -m benchmarks.home
 	$(BIN)/python -m benchmarks.speed --out docs/performance.md $(ARGS)
+
+# What is learned by whom, and what a robot does of what it is told: hours, of which speed is the least.
+bench-learning: $(READY)
+	$(BIN)/python -m benchmarks.home
+	$(BIN)/python -m benchmarks.learning
+	$(BIN)/python -m benchmarks.classifier
 
 # Known weaknesses of what is installed: asked of the index, or, offline, of a copy of OSV's list
 # (https://osv-vulnerabilities.storage.googleapis.com/PyPI/all.zip): make audit ADVISORIES=all.zip

@@ -1,10 +1,10 @@
 """A thousand person-days as data sets: seconds, memory and size, and whether their own libraries read them.
 
-    python -m benchmarks.big_export RUN [--days 1000] [--hours 2] [--reader PYTHON] [--out DIR]
+    python -m benchmarks.big_export RUN... [--days 1000] [--hours 13] [--reader PYTHON] [--out DIR]
 
-The days are those of RUN, over and over under new numbers, so that the export is measured and not the lives. `--reader`
-is a Python that has `datasets` and `lerobot`, which need not be this one: what it reads is counted there. The last line
-is one JSON object.
+The days are those of all RUNs under new numbers, and over and over only if these are fewer: the runs of a grid, such as
+`runs/paper/runs/*/{ours,paper}`, have thousands. `--reader` is a Python that has `datasets` and `lerobot`, which need
+not be this one: what it reads is counted there. The last line is one JSON object.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,22 +42,23 @@ print(json.dumps(found))
 
 
 def main() -> None:
-    """Multiply, export, read back."""
+    """Gather, export, read back."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path)
+    parser.add_argument("runs", type=Path, nargs="+", metavar="RUN")
     parser.add_argument("--days", type=int, default=1000)
-    parser.add_argument("--hours", type=int, default=2, help="of each day, at most")
+    parser.add_argument("--hours", type=int, default=13, help="of each day, at most")
     parser.add_argument("--reader", default=sys.executable)
     parser.add_argument("--prelude", type=Path, help="a file of Python that the reader carries out first")
     parser.add_argument("--out", type=Path, help="keeps the data sets here")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         big = Path(scratch) / "run"
-        repeated(given.run, big, given.days, given.hours)
+        lived = gathered(given.runs, big, given.days, given.hours)
         out = given.out or Path(scratch) / "export"
         began = time.process_time()
         made: dict[str, Any] = export(RunDir.open(big), out)
         made |= {
+            "days lived": min(lived, given.days),
             "seconds of processor": round(time.process_time() - began, 1),
             "MB held at most": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024),
             "MB of traces": _megabytes(big / "trace"),
@@ -67,12 +69,12 @@ def main() -> None:
     print(json.dumps(made))
 
 
-def repeated(run: Path, big: Path, days: int, hours: int) -> None:
-    """A run of so many days, made of those of another one."""
-    shutil.copytree(
-        run, big, ignore=shutil.ignore_patterns("trace", "memory", "adapters", "*.sqlite*", "lock", "seal*")
-    )
-    lived = sorted((run / "trace").glob("day-*"))
+def gathered(runs: Sequence[Path], big: Path, days: int, hours: int) -> int:
+    """A run of so many days, made of those of others; returns how many days these have."""
+    for run in reversed(runs):
+        unlike = shutil.ignore_patterns("trace", "memory", "adapters", "*.sqlite*", "lock", "seal*")
+        shutil.copytree(run, big, ignore=unlike, dirs_exist_ok=True)
+    lived = [day for run in runs for day in sorted((run / "trace").glob("day-*"))]
     for day in range(days):
         folder = big / "trace" / f"day-{day:02d}"
         folder.mkdir(parents=True)
@@ -80,6 +82,7 @@ def repeated(run: Path, big: Path, days: int, hours: int) -> None:
             record = json.loads(file.read_text(encoding="utf-8"))
             record |= {"day": day, "episode_day": day}
             (folder / file.name).write_text(json.dumps(record), encoding="utf-8")
+    return len(lived)
 
 
 def read(python: str, out: Path, cache: Path, prelude: Path | None) -> dict[str, Any]:

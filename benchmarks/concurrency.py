@@ -4,7 +4,8 @@
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
 the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
-The time one after the other is told beside that of its longest chains of calls, each of which waits for the one before.
+The time one after the other is told beside that of its longest chains of calls, each of which waits for the one before,
+and beside that and its seconds of processor, which is what it takes where nothing else runs.
 """
 
 from __future__ import annotations
@@ -66,13 +67,14 @@ def main() -> None:
         before = len(done(url))
         size = f"{given.studies} studies of {given.days} x {given.hours} hours"
         print(f"{size}, {given.latency:g} s a request; {os.cpu_count()} cores", flush=True)
-        single = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
+        single, cpu = _timed("one after the other", lambda: run_studies(studies("single"), at_once=1))
         print(f"requests: {len(done(url)) - before}")
         chain = sum(longest_chain(root / "single" / str(n)) for n in range(given.studies)) * given.latency
         print(f"longest chains of calls that wait for each other: {chain:.1f} s; {single / chain:.2f} times that")
+        print(f"chains and processor: {chain + cpu:.1f} s; {(chain + cpu) / chain:.2f} times the chains", flush=True)
         for processes in given.processes:
             name = f"at once in {processes} process{'es' if processes > 1 else ''}"
-            together = _timed(name, partial(at_once, name, processes))
+            together, _ = _timed(name, partial(at_once, name, processes))
             print(f"{name}: {single / together:.1f} times as fast")
             for n in range(given.studies):
                 same = [(root / run / str(n) / "metrics.csv").read_bytes() for run in ("single", name)]
@@ -85,16 +87,19 @@ def longest_chain(run: Path) -> int:
     return sum(place["round_trips"] for place in (*costs["hours"], *costs["evenings"]))
 
 
-def _timed(name: str, work: Callable[[], list[Ended]]) -> float:
-    """Do the work, print what it took, and return its seconds; an error of a study ends the benchmark."""
+def _timed(name: str, work: Callable[[], list[Ended]]) -> tuple[float, float]:
+    """Do the work, print what it took, and return its seconds by the clock and of the processor.
+
+    An error of a study ends the benchmark.
+    """
     cpu, started = _cpu_seconds(), time.perf_counter()
     ended = work()
-    seconds = time.perf_counter() - started
-    print(f"{name}: {seconds:.1f} s, of processor time {_cpu_seconds() - cpu:.1f} s", flush=True)
+    seconds, used = time.perf_counter() - started, _cpu_seconds() - cpu
+    print(f"{name}: {seconds:.1f} s, of processor time {used:.1f} s", flush=True)
     for one in ended:
         if isinstance(one, CooperaError):
             raise one
-    return seconds
+    return seconds, used
 
 
 def _cpu_seconds() -> float:

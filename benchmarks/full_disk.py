@@ -15,7 +15,6 @@ import argparse
 import atexit
 import gc
 import hashlib
-import importlib
 import itertools
 import json
 import math
@@ -23,18 +22,17 @@ import mmap
 import os
 import re
 import shutil
-import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from benchmarks.forks import import_all, prober, redirect
 from benchmarks.run_contents import Contents, contents, differences
 from coopera.core.errors import CooperaError
 
@@ -125,7 +123,7 @@ class Survey:
             shutil.copytree(data, self._warm)
         self._clean()
         self._start()
-        _import(json.loads((disk.base / "modules.json").read_text()))
+        import_all(json.loads((disk.base / "modules.json").read_text()))
         _warm_up(flags, disk.base, self._warm)
         self._clean()
         disk.arm(0, "once")
@@ -205,7 +203,7 @@ class Survey:
         sys.stdout.flush()
         child = os.fork()
         if child == 0:
-            _redirect(said, self.disk.base / "stdout")
+            redirect(said, self.disk.base / "stdout")
             os._exit(_work(args, self.run, self.disk))
         _, status = os.waitpid(child, 0)
         return os.waitstatus_to_exitcode(status), said.read_text()
@@ -223,7 +221,7 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     from coopera.memory.embeddings import bundled  # noqa: PLC0415
 
     code, base = 70, disk.base
-    rebuild.damage = store.damage = _prober()  # type: ignore[attr-defined]
+    rebuild.damage = store.damage = prober()  # type: ignore[attr-defined]
     try:
         code = main(args)
         atexit._run_exitfuncs()
@@ -239,73 +237,12 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     return code
 
 
-def _prober() -> Callable[..., str | None]:
-    """A stand-in for `coopera.memory.damage.damage`, whose processes are forked and need not import anything anew.
-
-    They come from one that is forked now, while there are no threads that could hold a lock then.
-    """
-    from coopera.memory.probe import reason_against  # noqa: PLC0415 - heavy
-
-    ours, theirs = socket.socketpair()
-    if os.fork() == 0:
-        ours.close()
-        talk = theirs.makefile("rw")
-        for line in talk:
-            talk.write(json.dumps(_in_a_fork(partial(reason_against, **json.loads(line)))) + "\n")
-            talk.flush()
-        os._exit(0)
-    theirs.close()
-    talk = ours.makefile("rw")
-
-    def damage(folder: Path, *, everything: bool = False) -> str | None:
-        talk.write(json.dumps({"folder": str(folder), "everything": everything}) + "\n")
-        talk.flush()
-        found: str | None = json.loads(talk.readline())
-        return found
-
-    return damage
-
-
-def _in_a_fork(look: Callable[[], str | None]) -> str | None:
-    """What a function says in a process of its own, or how that process ended."""
-    given, taken = os.pipe()
-    child = os.fork()
-    if child == 0:
-        try:
-            os.write(taken, (look() or "").encode())
-            os._exit(0)
-        finally:
-            os._exit(70)
-    os.close(taken)
-    with os.fdopen(given) as file:
-        said = file.read()
-    _, status = os.waitpid(child, 0)
-    code = os.waitstatus_to_exitcode(status)
-    return (said or None) if code == 0 else f"reading its index ends the process with {code}"
-
-
 def _numbered(kinds: Iterable[str]) -> Iterator[str]:
     """Each kind with a number that counts those before it."""
     met: Counter[str] = Counter()
     for kind in kinds:
         yield f"{kind} {met[kind]}"
         met[kind] += 1
-
-
-def _redirect(err: Path, out: Path) -> None:
-    for number, path in ((1, out), (2, err)):
-        file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-        os.dup2(file, number)
-        os.close(file)
-
-
-def _import(names: Iterable[str]) -> None:
-    """Import what a run imports, so that each trial need not."""
-    for name in names:
-        try:
-            importlib.import_module(name)
-        except Exception:  # noqa: BLE001 - some names are none of a module of its own
-            continue
 
 
 def _warm_up(flags: Sequence[str], base: Path, data: Path) -> None:

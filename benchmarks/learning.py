@@ -8,7 +8,7 @@ Each seed has some of the people (by default two; seed 0 the first two, and so o
 an earlier life; then each method's robot meets this life. Finished runs are read, stopped runs go on, so another
 --household needs another --out. Prints a Markdown table: the mean need F1, predicate F1 and judge F1 of the first and
 the second day, of the early days (2 to 5, those that are not late), of those between and of the late ones (the last
-third), and growth from early to late, each with a 95 % t interval over people; a person who lives under several seeds
+third), and growth from early to late, each with a 95 % interval over people; a person who lives under several seeds
 is averaged first. A second table has what the first method has more than each other one on the late days, by need F1,
 person by person.
 

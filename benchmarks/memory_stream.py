@@ -1,14 +1,17 @@
-"""How fast and how exact is the memory? `python benchmarks/memory_stream.py [--quick] [--store DIR] [--out FILE]`.
+"""How fast and how exact is the memory? `python -m benchmarks.memory_stream [--quick] [--store DIR] [--out FILE]`.
 
 One run measures everything that is compared. Calls on the different sizes alternate, so that a busy machine slows all
 of them alike; first ours among themselves, then the rivals, which sweep the processor's caches. Records are six per
-waking hour, thirteen hours a day, with MiniLM vectors of household sentences. Texts are encoded beforehand: what is
-timed is the recall with its texts (or the baseline's answer), not the encoding.
+waking hour, thirteen hours a day, so that a million are 35 years; their texts are drawn from 4,000 with MiniLM vectors
+of household sentences, since people say the same again and again. Texts are encoded beforehand: what is timed is the
+recall with its texts (or the baseline's answer), not the encoding. Times are milliseconds of processor, of all threads
+of the process, and by the clock.
 
 Baselines, each asked the same questions about the same records:
 - `brute force`: score every record in numpy, float32, vectors in RAM;
 - `LangChain`: TimeWeightedVectorStoreRetriever over Chroma (needs `pip install langchain-classic langchain-chroma`;
-  skipped with a word if they are not there). What it rewrites in reading is put back before each question;
+  skipped with a word if they are not there), up to `--langchain-most` records, each of which is a vector in its index.
+  What it rewrites in reading is put back before each question;
 - `encode everything`: encode the whole history at each question, as the paper's published code does. Measured on 60
   records; for other sizes that time is scaled, and marked so.
 """
@@ -25,9 +28,10 @@ from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from langchain_core.documents import Document
 from langchain_core.embeddings import Embeddings
 from typing_extensions import override
@@ -41,9 +45,10 @@ DECAY = 0.95
 K = 5
 IN_PROCESS = "ours in process"
 LONG_AGO = "ours, of a day long ago"
+NAMES = ("ours", IN_PROCESS, LONG_AGO, "brute force", "LangChain", "encode everything")
 WARM_UP, SLOW_ROUNDS = 2, 40
 PER_HOUR, HOURS_PER_DAY = 6, 13
-PAGE = 4000
+PAGE, DIFFERENT = 4000, 4000
 ACTIVITIES = (
     "make a cup of tea", "read a novel", "water the plants", "cook pasta for dinner", "play the guitar",
     "do some yoga", "clean the kitchen counter", "write in a diary", "watch a film", "fold the laundry",
@@ -68,24 +73,17 @@ class Prepared(Embeddings):
     model_id, dimension = "benchmark", 384
 
     def __init__(self, sentences: Vector, questions: dict[str, Vector]) -> None:
-        self._sentences = sentences
+        rng = np.random.default_rng(0)
+        chosen = sentences[rng.integers(0, len(sentences), DIFFERENT)]
+        noise = 0.01 * rng.standard_normal(chosen.shape).astype(np.float32)
+        self.vectors: Vector = unit(chosen + noise, [""] * DIFFERENT)
         self._questions = questions
-
-    def vectors(self, start: int, stop: int) -> Vector:
-        """Return the vectors of records start … stop - 1."""
-        rng = np.random.default_rng(start)
-        chosen = self._sentences[np.random.default_rng([1, start]).integers(0, len(self._sentences), stop - start)]
-        return unit(chosen + 0.01 * rng.standard_normal(chosen.shape).astype(np.float32), [""] * (stop - start))
 
     @override
     def embed_documents(self, texts: list[str]) -> list[list[float]]:
         if texts[0] in self._questions:
             return [self._questions[text].tolist() for text in texts]
-        numbers = [number_of(text) for text in texts]
-        page = self.vectors(numbers[0], numbers[0] + PAGE)[: len(numbers)]
-        assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
-        assert numbers[0] % PAGE == 0
-        vectors: list[list[float]] = page.tolist()
+        vectors: list[list[float]] = self.vectors[[int(text.rpartition("#")[2]) for text in texts]].tolist()
         return vectors
 
     @override
@@ -93,9 +91,9 @@ class Prepared(Embeddings):
         return self.embed_documents([text])[0]
 
 
-def number_of(text: str) -> int:
-    """Return the number in a record's text."""
-    return int(text.rpartition("#")[2])
+def said(size: int) -> npt.NDArray[np.int64]:
+    """The number of each record's text, the same for each size as far as it goes; shape (size,)."""
+    return np.random.default_rng(1).integers(0, DIFFERENT, size)
 
 
 def exactly(rows: ArrayRows, query: Vector, now: int) -> list[int]:
@@ -109,16 +107,28 @@ def hour_of(number: int) -> int:
     return day * 24 + 9 + within // PER_HOUR
 
 
-def milliseconds(ask: Callable[[], Any]) -> float:
-    """Return how long a call takes."""
-    start = time.perf_counter()
-    ask()
-    return (time.perf_counter() - start) * 1e3
+class Spent(NamedTuple):
+    """Milliseconds of processor and by the clock."""
+
+    cpu: float
+    clock: float
 
 
-def summary(times: Sequence[float]) -> dict[str, float]:
-    """Return median and 95th percentile, in ms."""
-    return {"p50_ms": round(float(np.median(times)), 3), "p95_ms": round(float(np.percentile(times, 95)), 3)}
+def spent(ask: Callable[[], Any]) -> tuple[Spent, Any]:
+    """What a call takes, and what it returns."""
+    cpu, clock = time.process_time(), time.perf_counter()
+    answer = ask()
+    return Spent((time.process_time() - cpu) * 1e3, (time.perf_counter() - clock) * 1e3), answer
+
+
+def summary(times: Sequence[Spent]) -> dict[str, float]:
+    """Medians, and the 95th percentile by the clock."""
+    cpu, clock = zip(*times, strict=True)
+    return {
+        "cpu_ms": round(float(np.median(cpu)), 3),
+        "p50_ms": round(float(np.median(clock)), 3),
+        "p95_ms": round(float(np.percentile(clock, 95)), 3),
+    }
 
 
 def build(folder: Path, size: int, embeddings: Prepared) -> tuple[MemoryStream, dict[str, float]]:
@@ -127,15 +137,14 @@ def build(folder: Path, size: int, embeddings: Prepared) -> tuple[MemoryStream, 
     path = folder / str(size)
     with MemoryStream.open(path, "life", embeddings, DECAY) as stream:
         missing = range(len(stream), size, PAGE)
-        start = time.perf_counter()
+        texts, start = said(size), time.process_time()
         for page in missing:
             numbers = range(page, min(page + PAGE, size))
-            stream.extend([Record(f"record #{number}", hour_of(number), {}) for number in numbers])
+            stream.extend([Record(f"record #{texts[n]}", hour_of(n), {"number": n}) for n in numbers])
         if missing:
-            took["inserted_per_s"] = round((size - missing[0]) / (time.perf_counter() - start))
-    start = time.perf_counter()
-    stream = MemoryStream.open(path, "life", embeddings, DECAY)
-    took["open_ms"] = round((time.perf_counter() - start) * 1e3)
+            took["inserted_per_cpu_s"] = round((size - missing[0]) / (time.process_time() - start))
+    opened, stream = spent(lambda: MemoryStream.open(path, "life", embeddings, DECAY))
+    took["open_cpu_ms"] = round(opened.cpu)
     took["mb_on_disk"] = round(sum(file.stat().st_size for file in path.rglob("*") if file.is_file()) / 1e6, 1)
     return stream, took
 
@@ -165,9 +174,9 @@ def langchain_retriever(
     now = datetime.now()
     last = hour_of(size - 1) + 1
     documents = []
-    for number in range(size):
+    for number, text in enumerate(said(size).tolist()):
         when = now - timedelta(hours=last - hour_of(number))
-        documents.append(Document(f"record #{number}", metadata={"buffer_idx": number, "last_accessed_at": when}))
+        documents.append(Document(f"record #{text}", metadata={"buffer_idx": number, "last_accessed_at": when}))
     if chroma._collection.count() == 0:
         for start in range(0, size, PAGE):
             page = documents[start : start + PAGE]
@@ -194,51 +203,47 @@ def encode_everything_ms() -> float:
     texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES[:6], DETAILS[:10])]
     encode = shared().encode
     encode("warm up")
-    return milliseconds(lambda: [encode(text) for text in texts]) / len(texts)
+    return spent(lambda: [encode(text) for text in texts])[0].cpu / len(texts)
 
 
 class Race:
     """Asks all contestants the same questions in turns."""
 
-    def __init__(self, folder: Path, sizes: list[int], in_process: int) -> None:
+    def __init__(self, folder: Path, sizes: list[int], langchain_most: int) -> None:
         """Build what is missing."""
         texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)]
         with bundled(folder / "embeddings.sqlite") as plain:
             sentences = plain.array(texts)
             self.questions = dict(zip(QUESTIONS, plain.array(QUESTIONS), strict=True))
         self.sizes = sizes
-        self.in_process = in_process
         embeddings = Prepared(sentences, self.questions)
         self.streams: dict[int, MemoryStream] = {}
         self.built: dict[int, dict[str, Any]] = {}
         for size in sizes:
             self.streams[size], self.built[size] = build(folder, size, embeddings)
             print(f"{size} records: {self.built[size]}", flush=True)
-        most = max(in_process, *sizes)
-        pages = [embeddings.vectors(page, page + PAGE) for page in range(0, most, PAGE)]
-        self.vectors = np.concatenate(pages)[:most]
-        self.hours = np.array([hour_of(number) for number in range(most)], np.int64)
-        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in sizes}
+        self.vectors = embeddings.vectors[said(max(sizes))]
+        self.hours = np.array([hour_of(number) for number in range(max(sizes))], np.int64)
+        some = [size for size in sizes if size <= langchain_most]
+        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in some}
         if not any(self.rivals.values()):
             print("LangChain's retriever is not installed (langchain-classic, langchain-chroma): skipped")
-        self.times: dict[tuple[str, int], list[float]] = {}
+        self.times: dict[tuple[str, int], list[Spent]] = {}
         self.found: dict[tuple[str, int], list[float]] = {}
 
     def run(self, rounds: int) -> dict[str, Any]:
         """Ask, and return the figures; the first two rounds warm up."""
-        sizes = [*self.sizes, self.in_process]
         for ask in (self._ask_in_process, self._ask_ours, self._ask_long_ago, self._ask_rivals):
             for number in range(rounds + WARM_UP):
-                for size in sizes[:: 1 if number % 2 else -1]:
+                for size in self.sizes[:: 1 if number % 2 else -1]:
                     ask(number, size)
-        result: dict[str, Any] = {"streams": dict(self.built), "in_process": {}, "rounds": rounds}
+        result: dict[str, Any] = {"streams": dict(self.built), "rounds": rounds}
         for (name, size), values in sorted(self.times.items()):
-            entry = {**summary(values[WARM_UP:]), "recall_at_5": round(float(np.mean(self.found[name, size])), 3)}
-            kind = "streams" if size in self.streams and name != IN_PROCESS else "in_process"
-            result[kind].setdefault(size, {})[name] = entry
+            found = round(float(np.mean(self.found[name, size])), 3)
+            result["streams"][size][name] = {**summary(values[WARM_UP:]), "recall_at_5": found}
         per_record = encode_everything_ms()
         for size, stream in self.streams.items():
-            result["streams"][size]["encode everything"] = {"p50_ms_scaled": round(per_record * size, 1)}
+            result["streams"][size]["encode everything"] = {"cpu_ms": round(per_record * size, 1)}
             stream.close()
         return result
 
@@ -257,18 +262,16 @@ class Race:
         self._turn(IN_PROCESS, size, answer, lambda: exactly(rows, query, now))
 
     def _ask_ours(self, number: int, size: int) -> None:
-        if size in self.streams:
-            recall = self.streams[size].recall
-            question, now, answer = self._question(number, size)
-            self._turn("ours", size, answer, lambda: [number_of(r.text) for r in recall(question, now, K)])
+        recall = self.streams[size].recall
+        question, now, answer = self._question(number, size)
+        self._turn("ours", size, answer, lambda: [one.metadata["number"] for one in recall(question, now, K)])
 
     def _ask_long_ago(self, number: int, size: int) -> None:
-        if size in self.streams:
-            recall = self.streams[size].recall
-            past = int(np.random.default_rng(number).integers(24, hour_of(size - 1)))
-            question = QUESTIONS[number % len(QUESTIONS)]
-            answer = exactly(self._rows(size), self.questions[question], past)
-            self._turn(LONG_AGO, size, answer, lambda: [number_of(r.text) for r in recall(question, past, K)])
+        recall = self.streams[size].recall
+        past = int(np.random.default_rng(number).integers(24, hour_of(size - 1)))
+        question = QUESTIONS[number % len(QUESTIONS)]
+        answer = exactly(self._rows(size), self.questions[question], past)
+        self._turn(LONG_AGO, size, answer, lambda: [one.metadata["number"] for one in recall(question, past, K)])
 
     def _ask_rivals(self, number: int, size: int) -> None:
         if number >= SLOW_ROUNDS:
@@ -285,37 +288,33 @@ class Race:
             self._turn("LangChain", size, present, lambda: ask(question))
             undo()
 
-    def _turn(self, name: str, size: int, exact: list[int] | None, ask: Callable[[], list[int]]) -> list[int]:
-        """Ask one contestant, and note how long it took and how many of the best it found."""
-        start = time.perf_counter()
-        answer = ask()
-        self.times.setdefault((name, size), []).append((time.perf_counter() - start) * 1e3)
-        self.found.setdefault((name, size), []).append(len({*answer} & {*(exact or answer)}) / K)
-        return answer
+    def _turn(self, name: str, size: int, exact: list[int], ask: Callable[[], list[int]]) -> None:
+        """Ask one contestant, and note what it took and how many of the best it found."""
+        took, answer = spent(ask)
+        self.times.setdefault((name, size), []).append(took)
+        self.found.setdefault((name, size), []).append(len({*answer} & {*exact}) / K)
 
 
-def report(result: dict[str, Any], sizes: list[int], in_process: int) -> dict[str, float]:
-    """Print the table; return the ratios that the project promises."""
-    names = ("ours", LONG_AGO, "brute force", "LangChain", "encode everything")
-    print(f"\n{'records':>9} " + " ".join(f"{name + ' ms (recall@5)':>33}" for name in names))
+def report(result: dict[str, Any], sizes: list[int]) -> dict[str, float]:
+    """Print the table; return the ratios that the project promises, of processor time."""
+    print(f"\n{'records':>9} " + " ".join(f"{name + ' (recall@5)':>28}" for name in NAMES))
     for size, row in result["streams"].items():
         cells = []
-        for name in names:
+        for name in NAMES:
             entry = row.get(name, {})
-            middle = entry.get("p50_ms", entry.get("p50_ms_scaled"))
-            recall = f" ({entry['recall_at_5']:.2f})" if "recall_at_5" in entry else " (scaled)"
-            cells.append(f"{'-' if middle is None else f'{middle:.3f}' + recall:>33}")
-        print(f"{size:>9} " + " ".join(cells))
-    ours = {size: result["streams"][size]["ours"]["p50_ms"] for size in sizes}
-    ratios = {"growth": round(ours[sizes[-1]] / ours[sizes[0]], 3)}
-    inside = {size: entry[IN_PROCESS]["p50_ms"] for size, entry in result["in_process"].items()}
-    if in_process in inside and sizes[0] in inside:
-        ratios["growth in process"] = round(inside[in_process] / inside[sizes[0]], 3)
-    for name in names[2:]:
+            share = f" ({entry['recall_at_5']:.2f})" if "recall_at_5" in entry else " (scaled)"
+            cells.append(f"{entry['cpu_ms']:.3f}{share}" if entry else "-")
+        print(f"{size:>9} " + " ".join(f"{cell:>28}" for cell in cells))
+    took = {
+        (name, size): row[name]["cpu_ms"] for size, row in result["streams"].items() for name in NAMES if name in row
+    }
+    ratios = {}
+    for name, measure in (("growth", "ours"), ("growth in process", IN_PROCESS)):
+        ratios[name] = round(took[measure, sizes[-1]] / took[measure, sizes[0]], 3)
+    for name in ("brute force", "LangChain"):
         for size in sizes:
-            entry = result["streams"][size].get(name)
-            if entry:
-                ratios[f"{name} / ours at {size}"] = round(next(iter(entry.values())) / ours[size], 1)
+            if (name, size) in took:
+                ratios[f"{name} / ours at {size}"] = round(took[name, size] / took["ours", size], 1)
     for name, ratio in ratios.items():
         print(f"{name}: {ratio}")
     return ratios
@@ -324,16 +323,19 @@ def report(result: dict[str, Any], sizes: list[int], in_process: int) -> dict[st
 def main() -> None:
     """Parse the command line, measure, print and perhaps write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="1k and 10k records in Chroma, 100k in process")
+    parser.add_argument("--quick", action="store_true", help="up to 100,000 records, and 10,000 of LangChain's")
     parser.add_argument("--rounds", type=int, default=200, help="questions per size")
+    parser.add_argument("--sizes", type=int, nargs="+", help="numbers of records, the least first")
+    parser.add_argument("--langchain-most", type=int, help="records [default: 100,000]")
     parser.add_argument("--store", type=Path, help="folder that keeps the stores for another run")
     parser.add_argument("--out", type=Path, help="JSON file for the figures")
     given = parser.parse_args()
-    sizes, in_process = ([1000, 10_000], 100_000) if given.quick else ([1000, 10_000, 100_000, 250_000], 1_000_000)
+    sizes = given.sizes or [1000, 10_000, 100_000, *([] if given.quick else [1_000_000])]
+    most = given.langchain_most or (10_000 if given.quick else 100_000)
     folder = given.store or Path(tempfile.mkdtemp(prefix="memory-benchmark-"))
     try:
-        result = Race(folder, sizes, in_process).run(given.rounds)
-        result["ratios"] = report(result, sizes, in_process)
+        result = Race(folder, sizes, most).run(given.rounds)
+        result["ratios"] = report(result, sizes)
         if given.out:
             given.out.write_text(json.dumps(result, indent=1))
     finally:

@@ -5,7 +5,7 @@
 Each person lives with a robot of their own, in a process of its own, without pictures. Seconds are processor time of
 the evening's `learn` node; megabytes are the largest resident set so far, and the size of the run's memory on file. A
 life that is there already is read. Ends with a Markdown table: the mean over people of each ten days (need F1 with a 95
-% t interval), and the slowest evening.
+% interval), and the slowest evening.
 """
 
 from __future__ import annotations

@@ -36,6 +36,7 @@ from coopera.commands import (
 from coopera.core.errors import OldWordWarning
 from coopera.core.naming import printable
 from coopera.core.version import __version__
+from coopera.studies.heap import rare_collections
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
 
@@ -91,6 +92,7 @@ def main(args: Sequence[str] | None = None) -> int:
     What is wrong is said in one sentence on standard error; what nobody foresaw stands in a log file that it names.
     """
     _log_plainly()
+    rare_collections()
     atexit.register(gc.freeze)  # to look for garbage once more would hold the end up by a second
     with warnings.catch_warnings():
         warnings.showwarning = partial(_say_warning, warnings.showwarning)

@@ -87,7 +87,7 @@ _IN_WORDS = (
 )
 
 
-@lru_cache(maxsize=50_000)  # a robot reads weeks of told tasks every hour
+@lru_cache(maxsize=8192)  # a robot reads weeks of told tasks every hour
 def use_of(described: str) -> Use | None:
     """Read back what `describe` says of an act; None for other words."""
     for pattern in _IN_WORDS:

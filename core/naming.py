@@ -1,7 +1,8 @@
-"""How objects are called: names as words, and what words end with; and how any text may stand on a terminal."""
+"""How objects are called: names as words, and what words end with; and any text: on a terminal, and by its SHA-256."""
 
 from __future__ import annotations
 
+import hashlib
 import re
 from functools import lru_cache
 
@@ -29,3 +30,8 @@ def printable(text: str) -> str:
     Line ends and tabs stay. JSON stays the same data.
     """
     return _UNSEEN.sub(lambda found: f"\\u{ord(found.group()):04x}", text)
+
+
+def sha256(text: str) -> str:
+    """What a text, as a file in UTF-8, is known by."""
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -6,7 +6,7 @@ import difflib
 import pkgutil
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, Protocol, TypeVar, cast
@@ -61,7 +61,7 @@ class Registry(Generic[Value]):
 
     def known(self) -> list[str]:
         """All names: those that ship, sorted, then those registered here, then those of other packages."""
-        return list(dict.fromkeys([*sorted(self._shipped()), *self._registered, *sorted(self._installed)]))
+        return list(dict.fromkeys([*sorted(self._shipped), *self._registered, *sorted(self._installed)]))
 
     def find(self, name: str) -> Value:
         """Return a value by its name.
@@ -71,7 +71,7 @@ class Registry(Generic[Value]):
         """
         if name in self._registered:
             return self._registered[name]
-        shipped, offered = self._shipped().get(name), self._installed.get(name)
+        shipped, offered = self._shipped.get(name), self._installed.get(name)
         where = shipped or ""
         if offered and not shipped:
             where = f"{name} of {offered.dist.name if offered.dist else 'another package'} ({offered.value})"
@@ -90,17 +90,17 @@ class Registry(Generic[Value]):
         Raises:
             ConfigError: If another value has its name already.
         """
-        taken = value.name in self._shipped() or value.name in self._installed
+        taken = value.name in self._shipped or value.name in self._installed
         if taken or self._registered.setdefault(value.name, value) != value:
             raise ConfigError(f"{self._what}: the name {value.name!r} is taken by another {self._what}.")
         return value
 
+    @property
     def _shipped(self) -> Mapping[str, str]:
         """The module of each value that ships, by name."""
         if self._package is None:
             return {}
-        found = pkgutil.iter_modules(import_module(self._package).__path__)
-        names = [one.name for one in found if not one.name.startswith("_")]
+        names = _modules_in(tuple(import_module(self._package).__path__))
         return {name.replace("_", self._dash): f"{self._package}.{name}" for name in names}
 
     @cached_property
@@ -112,6 +112,12 @@ class Registry(Generic[Value]):
             got = type(found).__name__
             raise ConfigError(f"{self._what}: {where} must give a {self._kind.__name__}, and gives {got}.")
         return found if found.name == name else cast(Value, replace(cast(Any, found), name=name))
+
+
+@cache
+def _modules_in(folders: tuple[str, ...]) -> list[str]:
+    """Names of the modules in a package's folders, looked for once: every hour asks."""
+    return [one.name for one in pkgutil.iter_modules(folders) if not one.name.startswith("_")]
 
 
 def unknown(what: str, name: str, known: Sequence[str]) -> ConfigError:

@@ -61,7 +61,7 @@ class Comparison(NamedTuple):
     """A method against the reference, on the same days.
 
     Attributes:
-        difference: Mean over people of the paired differences, with its t interval.
+        difference: Mean over people of the paired differences, with its interval.
         p: Of a test over people, two-sided; 1 where there is nothing to test.
         p_corrected: After the correction among the methods compared; None for one that no hypothesis names.
         people: How many people are tested; the smallest p that the sign-flip test can give is 2 / 2^people.
@@ -91,7 +91,7 @@ def person_means(units: Sequence[Unit]) -> list[float]:
 
 
 def clustered_mean(units: Sequence[Unit], *, level: float = 0.95) -> Mean:
-    """The mean over people with its t interval; a person weighs the same however often they were met.
+    """The mean over people with its interval; a person weighs the same however often they were met.
 
     Args:
         units: At least one.

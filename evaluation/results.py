@@ -7,7 +7,6 @@ has the sorted rows, also as `hours.parquet` if pyarrow is installed. All tables
 from __future__ import annotations
 
 import csv
-import hashlib
 import io
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -19,6 +18,7 @@ from pydantic import ConfigDict, Field, ValidationError, model_validator
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.tables import read_table
 from coopera.core.hour import Evening, HourRecord
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 from coopera.core.success import Counts
 from coopera.evaluation.measuring import F, MeasureSpec, all_measures, told_in_the_evening
@@ -221,7 +221,7 @@ def rows_of(
                 scene=hour.scene,
                 status=hour.status,
                 activity=activity(hour.human.intention.text) if hour.human else "",
-                human=hashlib.sha256(hour.human.model_dump_json().encode()).hexdigest() if hour.human else "",
+                human=sha256(hour.human.model_dump_json()) if hour.human else "",
                 **measured,
             )
         )
@@ -271,11 +271,6 @@ def from_csv(text: str, source: str) -> list[Row]:
 
 def _texts(data: Mapping[str, Any]) -> dict[str, str]:
     return {name: data[name] for name in ("activity", "human")}
-
-
-def sha256(text: str) -> str:
-    """The table's fingerprint."""
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def check_card(data: Any, table: str, source: str) -> Card:

@@ -8,12 +8,17 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 Unit = TypeVar("Unit")
 
 FEWEST = 3
 """Of so many people at least an interval is given; two say next to nothing of how people scatter."""
+INTERVAL = "95 % interval (Student's t, wider where people are skewed)"
+"""What tables call the interval of a mean over people."""
+_FLAT, _EVEN = 1e-24, 1e-6
+"""Below these a sample has no spread, and its skewness is none."""
 TOO_SMALL = "n too small"
 """What stands in place of an interval."""
 
@@ -47,10 +52,13 @@ class Mean(NamedTuple):
 
 
 def mean_over_people(values: Sequence[float], *, level: float = 0.95) -> Mean:
-    """The mean with its interval by Student's t.
+    """The mean with its interval: Student's t, and as much farther out as skewness asks for.
 
-    The percentile bootstrap that stood here covered 0.76 with three people and 0.89 with six to ten where it said 0.95.
-    The tests simulate what this one covers with 6, 12 and 20 people.
+    People of whom few have much and most have little make t miss the truth on that side: of 95 % intervals of eight
+    exponential people it holds 89 %, this one 92 %. For six normal people it is 5 % wider in the median, 11 % in the
+    mean. Hall (1992, "On the removal of skewness by transformation") takes skewness out of t by a monotone cubic; here
+    with that part of a sample's skewness that is beyond chance. The end that lies farther out is taken, Student's or
+    Hall's. `benchmarks/intervals.py` chose it among eleven, by a rule written beforehand.
 
     Args:
         values: One number per person, at least one. Whoever has several (days, homes, seeds) has their mean here.
@@ -60,8 +68,27 @@ def mean_over_people(values: Sequence[float], *, level: float = 0.95) -> Mean:
     mean, count = float(sample.mean()), len(sample)
     if count < FEWEST:
         return Mean(mean, None, None, count)
-    half = _quantile((1 + level) / 2, count - 1) * float(sample.std(ddof=1)) / math.sqrt(count)
-    return Mean(mean, mean - half, mean + half, count)
+    sd, at = float(sample.std(ddof=1)), _quantile((1 + level) / 2, count - 1) / math.sqrt(count)
+    skew = _skewness(sample)
+    low, high = (_without_skewness(end, skew, count) for end in (at, -at))
+    return Mean(mean, mean - max(at, low) * sd, mean + max(at, -high) * sd, count)
+
+
+def _skewness(sample: NDArray[np.float64]) -> float:
+    """A sample's skewness, shrunk towards 0 by what normal people have by chance (as James and Stein shrink a mean)."""
+    off, count = sample - sample.mean(), len(sample)
+    if (spread := float((off**2).mean())) < _FLAT:
+        return 0.0
+    skew = float((off**3).mean()) / spread**1.5
+    chance = 6 * (count - 2) / ((count + 1) * (count + 3))
+    return skew * max(0.0, 1 - chance / skew**2) if skew else 0.0
+
+
+def _without_skewness(at: float, skew: float, count: int) -> float:
+    """The inverse of Hall's cubic: how many SDs the mean is off where Student's t would say `at`."""
+    if abs(skew) < _EVEN:
+        return at
+    return 3 / skew * (math.cbrt(1 + skew * (at - skew / (6 * count))) - 1)
 
 
 @functools.cache
@@ -79,8 +106,8 @@ def bootstrap(
 ) -> Interval:
     """Any statistic of independent units with a percentile bootstrap interval; `mean` is its value on all of them.
 
-    For statistics that are no mean over people (accuracies, correlations, divergences), which have no t interval; for
-    means there is `mean_over_people`. With ten units or fewer it covers less than it says.
+    For statistics that are no mean over people (accuracies, correlations, divergences), which have no such interval;
+    for means there is `mean_over_people`. With ten units or fewer it covers less than it says.
 
     Where measurements belong together (a person's days), the unit is all of a person's, so that the interval is
     clustered by person. A resample on which the statistic is nan is left out; if it is nan on all, so are the ends.

@@ -27,7 +27,7 @@ from coopera.evaluation.analysis import (
 from coopera.evaluation.comparing import ALPHA, Comparison, people_needed
 from coopera.evaluation.measuring import all_measures, find_measure
 from coopera.evaluation.results import Row
-from coopera.evaluation.statistics import FEWEST
+from coopera.evaluation.statistics import FEWEST, INTERVAL
 from coopera.evaluation.table import NONE, Table, cell, signed
 
 REFERENCE = "ours"
@@ -174,7 +174,7 @@ def comparison_table(rows: Sequence[Row], methods: Sequence[str], late: Endpoint
     times = len(family) if stated.correction == "holm" else 1
     notes = [
         f"{late}." if late else "The paper's endpoint.",
-        f"Mean over people with a 95 % t interval; {_TESTS[stated.test]} over people, two-sided.",
+        f"Mean over people with a {INTERVAL}; {_TESTS[stated.test]} over people, two-sided.",
         *(
             [
                 f"Its p stays below {ALPHA} after {_CORRECTIONS[stated.correction]} of {len(family)} comparisons from "
@@ -344,8 +344,8 @@ def activity_table(rows: Sequence[Row], methods: Sequence[str]) -> Table:
 
 
 _MEANS = (
-    "Mean over people with a 95 % t interval; several homes, episodes and seeds of a person are averaged first. In "
-    f"parentheses how many episodes of a person these are; fewer than {FEWEST} people have no interval."
+    f"Mean over people with a {INTERVAL}; several homes, episodes and seeds of a person are averaged first. "
+    f"In parentheses how many episodes of a person these are; fewer than {FEWEST} people have no interval."
 )
 
 

@@ -187,23 +187,26 @@ def infer_traits(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
 
 
 def learn(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Keep the day's truth as history and train who learns. Writes `learned` and `measured`."""
+    """Train who learns from the day's truth. Writes `learned` and `measured`."""
     services, plan = runtime.context, state["plan"]
-    if services.recorder.read_evening(plan.day) or not services.method.robot:
-        return {"measured": {}}
-    hours = _told(services, plan)
-    remember_day(services, plan, hours)
-    if not services.method.learns:
+    if services.recorder.read_evening(plan.day) or not (services.method.robot and services.method.learns):
         return {"measured": {}}
     belief = state["beliefs"].get(plan.person, Belief())
-    account = account_of(plan, hours, state["feedback"], belief)
+    account = account_of(plan, _told(services, plan), state["feedback"], belief)
     measured = services.pupil.learn(plan.day, state["learned"], account)
     return {"measured": measured, "learned": [*state["learned"], plan.day]}
 
 
 def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
-    """Write the evening's trace, or take over what stands there. Then also writes `beliefs` and `learned`."""
+    """Keep the day's truth as history and write the evening's trace, or take over what stands there.
+
+    Then also writes `beliefs` and `learned`. All memories are on disk before the evening is: only the hours of a day
+    that was broken off may be missing there, and those stand in the trace.
+    """
     services, plan = runtime.context, state["plan"]
+    if services.method.robot:
+        remember_day(services, plan, _told(services, plan))
+    services.memories("history", plan.episode, plan.person).flush()
     if past := services.recorder.read_evening(plan.day):
         return _as_it_was(services, state, past)
     services.recorder.write_evening(
@@ -231,8 +234,6 @@ def _after(state: DayState, world: dict[str, Any]) -> dict[str, Any]:
 def _as_it_was(services: Services, state: DayState, past: Evening) -> dict[str, Any]:
     """Have the robot know what it knew after an evening that stands in the trace."""
     plan, method = state["plan"], services.method
-    if method.robot:
-        remember_day(services, plan, _told(services, plan))
     learned = [day for day in state["learned"] if day != plan.day]
     learned += [plan.day] if method.robot and method.learns else []
     return {"beliefs": {**state["beliefs"], plan.person: past.belief}, "learned": learned}

@@ -11,9 +11,9 @@ from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
-    from coopera.memory.log import Record
     from coopera.memory.rebuild import Repaired, repair
     from coopera.memory.retriever import MemoryRetriever
+    from coopera.memory.rows import Record
     from coopera.memory.search import Search
     from coopera.memory.store import streams
     from coopera.memory.stream import MemoryStream, Recollection, extend_together
@@ -24,7 +24,7 @@ _HOMES = {
     "MemoryRetriever": "coopera.memory.retriever",
     "MemoryStream": "coopera.memory.stream",
     "Recollection": "coopera.memory.stream",
-    "Record": "coopera.memory.log",
+    "Record": "coopera.memory.rows",
     "Repaired": "coopera.memory.rebuild",
     "Search": "coopera.memory.search",
     "as_array": "coopera.memory.embeddings",

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import threading
-import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -17,6 +15,7 @@ from coopera.memory.client import translated
 from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
+from coopera.memory.rows import Record, Row, restored, row, vector_sum
 from coopera.memory.scan import BLOCK, Block
 from coopera.memory.vectors import Vectors, repeated
 
@@ -24,17 +23,11 @@ if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 4  # 3 MB of MiniLM's, where no text is said twice
-_TEXTS_IN_RAM = 8 * BLOCK  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
+_BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's, where no text is said twice
+_TEXTS_IN_RAM = (
+    _BLOCKS_IN_RAM * BLOCK
+)  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
 _FAN = 32  # positions looked at together when searching by hour
-
-
-class Record(NamedTuple):
-    """What was added: a text, the global hour index it belongs to, and the caller's own data."""
-
-    text: str
-    hour: int
-    metadata: Mapping[str, Any]
 
 
 class Log:
@@ -69,6 +62,7 @@ class Log:
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
         self._lately: OrderedDict[int, Record] = OrderedDict()
+        self._waiting: list[Row] = []
         self._reload()
 
     def __len__(self) -> int:
@@ -115,7 +109,13 @@ class Log:
         return before * BLOCK + int(np.searchsorted(self.block(before).hours, hour))
 
     def append(
-        self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
+        self,
+        texts: Sequence[str],
+        vectors: Vector,
+        hours: Sequence[int],
+        metadata: Sequence[Mapping[str, Any]],
+        *,
+        at_once: bool = True,
     ) -> None:
         """Add records at the end, up to 1000 of them at once or not at all.
 
@@ -124,23 +124,42 @@ class Log:
             vectors: Unit vectors, shape (n, d).
             hours: n hours, none before `last_hour`, non-decreasing.
             metadata: n mappings of JSON data.
+            at_once: Whether they are in the store when this returns; if not, those of a full block are.
 
         Raises:
-            MemoryStoreError: If the store fails; what was then written is found again by the next call.
+            MemoryStoreError: If the store fails; what is in it then is what this log has.
         """
         for start in range(0, len(texts), _PER_CALL):
             part = slice(start, start + _PER_CALL)
             self._append(texts[part], vectors[part], hours[part], metadata[part])
+            if at_once or len(self._waiting) >= BLOCK:
+                self.flush()
 
     def keep(self, texts: Sequence[str], vectors: Vector) -> None:
         """Keep vectors, shape (n, d), of texts that will be added to streams of this store and model."""
-        if self._vectors is not None and len(texts) <= _PER_CALL:
+        if self._vectors is not None:
             self._vectors.add(texts, vectors)
+
+    def flush(self) -> None:
+        """Have all records in the store.
+
+        Raises:
+            MemoryStoreError: If it fails; what is in it then is what this log has.
+        """
+        with self.lock:
+            try:
+                while some := self._waiting[:_PER_CALL]:
+                    self._write(some)
+                    del self._waiting[: len(some)]
+            except MemoryStoreError:
+                self._reload()
+                raise
 
     def cut(self, length: int) -> None:
         """Drop all records from this position on, at once or not at all."""
         if length >= self._length:
             return
+        self.flush()
         numbering = self._numbering.cut(length, self._length)
         try:
             with translated(self.where):
@@ -168,6 +187,7 @@ class Log:
 
     def _read_records(self, positions: Sequence[int]) -> dict[int, Record]:
         """Return records by position from the store, up to `_PER_CALL` of them."""
+        self._put(max(positions) + 1)
         with translated(self.where):
             rows = self._collection.get(ids=self._ids(positions), include=["documents", "metadatas"])
         texts, metadatas = rows["documents"] or [], rows["metadatas"] or []
@@ -196,35 +216,33 @@ class Log:
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
     ) -> None:
         ids = self._ids(range(self._length, self._length + len(texts)))
-        entries: list[dict[str, str | int]] = []
-        for text, vector, hour, own in zip(texts, vectors, hours, metadata, strict=True):
-            own_json = json.dumps(own, ensure_ascii=False, allow_nan=False) if own else ""
-            entry: dict[str, str | int] = {
-                "hour": hour,
-                "text_sum": _text_sum(text, hour, own_json),
-                "vector_sum": _vector_sum(vector, hour),
-            }
-            if own:
-                entry["metadata"] = own_json
-            entries.append(entry)
-        try:
-            if self._vectors is not None:
-                self._vectors.add(texts, vectors)
-            with translated(self.where):
-                self._collection.add(
-                    ids=ids,
-                    embeddings=vectors if self._vectors is None else np.ones((len(texts), 1), np.float32),
-                    documents=list(texts),
-                    metadatas=entries,  # type: ignore[arg-type]
-                )
-            if not self._exclusive:
-                self._check_written(ids, entries)
-        except MemoryStoreError:
-            self._reload()
-            raise
-        added = enumerate(zip(texts, entries, strict=True), self._length)
-        self._keep({position: record for position, (text, entry) in added if (record := restored(text, entry)[0])})
+        records = [Record(*one) for one in zip(texts, hours, metadata, strict=True)]
+        rows = [row(*one) for one in zip(ids, records, vectors, strict=True)]
+        self.keep(texts, vectors)
+        self._waiting += rows
+        added = enumerate(rows, self._length)
+        self._keep({at: record for at, one in added if (record := restored(one.text, one.entry)[0])})
         self._extend(vectors, np.asarray(hours, np.int64))
+
+    def _write(self, rows: Sequence[Row]) -> None:
+        """Put rows into the store, up to `_PER_CALL` of them, once all vectors are there."""
+        if self._vectors is not None:
+            self._vectors.flush()
+        ids, texts, vectors, entries = map(list, zip(*rows, strict=True))
+        with translated(self.where):
+            self._collection.add(
+                ids=ids,
+                embeddings=np.stack(vectors) if self._vectors is None else np.ones((len(rows), 1), np.float32),
+                documents=texts,
+                metadatas=entries,
+            )
+        if not self._exclusive:
+            self._check_written(ids, entries)
+
+    def _put(self, stop: int) -> None:
+        """Have the records before this position in the store."""
+        if self._length - len(self._waiting) < stop:
+            self.flush()
 
     def _check_written(self, ids: list[str], entries: list[dict[str, str | int]]) -> None:
         """Make sure that these records are ours: adding an id that is there is silently ignored by Chroma."""
@@ -257,6 +275,7 @@ class Log:
         self._blocks.clear()
         self._starts.clear()
         self._lately.clear()
+        self._waiting.clear()
         self._length = 0
         self._tail = _empty(0, 0)
         with translated(self.where):
@@ -284,6 +303,7 @@ class Log:
 
     def _read(self, start: int, stop: int) -> tuple[Vector, npt.NDArray[np.int64]]:
         """Read the vectors and hours of some records, checking each against its check sum."""
+        self._put(stop)
         ids = self._ids(range(start, stop))
         from chromadb.errors import InternalError  # noqa: PLC0415 - heavy
 
@@ -310,7 +330,7 @@ class Log:
             texts: Any = rows["documents"]
             vectors = self._vectors_of([(texts[place], metadatas[place]) for place in order], start)
         for offset, place in enumerate(order):
-            if metadatas[place].get("vector_sum") != _vector_sum(vectors[offset], int(hours[offset])):
+            if metadatas[place].get("vector_sum") != vector_sum(vectors[offset], int(hours[offset])):
                 raise DamagedMemoryError(
                     self.where, f"the vector or hour of record {start + offset} is not what was written"
                 )
@@ -350,29 +370,3 @@ class _Tail(NamedTuple):
 
 def _empty(start: int, dimension: int) -> _Tail:
     return _Tail(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
-
-
-def restored(text: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, bool]:
-    """Return the record that a stored text and its metadata stand for, and whether it is what was written.
-
-    The record is None where there is none to be made out.
-    """
-    hour, own_json = meta.get("hour"), meta.get("metadata", "")
-    if not text or not isinstance(hour, int) or not isinstance(own_json, str):
-        return None, False
-    try:
-        own = json.loads(own_json or "{}")
-    except ValueError:
-        own = {}
-    whole = meta.get("text_sum") == _text_sum(text, hour, own_json)
-    return Record(text, hour, own if isinstance(own, dict) else {}), whole
-
-
-def _text_sum(text: str, hour: int, own_json: str) -> int:
-    """Return a check sum of all but the vector, which tells written from damaged."""
-    return zlib.crc32(f"{hour} {len(text)} {text}{own_json}".encode())
-
-
-def _vector_sum(vector: Vector, hour: int) -> int:
-    """Return a check sum of a record's vector and hour."""
-    return zlib.crc32(f"{hour} ".encode() + np.ascontiguousarray(vector, "<f4").tobytes())

@@ -24,8 +24,9 @@ from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.damage import damage
 from coopera.memory.embeddings import as_array, by_identity, identity, unit
 from coopera.memory.folder import CHROMA, DamagedMemoryError, locked, repaired
-from coopera.memory.log import Log, Record, restored
+from coopera.memory.log import Log
 from coopera.memory.numbering import Numbering, position_of
+from coopera.memory.rows import Record, restored
 from coopera.memory.store import Store
 
 _LOG = logging.getLogger(__name__)

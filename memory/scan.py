@@ -163,13 +163,15 @@ class _Window:
         A float32 product depends on where in the matrix a row stands, so it only preselects.
         """
         query = self._query.astype(np.float64)
-        found: list[tuple[float, int, Hit]] = []
+        positions, hours, cosines = [], [], []
         for scores, block, rows in self._kept:
             near = np.flatnonzero(scores >= self._floor)
-            relevance = (block.vectors[near].astype(np.float64) * query).sum(1)
-            for row, cosine in zip(near.tolist(), relevance.tolist(), strict=True):
-                position, hour = block.start + int(rows[row]), int(block.hours[row])
-                key = cosine * self._decay ** (self._newest - hour)
-                found.append((-key, -position, Hit(position, hour, cosine)))
-        found.sort()
-        return [hit for _, _, hit in found[: self._k]]
+            positions.append(block.start + rows[near])
+            hours.append(block.hours[near])
+            cosines.append((block.vectors[near].astype(np.float64) * query).sum(1))
+        position, hour, cosine = (np.concatenate(column) for column in (positions, hours, cosines))
+        asked, place = np.unique(hour, return_inverse=True)
+        recency = np.array([self._decay ** (self._newest - one) for one in asked.tolist()])
+        order = np.lexsort((-position, -cosine * recency[place]))[: self._k]
+        columns = (column[order].tolist() for column in (position, hour, cosine))
+        return list(map(Hit._make, zip(*columns, strict=True)))

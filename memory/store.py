@@ -12,7 +12,7 @@ import os
 import threading
 from collections.abc import Callable, Hashable
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Protocol, TypeVar
 
 from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.client import connect, disconnect, open_client, translated
@@ -32,7 +32,16 @@ _FORMAT, _FORMATS = 2, (1, 2)
 """A stream of format 1 has its vectors in its own collection, as of now in that of all streams of its model."""
 MAX_NAME = 200
 
-_Shared = TypeVar("_Shared")
+
+class Flushed(Protocol):
+    """Something that keeps back what it writes."""
+
+    def flush(self) -> None:
+        """Write it."""
+        ...
+
+
+_Shared = TypeVar("_Shared", bound=Flushed)
 
 
 class Store:
@@ -104,14 +113,29 @@ class Store:
         """Release the store; the last user's call closes Chroma and then the lock."""
         with Store._guard:
             self._users -= 1
-            if self._users > 0 or Store._open.get(self._key) is not self:
+            theirs = self.pid != os.getpid()  # of the process that this one was forked from
+            if theirs or self._users > 0 or Store._open.get(self._key) is not self:
                 return
             del Store._open[self._key]
-            if not isinstance(self._key, int):  # a client of the caller's stays open
-                disconnect(self._client)
-            if self._holding is not None:
-                seal(Path(self.where))
-                self._holding.close()
+            try:
+                self.flush()
+            finally:
+                if not isinstance(self._key, int):  # a client of the caller's stays open
+                    disconnect(self._client)
+                if self._holding is not None:
+                    seal(Path(self.where))
+                    self._holding.close()
+
+    def flush(self) -> None:
+        """Have all that was added to the streams on disk.
+
+        Raises:
+            MemoryStoreError: If the store fails.
+        """
+        with Store._guard:
+            shared = [thing for _, thing in self._shared.values()]
+        for thing in shared:
+            thing.flush()
 
     @classmethod
     def close_all(cls) -> None:

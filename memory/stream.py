@@ -21,9 +21,10 @@ from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.core.notebook.cards import card, table
 from coopera.memory.embeddings import as_array, identity, unit
 from coopera.memory.folder import DamagedMemoryError
-from coopera.memory.log import Log, Record
+from coopera.memory.log import Log
 from coopera.memory.minilm import Vector
 from coopera.memory.rebuild import heal
+from coopera.memory.rows import Record
 from coopera.memory.scan import top
 from coopera.memory.store import Store
 
@@ -65,10 +66,13 @@ class MemoryStream:
     """One stream of texts in time: append by the hour, recall by recency x relevance.
 
     Reading changes nothing, and time is what the caller says it is. What `add` has returned from is on disk and
-    survives a crash. Several streams of one store, and several objects for one stream, may be open in one process.
+    survives a crash, unless `open` was told otherwise. Several streams of one store, and several objects for one
+    stream, may be open in one process.
     """
 
-    def __init__(self, store: Store, name: str, log: Log, embeddings: Embeddings, decay: float) -> None:
+    def __init__(
+        self, store: Store, name: str, log: Log, embeddings: Embeddings, decay: float, durable: bool = True
+    ) -> None:
         """Use `MemoryStream.open`."""
         self.name = name
         self.decay = decay
@@ -77,6 +81,7 @@ class MemoryStream:
         self._store = store
         self._log: Log | None = log
         self._embeddings = embeddings
+        self._durable = durable
 
     @classmethod
     def open(
@@ -87,6 +92,7 @@ class MemoryStream:
         decay: float = DECAY,
         *,
         create: bool = True,
+        durable: bool = True,
     ) -> Self:
         """Open a stream, or make it.
 
@@ -101,6 +107,9 @@ class MemoryStream:
             embeddings: What the records' and queries' vectors come from; always the same for one stream.
             decay: Factor per hour, in (0, 1]. It is not stored: a stream can be read with any.
             create: Whether an unknown stream, or a missing folder, is made.
+            durable: Whether what `add` has returned from is on disk. If not, `flush` and `close` put it there, and so
+                does each five hundredth record. A crash, or an error that leaves the `with`, then loses the newest,
+                and never one before another.
 
         Raises:
             ConfigError: If the folder is no store, or the name, the decay or (without `create`) the stream is unknown.
@@ -125,7 +134,7 @@ class MemoryStream:
         except (ConfigError, MemoryStoreError):
             store.close()
             raise
-        stream = cls(store, name, log, embeddings, decay)
+        stream = cls(store, name, log, embeddings, decay, durable)
         try:
             stream._check_dimension()
         except MemoryStoreError:
@@ -175,7 +184,16 @@ class MemoryStream:
                     raise ConfigError(f"{self._where}: hour {record.hour} is before hour {newest}, and it comes later")
                 newest = record.hour
             texts, hours, own = zip(*records, strict=True)
-            log.append(texts, vectors, hours, own)
+            log.append(texts, vectors, hours, own, at_once=self._durable)
+
+    def flush(self) -> None:
+        """Have all that was added to the streams of this store on disk: one write for each, and one for all vectors.
+
+        Raises:
+            MemoryStoreError: If the store fails; what it has then is what its streams have.
+        """
+        if self._open_log:
+            self._store.flush()
 
     def recall(self, query: str, now: int, k: int, since: int | None = None) -> list[Recollection]:
         """Return the k records with the highest score, best first; newer first where scores are equal.
@@ -203,9 +221,10 @@ class MemoryStream:
             found = top(log, vector, k, now=now, decay=self.decay, since=since)
             self.scanned = found.scanned
             records = log.records([hit.position for hit in found.hits])
+        fades = {hour: float(self.decay ** (now - hour)) for hour in {hit.hour for hit in found.hits}}
         recalled = []
         for hit, record in zip(found.hits, records, strict=True):
-            recency = float(self.decay ** (now - hit.hour))
+            recency = fades[hit.hour]
             score = hit.relevance * recency
             recalled.append(Recollection(record.text, hit.hour, hit.relevance, recency, score, record.metadata))
         return recalled
@@ -254,9 +273,21 @@ class MemoryStream:
         return card(self.name, f"A memory stream of {len(self)} records; the newest:", table(["when", "what"], newest))
 
     def close(self) -> None:
-        """Let go of the store; closing twice does no harm."""
-        if self._log is not None:
-            self._log = None
+        """Let go of the store, with all on disk; closing twice does no harm.
+
+        Raises:
+            MemoryStoreError: If the store fails; it is closed all the same.
+        """
+        self._let_go(flushed=True)
+
+    def _let_go(self, *, flushed: bool) -> None:
+        log, self._log = self._log, None
+        if log is None:
+            return
+        try:
+            if flushed and self._store.pid == os.getpid():
+                log.flush()
+        finally:
             self._store.unshare(self.name)
             self._store.close()
 
@@ -267,8 +298,11 @@ class MemoryStream:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Close the stream."""
-        self.close()
+        """Close the stream; after an error as a crash would, without a `flush`.
+
+        A disk may be full by then, and Chroma, once refused a write, may wait for ever for the next.
+        """
+        self._let_go(flushed=error is None)
 
     @property
     def model(self) -> str:

@@ -16,7 +16,7 @@ from pydantic import Field, StrictInt, ValidationError
 
 from coopera.core.errors import ConfigError
 from coopera.core.people import Frozen
-from coopera.memory.log import Record
+from coopera.memory.rows import Record
 from coopera.memory.stream import MAX_TEXT, MemoryStream
 
 _KIND = "coopera memory stream"

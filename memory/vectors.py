@@ -36,20 +36,29 @@ class Vectors:
         self._collection = collection
         self._where = where
         self._known: dict[str, None] = {}
+        self._waiting: dict[str, Vector] = {}
         self._lock = threading.Lock()
 
     def add(self, texts: Sequence[str], vectors: Vector) -> None:
-        """Keep the vectors of n texts, shape (n, d); those that are there stay as they are.
+        """Have the next `flush` keep vectors of n texts, shape (n, d); those that are there stay as they are."""
+        with self._lock:
+            for key, vector in zip(map(_key, texts), vectors, strict=True):
+                if key not in self._known:
+                    self._waiting.setdefault(key, vector)
+
+    def flush(self) -> None:
+        """Have all vectors in the store.
 
         Raises:
-            MemoryStoreError: If the store fails.
+            MemoryStoreError: If it fails; those that are not there wait for the next call.
         """
         with self._lock:
-            new = {key: vector for key, vector in zip(map(_key, texts), vectors, strict=True) if key not in self._known}
-            if new:
+            while some := dict(islice(self._waiting.items(), _PER_CALL)):
                 with translated(self._where):
-                    self._collection.add(ids=list(new), embeddings=np.stack(list(new.values())))
-                self._remember(new)
+                    self._collection.add(ids=list(some), embeddings=np.stack(list(some.values())))
+                self._remember(some)
+                for key in some:
+                    del self._waiting[key]
 
     def of(self, texts: Sequence[str]) -> Vector:
         """Return the vectors of n texts, shape (n, d).

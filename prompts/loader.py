@@ -15,6 +15,7 @@ A prompt is a Markdown file `<role>/<name>.md`: YAML front matter between two li
 from __future__ import annotations
 
 import difflib
+import functools
 import hashlib
 import os
 import re
@@ -223,6 +224,12 @@ def _read(name: str, path: Path) -> Prompt:
         raw = path.read_bytes()
     except OSError as err:
         raise PromptError(f"{path}: the prompt cannot be read: {err.strerror}") from err
+    return _checked(name, path, raw)
+
+
+@functools.lru_cache(maxsize=256)
+def _checked(name: str, path: Path, raw: bytes) -> Prompt:
+    """The prompt that a file of these bytes holds: runs one after the other read most of them again."""
     if len(raw) > MAX_BYTES:
         raise PromptError(f"{path}: a prompt may have at most {MAX_BYTES} bytes, not {len(raw)}")
     try:

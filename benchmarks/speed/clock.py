@@ -25,7 +25,7 @@ from coopera import Config
 from coopera.graphs import day, hour, life
 from coopera.graphs.robots import robot_view
 from coopera.graphs.robots.learning import Learner
-from coopera.memory import MemoryStream
+from coopera.memory import CachedEmbeddings, MemoryStream
 from coopera.models.asking import Backend
 from coopera.rundir.directory import RunDir
 from coopera.simulation.world import World
@@ -172,6 +172,7 @@ def _wraps(clock: Clock) -> Iterator[tuple[Any, str, Callable[..., Any]]]:
     yield StateGraph, "add_node", add_counted
     yield Pregel, "invoke", clock.wrapped(Pregel.invoke, None, "LangGraph")
     yield Backend, "ask", clock.wrapped(Backend.ask, None, "models")
+    yield CachedEmbeddings, "_made", clock.wrapped(CachedEmbeddings._made, None, "models")
     yield Learner, "learn", clock.wrapped(Learner.learn, None, "training")
     together = "extend_together"
     yield robot_view, together, clock.wrapped(getattr(robot_view, together), None, "memory")

@@ -38,7 +38,7 @@ def work_on_ray(
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # nothing is reported to anybody unless the user wants it
     try:
         ray.init(
-            address=None if local else address,
+            address=address,
             num_cpus=workers if local else None,
             include_dashboard=False,
             log_to_driver=False,

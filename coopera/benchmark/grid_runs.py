@@ -19,13 +19,14 @@ from coopera.config.declared import in_words_of_today
 from coopera.config.files import canonical_json, read_yaml, reason, write_atomic
 from coopera.config.schema import AS_BEFORE, Config, load_config
 from coopera.core.errors import ConfigError, RunError
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 from coopera.core.version import __version__
 from coopera.evaluation.grid import OF, Grid, Life, Variant, check_names, lives, read_grid
 from coopera.evaluation.grid import SHARED as WITH_SHARED
 from coopera.evaluation.latency import robot_seconds
-from coopera.evaluation.results import FORMAT, Card, Row, rows_of, sha256, to_csv
+from coopera.evaluation.results import FORMAT, Card, Row, rows_of, to_csv
 from coopera.models.settings import SHARED
 from coopera.rundir import claim
 from coopera.rundir.directory import RunDir

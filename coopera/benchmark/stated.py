@@ -15,9 +15,10 @@ from pydantic import TypeAdapter, ValidationError
 
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.core.errors import ConfigError, RunError
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 from coopera.evaluation.grid import Grid
-from coopera.evaluation.results import Standing, sha256
+from coopera.evaluation.results import Standing
 from coopera.rundir.about import now
 from coopera.rundir.trace_files import damaged, read_json
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import time
+from importlib import import_module
 from pathlib import Path
+from threading import Thread
 from typing import Annotated, Any
 
 import typer
@@ -84,7 +86,6 @@ def benchmark(
     Each run has a folder of its own and is picked up where it was left; a run that is done is not done again.
     """
     from coopera.benchmark import grid_runs as bench
-    from coopera.benchmark.results_files import write_results
 
     flags = {
         "methods": _methods(methods),
@@ -109,7 +110,10 @@ def benchmark(
         return
     with bench.claimed_folder(planned, restate=restate) as stated:
         typer.echo(f"Endpoint stated {stated.time}, SHA-256 {stated.sha256}.", err=True)
+        Thread(target=_load_results, daemon=True).start()  # while the workers begin
         failures = carry_out_in_words(planned, workers=workers, ray=ray, limit=limit)
+        from coopera.benchmark.results_files import write_results
+
         summary = write_results(planned)
     if as_json:
         typer.echo(json.dumps({**summary, "failed": failures, "left": len(planned.left)}, sort_keys=True))
@@ -117,6 +121,12 @@ def benchmark(
         typer.echo(f"Results: {summary['page']}")
     if failures:
         raise typer.Exit(1)
+
+
+def _load_results() -> None:
+    """Import what the results are made with: a second that would else come after the last run."""
+    for name in ("coopera.benchmark.results_files", "matplotlib.backends.backend_svg"):
+        import_module(name)
 
 
 def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:

@@ -108,10 +108,8 @@ def _as_csv(found: list[dict[str, Any]]) -> str:
 
 
 def _show(found: dict[str, Any]) -> None:
+    from coopera.report.progress import figure
     from coopera.report.tables import print_table
-
-    def figure(value: float | None) -> str:
-        return "–" if value is None else f"{value:.3f}"
 
     print_table(
         ["run", "method", "hours", "people F1", "precision", "recall"],

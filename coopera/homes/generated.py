@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from coopera.config.files import write_output
 from coopera.core.errors import ConfigError
+from coopera.core.foreign.files import read_json
 from coopera.homes.card import card_of, in_words
 from coopera.homes.stored import place_for
 from coopera.simulation.homes.scene import Scene, dump_scene, load_scene
@@ -19,11 +20,6 @@ class Wanted(NamedTuple):
 
     rooms: int | None = None
     things: int | None = None
-
-    def fits(self, home: Scene) -> bool:
-        """Whether a home has as many rooms, and no more things: those that find no place are left out."""
-        rooms = self.rooms is None or len(home.rooms) == self.rooms
-        return rooms and (self.things is None or len(home.movable) <= self.things)
 
     def flags(self) -> str:
         """As the command line has it."""
@@ -75,8 +71,8 @@ def make_many(
         id: What they are called before their number, and the card.
         folder: Where homes are stored; the card lies beside this folder.
         wanted: Rooms and things of each; else 3 to 11 rooms, and about 8 things for each room.
-        force: Replace homes that are there already; else one that is there from the same seed, with as many rooms as
-            are asked for and no more things, is kept, so that the same command goes on where it was ended.
+        force: Replace homes that are there already; else those of the same command, whatever its count, are kept, so
+            that it goes on where it was ended. The card's JSON says whose they are, and is there first.
         say: Told what is done.
 
     Raises:
@@ -88,28 +84,40 @@ def make_many(
     if not 1 <= count <= MOST_HOMES:
         raise ConfigError(f"--count must be from 1 to {MOST_HOMES}, not {count}.")
     ids = [f"{id}-{number:04d}" for number in range(count)]
-    kept = {} if force else _kept(ids, seed, folder, wanted)
+    command = f"coopera scenes generate --count {count} --seed {seed} --id {id}{wanted.flags()}"
+    begun = folder.parent / f"{id}.card.json"
+    kept = {} if force or not _same(begun, command) else _kept(ids, seed, folder)
     files = [folder / f"{one}.json" if one in kept else place_for(one, folder, force=force) for one in ids]
     homes = []
     for number, (name, file) in enumerate(zip(ids, files, strict=True)):
         home = kept.get(name) or varied(seed + number, name, rooms=wanted.rooms, things=wanted.things)
         if name not in kept:
+            if not _same(begun, command):
+                write_output(begun, json.dumps({"command": command}) + "\n")
             write_output(file, dump_scene(home))
         homes.append(home)
         say(f"{name}: {len(home.rooms)} rooms, {len(home.fixed)} fixed and {len(home.movable)} movable objects")
-    command = f"coopera scenes generate --count {count} --seed {seed} --id {id}{wanted.flags()}"
     card = card_of(homes, id, command)
-    write_output(folder.parent / f"{id}.card.json", json.dumps(card, indent=1) + "\n")
+    write_output(begun, json.dumps(card, indent=1) + "\n")
     write_output(folder.parent / f"{id}.card.md", in_words(card))
     return Made(homes, files, folder.parent / f"{id}.card.md")
 
 
-def _kept(ids: Sequence[str], seed: int, folder: Path, wanted: Wanted) -> dict[str, Scene]:
-    """The homes that are there and could be those that are asked for, by their seeds, rooms and things."""
+def _same(card: Path, command: str) -> bool:
+    """Whether a card is of this command, whatever its count."""
+    if not card.is_file():
+        return False
+    told = read_json(card, "card of homes")
+    before = str(told.get("command")) if isinstance(told, dict) else ""
+    return before.partition(" --seed ")[2] == command.partition(" --seed ")[2]
+
+
+def _kept(ids: Sequence[str], seed: int, folder: Path) -> dict[str, Scene]:
+    """The homes that are there, each from its seed."""
     there = {name: folder / f"{name}.json" for name in ids}
     found = {name: load_scene(file) for name, file in there.items() if file.is_file()}
     return {
         name: home
         for number, name in enumerate(ids)
-        if (home := found.get(name)) is not None and home.seed == seed + number and wanted.fits(home)
+        if (home := found.get(name)) is not None and home.seed == seed + number
     }

@@ -21,6 +21,7 @@ from coopera.config.schema import Config
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_text
 from coopera.core.interview import Answer, Question
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 
 FOLDER = "person"
@@ -157,7 +158,7 @@ class Answers:
 def key(question: Question) -> str:
     """What tells a question from all others, whatever was wrong with an answer to it."""
     text = canonical_json(question.model_dump(mode="json", exclude={"problem"}))
-    return hashlib.sha256(text.encode()).hexdigest()
+    return sha256(text)
 
 
 def consent_text(config: Config) -> str:

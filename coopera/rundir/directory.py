@@ -23,7 +23,7 @@ from coopera.rundir import claim, retention, seals
 from coopera.rundir.about import SCHEMA, about, now, read_about
 from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
-from coopera.rundir.summary import metrics_csv, metrics_rows, summarise
+from coopera.rundir.summary import metrics_csv, metrics_lines, summarise
 from coopera.rundir.trace_files import read_record, write_record
 
 _LOG = logging.getLogger(__name__)
@@ -48,7 +48,7 @@ class RunDir:
         self.config = config
         self.info = info
         self._lock = lock
-        self._rows: dict[tuple[int, int], list[dict[str, Any]]] = {}
+        self._rows: dict[tuple[int, int], str] = {}
         self._stop = Stop(stop)
         self._made: list[Path] = []
 
@@ -240,7 +240,7 @@ class RunDir:
         """Write trace/day-DD/hour-HH.json."""
         self._stop.check()
         write_record(self.hour_file(record.day, record.hour), record)
-        self._rows[record.day, record.hour] = metrics_rows(record)
+        self._rows[record.day, record.hour] = metrics_lines(record)
 
     def read_hour(self, day: int, hour: int) -> HourRecord | None:
         """An hour, or None where there is no trace of it."""
@@ -257,7 +257,7 @@ class RunDir:
         self._stop.check()
         write_record(self.evening_file(evening.day), evening)
         for record in told_in_the_evening(self.read_day(evening.day), [evening]):
-            self._rows[record.day, record.hour] = metrics_rows(record)
+            self._rows[record.day, record.hour] = metrics_lines(record)
         self._write_metrics()
         self._seal(evening.day)
 
@@ -365,7 +365,7 @@ class RunDir:
     def metrics_so_far(self) -> str:
         """metrics.csv as the last evening left it."""
         rows, days = self._rows_of_all(), {evening.day for evening in self.evenings()}
-        return metrics_csv(row for key in sorted(rows) if key[0] in days for row in rows[key])
+        return metrics_csv(rows[key] for key in sorted(rows) if key[0] in days)
 
     def rewrite_figures(self) -> None:
         """Write what a run has of figures: at its end all of them, and before that metrics.csv."""
@@ -381,12 +381,11 @@ class RunDir:
     def _write_info(self) -> None:
         write_atomic(self.root / "run.json", canonical_json(self.info))
 
-    def _rows_of_all(self) -> dict[tuple[int, int], list[dict[str, Any]]]:
-        return {(r.day, r.hour): metrics_rows(r) for r in told_in_the_evening(self.hours(), self.evenings())}
+    def _rows_of_all(self) -> dict[tuple[int, int], str]:
+        return {(r.day, r.hour): metrics_lines(r) for r in told_in_the_evening(self.hours(), self.evenings())}
 
     def _write_metrics(self) -> None:
-        rows = [row for key in sorted(self._rows) for row in self._rows[key]]
-        write_atomic(self.root / "metrics.csv", metrics_csv(rows))
+        write_atomic(self.root / "metrics.csv", metrics_csv(self._rows[key] for key in sorted(self._rows)))
 
     def hour_file(self, day: int, hour: int) -> Path:
         """The file trace/day-DD/hour-HH.json, there or not."""

@@ -7,7 +7,8 @@ from typing import Any
 
 from coopera.config.files import canonical_json
 from coopera.config.schema import Config
-from coopera.evaluation.results import Fingerprints, sha256
+from coopera.core.naming import sha256
+from coopera.evaluation.results import Fingerprints
 from coopera.models.offline.household.knowledge import shipped
 from coopera.models.settings import SHARED
 from coopera.rundir.directory import RunDir

@@ -17,6 +17,7 @@ from pydantic import AfterValidator, ValidationError
 
 from coopera.config.files import canonical_json, reason, write_atomic
 from coopera.core.errors import RunError
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 from coopera.core.strict_yaml import load_yaml
 
@@ -276,11 +277,6 @@ def _sha_now(root: Path, name: str) -> str | None:
         return "unreadable"
 
 
-def text_sha(text: str) -> str:
-    """The SHA-256 of a text as a file."""
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
 def _config_sha(path: Path) -> str:
     data = load_yaml(path.read_text(encoding="utf-8"))
     return _sha({name: value for name, value in data.items() if name != "budget"})
@@ -291,7 +287,7 @@ def _info_sha(info: Mapping[str, Any]) -> str:
 
 
 def _sha(data: Any) -> str:
-    return text_sha(canonical_json(data, indent=None))
+    return sha256(canonical_json(data, indent=None))
 
 
 def file_sha(path: Path) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from coopera.config.prices import Prices
@@ -46,13 +46,18 @@ def metrics_rows(record: HourRecord) -> list[dict[str, Any]]:
     return list(rows.values())
 
 
-def metrics_csv(rows: Iterable[Mapping[str, Any]]) -> str:
-    """Rows as CSV text; an empty cell is a figure that does not exist."""
+def metrics_lines(record: HourRecord) -> str:
+    """The hour's rows as lines of CSV; an empty cell is a figure that does not exist."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, columns(), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
+    csv.DictWriter(text, columns(), lineterminator="\n").writerows(metrics_rows(record))
     return text.getvalue()
+
+
+def metrics_csv(lines: Iterable[str]) -> str:
+    """The content of metrics.csv, of the lines of each hour."""
+    text = io.StringIO()
+    csv.DictWriter(text, columns(), lineterminator="\n").writeheader()
+    return text.getvalue() + "".join(lines)
 
 
 def summarise(

@@ -301,7 +301,8 @@ class _Streams:
 
     def __call__(self, name: str) -> MemoryStream:
         if name not in self._open:
-            self._open[name] = self._stack.enter_context(MemoryStream.open(self._store, name, self._embeddings))
+            stream = MemoryStream.open(self._store, name, self._embeddings, durable=False)  # the trace has it all
+            self._open[name] = self._stack.enter_context(stream)
         return self._open[name]
 
 

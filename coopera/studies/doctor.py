@@ -9,6 +9,7 @@ from pathlib import Path
 
 from coopera.config.files import write_atomic
 from coopera.core.errors import CooperaError
+from coopera.core.naming import sha256
 from coopera.memory.rebuild import rewrite
 from coopera.people.shipped import write_persona
 from coopera.report.page import write_report
@@ -81,7 +82,7 @@ def _restore_given(run: RunDir, found: Iterable[Finding]) -> dict[str, str]:
             except CooperaError as err:
                 notes[one.file] = str(err)
                 continue
-            if one.file in given and seals.text_sha(given[one.file]) == seals.sealed_sha(run.root, one.file):
+            if one.file in given and sha256(given[one.file]) == seals.sealed_sha(run.root, one.file):
                 write_atomic(run.root / one.file, given[one.file])
             else:
                 notes[one.file] = "where it came from is another one now, or no seal tells; restore it"
@@ -115,7 +116,7 @@ def _seal_again(run: RunDir, found: Iterable[Finding]) -> dict[str, str]:
         except (CooperaError, OSError, ValueError) as err:
             notes[one.file] = str(err)
             continue
-        if seals.sealed_sha(run.root, one.file) in (None, seals.text_sha(seals.seal_text(seal))):
+        if seals.sealed_sha(run.root, one.file) in (None, sha256(seals.seal_text(seal))):
             seals.write_seal(path, seal)
         else:
             notes[one.file] = "what it named is not as it was, either; restore it"

@@ -169,7 +169,10 @@ def _figures(run: RunDir) -> Iterator[Finding]:
 def _memory(run: RunDir, plans: Sequence[DayPlan], index: bool) -> Iterator[Finding]:
     folder = memory_folder(run)
     try:
-        what = difference(folder, by_the_trace(run, plans), may_be_ahead=run.state != "finished")
+        least = None
+        if run.state != "finished":  # a resume gives it the hours of the day that was broken off
+            least = by_the_trace(run, [plan for plan in plans if run.read_evening(plan.day)])
+        what = difference(folder, by_the_trace(run, plans), at_least=least)
     except CooperaError as err:  # of an earlier life that is gone
         what = str(err)
     if what := what or (index_damage(folder) if index else ""):

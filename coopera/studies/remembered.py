@@ -57,10 +57,14 @@ def by_the_trace(run: RunDir, plans: Sequence[DayPlan]) -> Texts:
     return {name: records for name, records in found.items() if records}
 
 
-def difference(folder: Path, wanted: Texts, *, may_be_ahead: bool = False) -> str:
+def difference(folder: Path, wanted: Texts, *, at_least: Texts | None = None) -> str:
     """What a store's texts lack, or have too much, compared with the trace; empty where they are the same.
 
-    That of a run which was stopped may be ahead, by what a step remembered that did not come to its end.
+    Args:
+        folder: The store.
+        wanted: What it should have.
+        at_least: What that of a run which is not finished must have. It may lack the rest, and may be ahead, by what a
+            step remembered that did not come to its end.
     """
     if not folder.exists():
         return "it is missing" if wanted else ""
@@ -70,7 +74,10 @@ def difference(folder: Path, wanted: Texts, *, may_be_ahead: bool = False) -> st
         return f"it cannot be read ({err})"
     for name in sorted({*wanted, *found}):
         here, there = list(found.get(name, [])), list(wanted.get(name, []))
-        if (here[: len(there)] if may_be_ahead else here) != there:
+        fits = here == there
+        if at_least is not None:
+            fits = here[: len(there)] == there[: len(here)] and len(here) >= len(at_least.get(name, []))
+        if not fits:
             return f"{name} has {len(here)} records, and not the {len(there)} of the trace"
     return ""
 
@@ -89,19 +96,30 @@ def index_damage(folder: Path) -> str:
 def bring_to_the_trace(run: RunDir, plans: Sequence[DayPlan], embeddings: Embeddings) -> bool:
     """Have a run remember all that its trace says; its memories are not open yet.
 
-    What a step remembered that has not come into the trace stays: the step goes on from its checkpoint, or is done
-    again and then forgets it first. A store that lacks something is written anew, and checkpoints do not fit it.
+    What a step remembered that has not come into the trace stays: the step is done again, and then forgets it first. A
+    store that lacks the newest records, as one does whose day was broken off, is given them. One that has others than
+    the trace is written anew, and checkpoints do not fit it.
 
     Returns:
         Whether the store was written anew.
     """
     folder, wanted = memory_folder(run), by_the_trace(run, plans)
-    if not (what := difference(folder, wanted, may_be_ahead=True)):
+    if not (what := difference(folder, wanted, at_least={})):
+        _add_what_is_missing(folder, wanted, embeddings)
         return False
     kept = rewrite(folder, wanted, embeddings)
     aside = f"; what was there is kept in {kept}" if kept else ""
     _LOG.warning("%s: %s; the memory was rebuilt from the trace%s", folder, what, aside)
     return True
+
+
+def _add_what_is_missing(folder: Path, wanted: Texts, embeddings: Embeddings) -> None:
+    """Give a store the newest records, where all that it has are those of the trace."""
+    found = texts(folder) if folder.exists() else {}
+    for name, records in wanted.items():
+        if missing := records[len(found.get(name, [])) :]:
+            with MemoryStream.open(folder, name, embeddings) as stream:
+                stream.extend(missing)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,6 @@ other, so the threads can be spread over several processes.
 from __future__ import annotations
 
 import multiprocessing
-import os
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -24,8 +23,9 @@ from coopera.models.given import GivenModel
 from coopera.models.transport import share_pace
 from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
+from coopera.studies.heap import rare_collections
 from coopera.studies.study import Event, run_study
-from coopera.studies.workers import die_with_parent
+from coopera.studies.workers import die_with_parent, share_cores
 
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
@@ -164,7 +164,8 @@ def _serve(
     """The life of a process: its share of the studies, in threads; every event and end is told."""
     die_with_parent()
     share_pace(of)
-    _share_cores(which, of)
+    share_cores(which, of)
+    rare_collections()
 
     def tell(number: int, event: Event) -> None:
         pipe.send((number, event, None))
@@ -173,9 +174,3 @@ def _serve(
         _in_threads(jobs, at_once, lambda number, found: pipe.send((number, None, found)), tell if events else None)
     except KeyboardInterrupt:
         return
-
-
-def _share_cores(which: int, of: int) -> None:
-    """Keep a process to its share of the cores, where the system can: threads that take turns lose time in between."""
-    if hasattr(os, "sched_setaffinity") and (cores := sorted(os.sched_getaffinity(0))[which::of]):
-        os.sched_setaffinity(0, cores)

@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.heap import give_back, steady_heap
+from coopera.studies.heap import give_back, lasting, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
 from coopera.studies.standing import (
@@ -368,7 +368,11 @@ def _stream(
         given, thread, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
     )
     now: dict[str, Any] = {"day": 0, "hour": None, "success": pool(scored).f1}
-    with closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events, run.stopped_by_failure():
+    with (
+        lasting(),
+        closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events,
+        run.stopped_by_failure(),
+    ):
         for _, mode, data in events:
             if mode == "updates" and "__interrupt__" in data:
                 continue
@@ -377,8 +381,8 @@ def _stream(
             if mode == "custom":
                 now |= {"day": data["day"], "hour": data["hour"]}
                 if data["success"]:
-                    scored.append(Counts.model_validate(data["success"]["predicate"]))
-                    now["success"] = pool(scored).f1
+                    scored[:] = [pool([*scored, Counts.model_validate(data["success"]["predicate"])])]
+                    now["success"] = scored[0].f1
             if on_event is not None:
                 nodes = [data["node"]] if mode == "custom" else list(data)
                 for node in nodes:

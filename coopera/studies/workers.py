@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -15,6 +16,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
 from coopera.rundir.crash import told
+from coopera.studies.heap import rare_collections
 
 Work = Callable[[Any], Any]
 TRIES = 3
@@ -44,6 +46,7 @@ class Done:
 
 @dataclass(slots=True)
 class _Worker:
+    place: int
     process: BaseProcess
     pipe: Connection
     job: Any = None
@@ -96,8 +99,9 @@ def work_through(
 ) -> Generator[Done]:
     """Do all jobs in `workers` processes, yielding each as it ends.
 
-    A process serves many jobs, since starting one takes seconds. If it dies, at work or before it takes a job, the job
-    is tried again in a new one, at most three times in all. The processes die with this one, however it dies.
+    A process serves many jobs, since starting one takes seconds, and keeps to its share of the cores. If it dies, at
+    work or before it takes a job, the job is tried again in a new one, at most three times in all. The processes die
+    with this one, however it dies.
 
     Args:
         jobs: In the order in which they are to be started.
@@ -106,7 +110,8 @@ def work_through(
         deadline: By `time.monotonic`; no job is started after it.
     """
     context = multiprocessing.get_context("spawn")
-    queue, staff = Queue(list(jobs)), [_hire(context, work) for _ in range(min(workers, len(jobs)))]
+    queue, of = Queue(list(jobs)), min(workers, len(jobs))
+    staff = [_hire(context, work, place, of) for place in range(of)]
     try:
         while queue.jobs or any(one.job for one in staff):
             queue.end_at(deadline)
@@ -126,7 +131,7 @@ def work_through(
                 except (EOFError, OSError):
                     one.pipe.close()
                     one.process.join()
-                    staff[staff.index(one)] = _hire(context, work)
+                    staff[one.place] = _hire(context, work, one.place, of)
                     if queue.again(job):
                         continue
                     error = f"its process died {TRIES} times (exit code {one.process.exitcode})"
@@ -145,12 +150,18 @@ def _dismiss(staff: Sequence[_Worker]) -> None:
         one.process.join()
 
 
-def _hire(context: Any, work: Work) -> _Worker:
+def _hire(context: Any, work: Work, place: int, of: int) -> _Worker:
     here, there = context.Pipe()
-    process = context.Process(target=_serve, args=(there, work), daemon=True)
+    process = context.Process(target=_serve, args=(there, work, place, of), daemon=True)
     process.start()
     there.close()
-    return _Worker(process, here)
+    return _Worker(place, process, here)
+
+
+def share_cores(which: int, of: int) -> None:
+    """Keep a process to its share of the cores, where the system can: threads that take turns lose time in between."""
+    if hasattr(os, "sched_setaffinity") and (cores := sorted(os.sched_getaffinity(0))[which::of]):
+        os.sched_setaffinity(0, cores)
 
 
 def die_with_parent() -> None:
@@ -165,14 +176,17 @@ def _die_after(sentinel: int) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def _serve(pipe: Connection, work: Work) -> None:
+def _serve(pipe: Connection, work: Work, which: int, of: int) -> None:
     """The life of a worker: take a job, do it, say how it went."""
     die_with_parent()
+    share_cores(which, of)
+    rare_collections()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends the workers
     while True:
         try:
             job = pipe.recv()
         except EOFError:
+            gc.freeze()  # to look for garbage once more would hold the end up
             return
         pipe.send(attempt(work, job))
 

@@ -25,7 +25,7 @@ class Figure(Frozen):
         measure: What of it, such as "intentions".
         variant: How the person was simulated: "full", or an ablation's name.
         value: The number; None where it could not be measured, and `note` says why.
-        low: Lower end of its 95 % interval, None where there is none: by Student's t for a mean over people, else a
+        low: Lower end of its 95 % interval, None where there is none: `mean_over_people` for such a mean, else a
             bootstrap that resamples people, since an accuracy or a divergence is no mean over people.
         high: Upper end.
         n: How many of `unit` it is drawn from.

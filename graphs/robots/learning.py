@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeAlias
 
-from pydantic import ValidationError
-
 from coopera.core.clock import Clock
 from coopera.core.errors import CooperaError, LearningError, RunError
 from coopera.core.hour import (
@@ -212,13 +210,13 @@ class Learner:
         """Train one classifier on an evening whose examples are on file, and save it."""
         folder = self._folder(day, kind)
         today = _read(folder / EXAMPLES)
-        known = [*_renewed(self._before(kind, earlier), today), *today]
+        known = _renewed(self._before(kind, earlier), today)
         if self.mode == "fresh":
             self.classifiers[kind] = self.fresh[kind]()
         else:
             _write(folder / KEPT, keep(known, self.replay[kind]))
         if self.turns:
-            known = self._weighed(known, [*earlier, day])
+            self._weigh(known, [*earlier, day])
         measured: dict[str, Any] = {"examples": len(known), "positives": sum(e.label is True for e in known)}
         try:
             measured |= self.classifiers[kind].train(known, seed=seed_at(self.seed, "learn", day, kind))
@@ -237,33 +235,38 @@ class Learner:
         every: list[Example] = []
         for day in earlier:
             today = _read(self._folder(day, kind) / EXAMPLES)
-            every = [*_renewed(every, today), *today]
+            every = _renewed(every, today)
         return every if self.mode == "fresh" else keep(every, self.replay[kind])
 
-    def _weighed(self, examples: Sequence[Example], days: Sequence[int]) -> list[Example]:
-        """Give each example what its day still counts for its person."""
+    def _weigh(self, examples: Sequence[Example], days: Sequence[int]) -> None:
+        """Have each example, just read, count what its day still counts for its person."""
         told: dict[PersonId, dict[int, frozenset[str]]] = {}
         for day in days:
             person, hours = _read_told(self.recorder.adapters_folder(day) / TOLD)
             told.setdefault(person, {}).update(hours)
         counts = {person: still_counts(tuple(sorted(hours.items()))) for person, hours in told.items()}
-        return [e.but(counts=counts.get(e.person, {}).get(e.day, 1.0)) for e in examples]
+        for one in examples:
+            _put(one, counts=counts.get(one.person, {}).get(one.day, 1.0))
 
     def _folder(self, day: int, kind: CandidateKind) -> Path:
         return self.recorder.adapters_folder(day) / kind
 
 
 def _renewed(before: Sequence[Example], today: Sequence[Example]) -> list[Example]:
-    """Give earlier examples of today's person the newest profile, as the authors' code does.
+    """Earlier examples, just read, and today's; those of today's person get the newest profile (the authors' code).
 
     DEVIATES: other people's examples keep theirs.
     """
     newest = {e.person: e for e in today}
-    return [_with_profile(e, newest[e.person]) if e.person in newest else e for e in before]
+    for one in before:
+        if (now := newest.get(one.person)) is not None:
+            _put(one, profile=now.profile, big_five=now.big_five)
+    return [*before, *today]
 
 
-def _with_profile(earlier: Example, newest: Example) -> Example:
-    return earlier.but(profile=newest.profile, big_five=newest.big_five)
+def _put(own: Example, **values: Any) -> None:
+    """Change an example that was just read, which nobody else has yet: to copy thousands each evening costs more."""
+    own.__dict__.update(values)
 
 
 def _answers(hour: HourAccount, kind: CandidateKind) -> dict[str, bool]:
@@ -280,7 +283,7 @@ def _write_told(path: Path, account: DayAccount) -> None:
         for hour in account.hours
     ]
     things = {now: sorted(used) for now, used in things_of(hours)}
-    _save(path, json.dumps({"person": account.person, "things": things}))
+    _save(path, [json.dumps({"person": account.person, "things": things})])
 
 
 def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
@@ -291,15 +294,16 @@ def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
         raise RunError(f"{path}: what was told on this day cannot be read: {err}") from err
 
 
-def _write(path: Path, examples: Sequence[Example]) -> None:
-    _save(path, "".join(f"{e.model_dump_json()}\n" for e in examples))
+def _write(path: Path, examples: Iterable[Example]) -> None:
+    _save(path, (f"{e.model_dump_json()}\n" for e in examples))
 
 
-def _save(path: Path, text: str) -> None:
+def _save(path: Path, lines: Iterable[str]) -> None:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        part.write_text(text, encoding="utf-8")
+        with part.open("w", encoding="utf-8") as file:
+            file.writelines(lines)
         os.replace(part, path)
     except OSError as err:
         raise RunError(f"{path}: the training examples of this day cannot be saved: {err}") from err
@@ -307,16 +311,16 @@ def _save(path: Path, text: str) -> None:
 
 def _read(path: Path) -> list[Example]:
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
         shared: dict[Any, Any] = {}
-        return [_sharing(Example.model_validate_json(line), shared) for line in lines]
-    except (OSError, ValidationError) as err:
+        with path.open(encoding="utf-8", newline="\n") as lines:  # a text may hold other ends of lines
+            return [_sharing(Example.model_validate_json(line), shared) for line in lines]
+    except (OSError, ValueError) as err:
         raise RunError(f"{path}: the training examples of this day cannot be read: {err}") from err
 
 
 def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
     """Have an example just read share what equals a part of one before: thousands then take half of their memory."""
-    parts = read.__dict__  # frozen, but nobody else has it yet
+    parts = read.__dict__
     for name in ("person", "candidate", "intention", "profile", "big_five"):
         parts[name] = shared.setdefault(parts[name], parts[name])
     for name in ("intentions", "tasks"):

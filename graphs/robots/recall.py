@@ -11,7 +11,7 @@ from coopera.core.hour import CandidateKind, Recalled
 from coopera.core.time_use import day_type
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories, RobotView
-from coopera.memory import MemoryStream
+from coopera.memory import MemoryStream, Recollection
 
 DAYS = 60
 """How many days back a robot recalls what it was told."""
@@ -75,23 +75,25 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
 
 def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: int) -> list[Recalled]:
     found = stream.recall(query, now.day * 24 - 1, _ALL, (now.day - DAYS) * 24) if now.day else []
-    weighed = []
-    for one in found:
-        recency = weight(now, one.hour)
-        score = one.relevance * recency
-        weighed.append(
-            Recalled(
-                kind=kind,
-                text=one.text,
-                hour=one.hour,
-                relevance=one.relevance,
-                recency=recency,
-                score=score,
-                source="told",
-            )
+    recency = {hour: weight(now, hour) for hour in {one.hour for one in found}}
+    ranked = sorted(found, key=lambda one: (-one.relevance * recency[one.hour], -one.hour, one.text))
+    best: dict[str, Recollection] = {}
+    for one in ranked:
+        best.setdefault(one.text, one)
+        if len(best) == most:
+            break
+    return [
+        Recalled(
+            kind=kind,
+            text=one.text,
+            hour=one.hour,
+            relevance=one.relevance,
+            recency=recency[one.hour],
+            score=one.relevance * recency[one.hour],
+            source="told",
         )
-    once = {memory.text: memory for memory in sorted(weighed, key=_rank, reverse=True)}  # the best one of each text
-    return sorted(once.values(), key=_rank)[:most]
+        for one in best.values()
+    ]
 
 
 def weight(now: Clock, hour: int, width: float = NARROW) -> float:

@@ -147,6 +147,10 @@ class Memories(NamedTuple):
         self.intentions.forget_from(now)
         self.tasks.forget_from(now)
 
+    def flush(self) -> None:
+        """Have these on disk, with all that was added to other streams of their store."""
+        self.tasks.flush()
+
     def add(self, intention: str, tasks: Sequence[str], now: int, *, seen: Sequence[str] = ()) -> None:
         """Append one hour; what a robot has `seen` of its tasks is marked as such, and comes first."""
         known = [Record(task, now, {"source": "seen"}) for task in seen]

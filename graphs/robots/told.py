@@ -115,7 +115,7 @@ def held(seen: Observation) -> Use | None:
     return Use(plain(thing)) if thing else None
 
 
-@lru_cache(maxsize=65_536)
+@lru_cache(maxsize=4096)  # an hour's offers, each with the things of sixty days
 def same(one: Use | None, other: Use) -> bool:
     """Whether an act is about the same thing and, where both name one, the same place."""
     if one is None or one.thing.lower() != other.thing.lower():

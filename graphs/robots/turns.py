@@ -33,7 +33,7 @@ def things_of(hours: Iterable[tuple[int, Sequence[Use]]]) -> Uses:
     return tuple((now, frozenset(use.thing for use in uses)) for now, uses in sorted(hours, key=lambda one: one[0]))
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=2)  # what the robot recalls all day, and what the evening learns from, each of up to all days
 def still_counts(hours: Uses) -> dict[int, float]:
     """How much each told day still counts, in (0, 1]; near 1 for all while nothing changes.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +21,10 @@ from coopera.models.classifiers.text import sentences
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
+Said = TypeVar("Said", str, tuple[str, ...])
 
 _SENTENCES, _INTENTIONS, _TASKS = 6, 3, 5  # so many are looked at: PAPER App. D retrieves 3 intentions and 5 tasks
+_AT_ONCE = 2**16  # likenesses; half a megabyte
 _FADING = 0.7  # a recalled text counts so much of the one before it
 
 
@@ -68,14 +70,15 @@ def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
         found = [table.setdefault(text, len(table)) for text in texts[:width] if text]
         return found + [-1] * (width - len(found))
 
-    def column(texts: Callable[[Example], Sequence[str]], width: int) -> Ints:
-        return np.array([indices(texts(example), width) for example in examples], np.int32).reshape(-1, width)
+    def column(said: Sequence[Said], texts: Callable[[Said], Sequence[str]], width: int) -> Ints:
+        once = {one: indices(texts(one), width) for one in dict.fromkeys(said)}
+        return np.array([once[one] for one in said], np.int32).reshape(-1, width)
 
-    candidate = column(lambda e: [e.candidate], 1)[:, 0]
-    intention = column(lambda e: [e.intention], 1)[:, 0]
-    profile = column(lambda e: sentences(e.profile), _SENTENCES)
-    intentions = column(lambda e: e.intentions, _INTENTIONS)
-    tasks = column(lambda e: e.tasks, _TASKS)
+    candidate = column([e.candidate for e in examples], lambda text: [text], 1)[:, 0]
+    intention = column([e.intention for e in examples], lambda text: [text], 1)[:, 0]
+    profile = column([e.profile for e in examples], sentences, _SENTENCES)
+    intentions = column([tuple(e.intentions) for e in examples], list, _INTENTIONS)
+    tasks = column([tuple(e.tasks) for e in examples], list, _TASKS)
     traits = [[getattr(e.big_five, trait) if e.big_five else 3.0 for trait in TRAITS] for e in examples]
     return Batch(
         vectors=as_array(embeddings, list(table)).astype(np.float64),
@@ -93,9 +96,26 @@ def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
 
 @dataclass(frozen=True, slots=True)
 class _Shared:
-    """One vector per example, the equal ones stored once: `rows[of]` has shape (n, d)."""
+    """Values of n examples, the equal ones stored once: `rows[of]` has shape (n, d)."""
 
     rows: Floats
+    of: npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class _People:
+    """The person of each of n examples as they were known then, each different one once.
+
+    Attributes:
+        profile: Mean vectors, shape (u, d).
+        big_five: Shape (u, 5).
+        name: Shape (u,).
+        of: Which of them it is, shape (n,).
+    """
+
+    profile: Floats
+    big_five: Floats
+    name: npt.NDArray[np.str_]
     of: npt.NDArray[np.int64]
 
 
@@ -106,12 +126,13 @@ class Points:
     candidate: _Shared
     intention: _Shared
     after: _Shared
-    who: _Shared
+    hour: _Shared
+    rank: _Shared
+    people: _People
     matches: Floats
-    rank: Floats
-    hour: Floats
-    big_five: Floats
-    person: npt.NDArray[np.str_]
+
+    def __len__(self) -> int:
+        return len(self.matches)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,37 +171,54 @@ class Similarity:
             candidate=_shared(batch, batch.candidate[:, None], self.centre[0]),
             intention=_shared(batch, batch.intention[:, None], self.centre[1]),
             after=_shared(batch, batch.intentions, 0.0),
-            who=_shared(batch, batch.profile, 0.0),
+            hour=_once(batch.hour / self.hours),
+            rank=_once(np.where(batch.rank < 0, np.inf, np.log2(1 + np.abs(batch.rank)) / self.rank)),
+            people=self._people(batch),
             matches=_matches(batch) / (self.match * np.sqrt(6)),
-            rank=np.where(batch.rank < 0, np.inf, np.log2(1 + np.abs(batch.rank)) / self.rank),
-            hour=batch.hour / self.hours,
-            big_five=batch.big_five / self.traits,
-            person=batch.person,
         )
 
     def gram(self, a: Points, b: Points) -> Floats:
-        """Return how alike each example of `a` is to each of `b`, shape (len(a), len(b)); symmetric and PSD."""
-        when = 1.0 + np.exp((a.hour[:, None] - b.hour[None]) ** 2 / -2) + self._alike(a.after, b.after, self.width)
-        what = self._alike(a.candidate, b.candidate, self.width)
-        if self.task:
-            aim = self._alike(a.intention, b.intention, self.width)
-            what = aim * (when + 2.0 * what) + what
-        else:
-            what *= when
-        what *= (1.0 + self._same_person(a, b)) / 2
-        what += _rbf(a.matches, b.matches, 1.0)
-        what += _rank_alike(a.rank, b.rank)
-        what += 1.0
-        return what
+        """Return how alike each example of `a` is to each of `b`, shape (len(a), len(b)); symmetric and PSD.
 
-    def _alike(self, a: _Shared, b: _Shared, width: float) -> Floats:
-        spread: Floats = _rbf(a.rows, b.rows, width)[np.ix_(a.of, b.of)]
-        return spread
+        What is equal is compared once, and the rows are made a few at a time, so that they stay in the cache.
+        """
+        hours = np.exp((a.hour.rows - b.hour.rows.T) ** 2 / -2)
+        candidates = _rbf(a.candidate.rows, b.candidate.rows, self.width)[:, b.candidate.of]
+        before = _rbf(a.after.rows, b.after.rows, self.width)[:, b.after.of]
+        aims = _rbf(a.intention.rows, b.intention.rows, self.width)[:, b.intention.of] if self.task else candidates
+        when, ranks = 1.0 + hours[:, b.hour.of], _rank_alike(a.rank.rows, b.rank.rows)[:, b.rank.of]
+        who = ((1.0 + self._same_person(a.people, b.people)) / 2)[:, b.people.of]
+        alike = np.empty((len(a), len(b)))
+        step = max(1, _AT_ONCE // max(1, len(b)))
+        for start in range(0, len(a), step):
+            part = slice(start, start + step)
+            what, then = candidates[a.candidate.of[part]], when[a.hour.of[part]]
+            then += before[a.after.of[part]]
+            if self.task:
+                then += 2.0 * what
+                then *= aims[a.intention.of[part]]
+                what += then
+            else:
+                what *= then
+            what *= who[a.people.of[part]]
+            what += _rbf(a.matches[part], b.matches, 1.0)
+            what += ranks[a.rank.of[part]]
+            what += 1.0
+            alike[part] = what
+        return alike
 
-    def _same_person(self, a: Points, b: Points) -> Floats:
+    def _people(self, batch: Batch) -> _People:
+        who = _shared(batch, batch.profile, 0.0)
+        traits = np.unique(batch.big_five, axis=0, return_inverse=True)[1].reshape(-1)
+        names = np.unique(batch.person, return_inverse=True)[1]
+        _, first, of = np.unique(np.stack([who.of, traits, names]), axis=1, return_index=True, return_inverse=True)
+        profile, big_five = who.rows[who.of[first]], batch.big_five[first] / self.traits
+        return _People(profile, big_five, batch.person[first], of.reshape(-1))
+
+    def _same_person(self, a: _People, b: _People) -> Floats:
         """1 for the same person; for others at most `kin`, less the less their profiles and traits are alike."""
-        same = (a.person[:, None] == b.person[None]).astype(np.float64)
-        alike = self._alike(a.who, b.who, self.profile)
+        same = (a.name[:, None] == b.name[None]).astype(np.float64)
+        alike = _rbf(a.profile, b.profile, self.profile)
         alike *= _rbf(a.big_five, b.big_five, 1.0)
         mixed: Floats = (1 - self.kin) * same + self.kin * alike
         return mixed
@@ -190,6 +228,12 @@ def centre_of(batch: Batch) -> Floats:
     """Return the mean vectors of the distinct candidates and of the distinct intentions, shape (2, d)."""
     means = [_rows(batch, np.unique(column)).mean(axis=0) for column in (batch.candidate, batch.intention)]
     return np.stack(means)
+
+
+def _once(values: Floats) -> _Shared:
+    """Store equal numbers of n, shape (n,), once."""
+    unique, of = np.unique(values, return_inverse=True)
+    return _Shared(unique[:, None], of)
 
 
 def _rows(batch: Batch, indices: Ints) -> Floats:
@@ -223,11 +267,11 @@ def _matches(batch: Batch) -> Floats:
 
 
 def _rank_alike(a: Floats, b: Floats) -> Floats:
-    """Compare places; an unknown one is like an unknown one and like no other."""
+    """Compare places, shapes (n, 1) and (m, 1); an unknown one is like an unknown one and like no other."""
     known_a, known_b = np.isfinite(a), np.isfinite(b)
     a, b = np.where(known_a, a, 0.0), np.where(known_b, b, 0.0)
-    alike: Floats = np.exp((a[:, None] - b[None]) ** 2 / -2)
-    alike *= known_a[:, None] == known_b[None]
+    alike: Floats = np.exp((a - b.T) ** 2 / -2)
+    alike *= known_a == known_b.T
     return alike
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from langchain_core.embeddings import Embeddings
-from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
+from scipy.linalg import cholesky, solve_triangular
 from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
 from coopera.core.errors import CooperaError
@@ -111,11 +111,12 @@ class KernelClassifier:
         labels, hours = np.array(taught.labels), np.array(taught.hours)
         similarity = self._similarity(centre_of(batch))
         points = similarity.points(batch)
-        landmarks = batch.take(_landmarks(labels, rng))
+        kept_rows = _landmarks(labels, rng)
+        landmarks = batch.take(kept_rows)
         standing = similarity.points(landmarks)
-        among = similarity.gram(standing, standing)
-        lower = cholesky(among + 1e-6 * np.eye(len(landmarks)), lower=True)
-        features = solve_triangular(lower, similarity.gram(standing, points), lower=True).T
+        alike = similarity.gram(points, standing)
+        lower = cholesky(alike[kept_rows] + 1e-6 * np.eye(len(landmarks)), lower=True)
+        features = solve_triangular(lower, alike.T, lower=True, overwrite_b=True, check_finite=False).T
         n_days = len(np.unique(hours // 24))
         counts = np.array([example.counts for example in taught.examples])
         weights, unseen = _ridge(features, labels, counts, hours // 24 if n_days > 1 else hours)
@@ -241,14 +242,14 @@ def _ridge(
     weighted = features * root[:, None]
     normal = weighted.T @ weighted
     normal[np.diag_indices_from(normal)] += RIDGE
-    factor = cho_factor(normal)
-    weights: Floats = cho_solve(factor, weighted.T @ (root * target))
+    lower = cholesky(normal, lower=True, overwrite_a=True)
+    half = solve_triangular(lower, weighted.T, lower=True, check_finite=False).T
+    weights: Floats = solve_triangular(lower, half.T @ (root * target), lower=True, trans="T")
     residual = root * target - weighted @ weights
     unseen, groups = np.zeros(len(labels)), np.unique(group)
     for name in groups if len(groups) > 1 else ():
         rows = np.flatnonzero(group == name)
-        part = weighted[rows]
-        hat = part @ cho_solve(factor, part.T)
+        hat = half[rows] @ half[rows].T
         left_out = np.linalg.solve(np.eye(len(rows)) - hat, residual[rows])
         unseen[rows] = target[rows] - left_out / root[rows]
     return weights, unseen

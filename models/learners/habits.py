@@ -118,9 +118,8 @@ def faded(seen: Observations, *, hazard: float = HAZARD, temper: float = TEMPER)
 
 def _by_day(seen: Observations, column: int, days: int) -> tuple[Ints, Floats, Floats]:
     """Return each row's key, and the counts of yes and of all before each day, (days + 1, keys)."""
-    keys = np.stack([seen.contexts[:, column], seen.thing], 1)
-    names, place = np.unique(keys, axis=0, return_inverse=True)
-    place = place.ravel()
+    things = int(seen.thing.max()) + 1
+    names, place = np.unique(seen.contexts[:, column] * things + seen.thing, return_inverse=True)
     yes, met = (np.zeros((days + 1, len(names))) for _ in range(2))
     np.add.at(yes, (seen.day + 1, place), seen.label)
     np.add.at(met, (seen.day + 1, place), 1.0)

@@ -342,22 +342,36 @@ def _base(path: Path, links: Sequence[str], hinges: Sequence[Hinge]) -> str:
 
 
 def _mesh(path: Path, name: str) -> str:
-    """A mesh's absolute path, or its name if it ships with pybullet."""
-    found: Path | None = None
+    """A mesh's absolute path. It lies within the description's own tree, or, if its name says so, in pybullet's data.
+
+    A description from elsewhere is not to have any file of this disk read as a mesh, by us or by pybullet.
+    """
+    tree = _tree(path)
     if name.startswith(OF_PYBULLET):
-        found = Path(str(import_module("pybullet_data").getDataPath())) / name.removeprefix(OF_PYBULLET)
+        tree = Path(str(import_module("pybullet_data").getDataPath()))
+        found = tree / name.removeprefix(OF_PYBULLET)
     elif name.startswith("package://"):
         package, _, rest = name.removeprefix("package://").partition("/")
         homes = [folder for folder in path.absolute().parents if folder.name == package]
-        found = next((home / rest for home in homes if (home / rest).is_file()), None)
         if not homes:
             raise ConfigError(f"{path}: the mesh {name!r} is missing; no folder above this file is called {package!r}.")
+        found = next((home / rest for home in homes if exists(home / rest)), homes[0] / rest)
     else:
         found = path.absolute().parent / name.removeprefix("file://")
-    if found is None or not exists(found):
+    if not exists(found):
         where = "" if "://" in name else "; it must be in this file's folder"
         raise ConfigError(f"{path}: the mesh {name!r} is missing{where}.")
+    if not found.resolve().is_relative_to(tree.resolve()):
+        raise ConfigError(
+            f"{path}: the mesh {name!r} must lie in {tree}, the folder of this robot (or of its package.xml)."
+        )
     return str(found)
+
+
+def _tree(path: Path) -> Path:
+    """The folder that a description's files lie in: that of the ROS package that it is of, or its own."""
+    own = path.absolute().parent
+    return next((folder for folder in (own, *own.parents) if (folder / "package.xml").is_file()), own)
 
 
 def _of_mesh(link: Element) -> list[Element]:

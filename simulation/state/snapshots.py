@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Container, Mapping
 from typing import Any
@@ -11,6 +10,7 @@ from pydantic import ValidationError
 
 from coopera.core.errors import SimulationError
 from coopera.core.household import HUMAN, ROBOT
+from coopera.core.naming import sha256
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.state.home_state import HomeState
 from coopera.simulation.state.truth import wrong
@@ -51,7 +51,7 @@ def read_snapshot(scene: Scene, start: HomeState, snapshot: Mapping[str, Any], m
 def digest(snapshot: Mapping[str, Any]) -> str:
     """The SHA-256 of a snapshot in canonical JSON: equal for equal homes, in every process."""
     text = json.dumps(snapshot, sort_keys=True, separators=(",", ":"), allow_nan=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return sha256(text)
 
 
 def _today(snapshot: Mapping[str, Any]) -> Mapping[str, Any]:

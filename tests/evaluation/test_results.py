@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from coopera.core.errors import ConfigError
+from coopera.core.naming import sha256
 from coopera.core.people import Frozen
 from coopera.evaluation import measuring
 from coopera.evaluation.analysis import (
@@ -23,7 +24,7 @@ from coopera.evaluation.analysis import (
 )
 from coopera.evaluation.figures import all_figures
 from coopera.evaluation.measuring import MeasureSpec, sums
-from coopera.evaluation.results import FORMAT, Card, Row, check_card, from_csv, sha256, to_csv, unpaired
+from coopera.evaluation.results import FORMAT, Card, Row, check_card, from_csv, to_csv, unpaired
 from coopera.evaluation.tables import all_tables
 
 

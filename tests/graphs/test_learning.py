@@ -119,6 +119,18 @@ def test_the_thousands_of_examples_of_an_evening_hold_what_they_have_in_common_o
     assert len({id(example.tasks) for example in Shown.shown}) <= 2
 
 
+@pytest.mark.parametrize("end", ["\u2028", "\x85", "\x1c", "\r", "\n"])
+def test_a_text_with_ends_of_lines_of_any_kind_can_be_learned_from(tmp_path: Path, end: str) -> None:
+    told = account(0)
+    odd = told.model_copy(
+        update={"hours": [one.model_copy(update={"intention": f"Cook{end}a meal"}) for one in told.hours]}
+    )
+    one = learner(tmp_path, Shown)
+    one.learn(0, [], odd)
+    one.learn(1, [0], account(1))
+    assert f"Cook{end}a meal" in {example.candidate for example in Shown.shown}
+
+
 def test_an_example_with_the_values_that_it_has_already_is_no_other_one() -> None:
     one = labelled(account(0))["intention"][0]
     assert one.but(profile=one.profile, counts=1.0) is one

@@ -205,6 +205,14 @@ def test_half_of_what_is_recalled_was_told_however_much_was_guessed_today(make_s
     assert len(only_told) == 6
 
 
+def test_a_text_that_was_told_often_is_recalled_once_as_of_its_best_hour(make_services: MakeServices) -> None:
+    told = {day * 24 + hour: ("Cook a meal" if hour == 10 else "Read", []) for day in range(4) for hour in (10, 20)}
+    recalled = recall_weeks(robot(make_services, day=4, hour=10, told=told).view, "Cook a meal")
+    assert [one.text for one in recalled] == ["Cook a meal", "Read"]
+    assert recalled[0].hour == 3 * 24 + 10
+    assert recalled[0].score == recalled[0].relevance * weight(Clock(day=4, hour=10), 3 * 24 + 10)
+
+
 def test_a_guess_is_marked_as_one_in_prompts_and_in_the_trace(make_services: MakeServices) -> None:
     ask = ScriptedAsk(type2_answers())
     hour = watch(robot(make_services, ask=ask, told=TOLD, guessed={3 * 24 + 9: "Tidy the home"}))

@@ -7,17 +7,21 @@ Unity's frame is left-handed with y up and fronts towards +z; ours is right-hand
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coopera.core.errors import SimulationError
 from coopera.core.household import SceneId, plain
 from coopera.simulation.homes.catalogue import FLAT, catalogue, surfaces
-from coopera.simulation.homes.floorplan import Bounds
+from coopera.simulation.homes.floorplan import Bounds, Point
+from coopera.simulation.homes.rooms import Array
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.homes.spots import Spot, Taken, furniture_on, spots, taken_at, taken_by
 from coopera.simulation.making.procthor.files import Asset, House, Item
@@ -31,6 +35,8 @@ from coopera.simulation.ways.navigation import REACH, Navigator
 _OFF_WALL = 0.055
 """From a room's edge to furniture: half a wall, and a hair."""
 _STEP, _FARTHEST = 0.05, 0.8
+_CELL = 4.0
+"""Side of a cell, by which furniture is found that is near (metres)."""
 _ON_FLOOR = 0.15
 _REACHED = 1.45
 """Things stand no higher: nobody gets at what is on top of a high fridge."""
@@ -90,6 +96,7 @@ class _Maker:
         self.report = Report()
         self._doors = [Bounds(door.x, door.y, door.x, door.y).grown(_BEFORE_DOOR) for door in scene.doors]
         self.fixed: list[SceneObject] = []
+        self._raster: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
         self._waiting: list[tuple[_Piece, str]] = []
         self._count: Counter[str] = Counter()
         self._carriers: dict[str, list[str]] = {}
@@ -123,38 +130,49 @@ class _Maker:
         room = self.scene.room_at(*piece.position[:2])
         thing = _object(piece, room, 0, self._name(piece.kind.cls))
         thing = self._lifted(thing)
-        places = [thing.model_copy(update={"position": (x, y, thing.position[2])}) for x, y in _around(thing.xy)]
-        beside = [one for one in places if not any(one.bounds.overlaps(space) for space in self._doors)]
-        moved = next((one for one in [*beside, *places] if self._has_room(one, room)), None)
-        if moved is None:
+        place = self._place(thing, room)
+        if place is None:
             self.report.left_out.append(f"{piece.what}: there is no room for it within {_FARTHEST} m")
             return ""
+        moved = thing.model_copy(update={"position": (*place, thing.position[2])})
         away = math.dist(moved.xy, thing.xy)
         if away > _MOVED:
             self.report.guessed.append(
                 f"{piece.what}: shifted by {away:.2f} m, for it would stand in a wall or in another piece"
             )
+        for cell in _cells(moved.bounds):
+            self._raster[cell].append(len(self.fixed))
         self.fixed.append(moved)
         return moved.name
+
+    def _place(self, thing: SceneObject, room: Room) -> Point | None:
+        """The nearest place with room, of those clear of doors if there is one."""
+        space, around = taken_by(thing), thing.bounds.grown(_FARTHEST + _STEP)
+        near = (taken_by(other) for other in self._near(around) if min(other.size[2], thing.size[2]) > FLAT)
+        filled = [one.bounds for one in near if space.low < one.high - 0.01 and one.low < space.high - 0.01]
+        places = _around(thing.xy)
+        half = taken_at(Spot(0.0, 0.0, 0.0, thing.yaw), thing.size).bounds
+        free, beside = (_clear(np.array(places), half, spaces) for spaces in (filled, self._doors))
+        for at in (*np.flatnonzero(free & beside), *np.flatnonzero(free & ~beside)):
+            x, y = places[at]
+            if room.encloses(Bounds(x + half.x0, y + half.y0, x + half.x1, y + half.y1).grown(_OFF_WALL)):
+                return x, y
+        return None
+
+    def _near(self, bounds: Bounds) -> list[SceneObject]:
+        """The furniture so far that may touch a rectangle, in the order in which it came."""
+        return [self.fixed[at] for at in sorted({at for cell in _cells(bounds) for at in self._raster[cell]})]
 
     def _lifted(self, thing: SceneObject) -> SceneObject:
         """Furniture at its height: on the floor, on what is below it, or where it hangs."""
         x, y, z = thing.position
         if z < _ON_FLOOR:
             return thing.model_copy(update={"position": (x, y, 0.0)})
-        below = [other for other in self.fixed if other.top <= z + 0.2 and other.bounds.encloses(thing.bounds, 0.1)]
+        near = self._near(thing.bounds.grown(0.1))
+        below = [other for other in near if other.top <= z + 0.2 and other.bounds.encloses(thing.bounds, 0.1)]
         tops = [other.position[2] + row.z for other in below for row in surfaces(other)]
-        near = min((top for top in tops if abs(top - z) < 0.3), key=lambda top: abs(top - z), default=z)
-        return thing.model_copy(update={"position": (x, y, round(near, 4))})
-
-    def _has_room(self, thing: SceneObject, room: Room) -> bool:
-        if not room.encloses(thing.bounds.grown(_OFF_WALL)):
-            return False
-        space = taken_by(thing)
-        return not any(
-            space.low < other.high - 0.01 and other.low < space.high - 0.01 and space.bounds.overlaps(other.bounds)
-            for other in (taken_by(other) for other in self.fixed if min(other.size[2], thing.size[2]) > FLAT)
-        )
+        nearest = min((top for top in tops if abs(top - z) < 0.3), key=lambda top: abs(top - z), default=z)
+        return thing.model_copy(update={"position": (x, y, round(nearest, 4))})
 
     def _name(self, cls: str) -> str:
         self._count[cls] += 1
@@ -291,10 +309,31 @@ def _below(scene: Scene, position: tuple[float, float, float]) -> list[SceneObje
     return sorted(over, key=lambda thing: (abs(thing.top - position[2]), thing.id))[:1]
 
 
-def _around(place: tuple[float, float]) -> list[tuple[float, float]]:
+def _around(place: Point) -> list[Point]:
     """A place, and places on a raster around it, the nearest first."""
+    return [(round(place[0] + dx, 4), round(place[1] + dy, 4)) for dx, dy in _steps()]
+
+
+@lru_cache
+def _steps() -> list[Point]:
+    """The way to each place of the raster, the shortest first."""
     ticks = np.arange(-_FARTHEST, _FARTHEST + _STEP / 2, _STEP)
     dx, dy = (axis.ravel() for axis in np.meshgrid(ticks, ticks, indexing="ij"))
     away = np.round(np.hypot(dx, dy), 6)
     order = np.lexsort((dy, dx, away))[: int((away <= _FARTHEST).sum())]
-    return [(round(place[0] + float(dx[i]), 4), round(place[1] + float(dy[i]), 4)) for i in order]
+    return list(zip(dx[order].tolist(), dy[order].tolist(), strict=True))
+
+
+def _clear(places: Array, half: Bounds, spaces: Iterable[Bounds]) -> NDArray[np.bool_]:
+    """At which places, shape (n, 2), what takes `half` around it overlaps none of the rectangles; shape (n,)."""
+    x, y = places.T
+    clear = np.ones(len(places), dtype=bool)
+    for one in spaces:
+        clear &= (x + half.x0 >= one.x1) | (one.x0 >= x + half.x1) | (y + half.y0 >= one.y1) | (one.y0 >= y + half.y1)
+    return clear
+
+
+def _cells(bounds: Bounds) -> Iterator[tuple[int, int]]:
+    """The cells of a raster on the floor that a rectangle touches."""
+    x0, y0, x1, y1 = (math.floor(value / _CELL) for value in bounds)
+    return product(range(x0, x1 + 1), range(y0, y1 + 1))

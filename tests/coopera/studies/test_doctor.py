@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from coopera import Config, resume_study, run_study
 from coopera.core.errors import RunError, StoppedError
+from coopera.memory import MemoryStream
 from coopera.memory.rebuild import texts
 from coopera.rundir import seals
 from coopera.studies import findings as checks
 from coopera.studies.doctor import examine
 from tests.coopera.conftest import Said
+from tests.fakes import LetterEmbeddings
 
 Harm = Callable[[Path], object]
 ADAPTER = "adapters/day-00/intention/kernel.npz"
@@ -209,6 +211,45 @@ def test_a_memory_that_was_lost_is_rebuilt_when_the_run_goes_on(
     assert content(run)["memory"] == content(other)["memory"]
     assert (run / "metrics.csv").read_bytes() == (other / "metrics.csv").read_bytes()
     assert "the memory was rebuilt from the trace" in caplog.text
+
+
+@pytest.mark.parametrize(("until", "found"), [(24, []), (0, ["memory"])], ids=["a day broken off", "an older copy"])
+def test_a_memory_that_is_behind_the_trace_is_given_what_it_lacks_when_the_run_goes_on(
+    stopped: Path, caplog: pytest.LogCaptureFixture, until: int, found: list[str]
+) -> None:
+    """A killed process leaves the hours of its last day in the trace alone; what is lost besides is a fault."""
+    run, other = copied(stopped, f"behind-{until}"), copied(stopped, f"not-behind-{until}")
+    for stream in open_streams(run):
+        with stream:
+            stream.forget_from(until)
+    assert [one.file for one in examine(run)] == found
+    for one in (run, other):
+        resume_study(one)
+    assert content(run)["memory"] == content(other)["memory"]
+    assert (run / "metrics.csv").read_bytes() == (other / "metrics.csv").read_bytes()
+    assert {path.name for path in run.iterdir()} == {path.name for path in other.iterdir()}
+    assert not caplog.text
+
+
+def test_a_memory_that_says_something_else_than_the_trace_is_rebuilt_when_the_run_goes_on(
+    stopped: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    run, other = copied(stopped, "else"), copied(stopped, "not-else")
+    for stream in open_streams(run):
+        with stream:
+            stream.forget_from(0)
+            stream.add(["something else"], 9)
+    assert [one.file for one in examine(run)] == ["memory"]
+    for one in (run, other):
+        resume_study(one)
+    assert content(run)["memory"] == content(other)["memory"]
+    assert "the memory was rebuilt from the trace" in caplog.text
+
+
+def open_streams(run: Path) -> Iterator[MemoryStream]:
+    """Every stream of a run, one after the other."""
+    for name in texts(run / "memory"):
+        yield MemoryStream.open(run / "memory", name, LetterEmbeddings(), create=False)
 
 
 def test_a_run_of_a_version_without_seals_goes_on_and_is_sealed(

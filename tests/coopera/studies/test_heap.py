@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import gc
 import subprocess
 import sys
+import weakref
 
 import pytest
 
-from coopera.studies.heap import give_back, steady_heap
+from coopera.studies.heap import give_back, lasting, steady_heap
 
 HEAPS = """
 import ctypes, re, tempfile, threading
@@ -90,3 +92,19 @@ def test_what_is_free_within_the_heap_is_given_back() -> None:
     told = subprocess.run([sys.executable, "-c", HOLES], check=True, capture_output=True, text=True)
     assert told.stdout == "True\n"
     give_back()
+
+
+def test_garbage_goes_with_the_evening_and_the_end_of_a_run_looks_through_everything_again() -> None:
+    class Ring:
+        pass
+
+    with lasting():
+        give_back()
+        assert gc.get_freeze_count()
+        ring = Ring()
+        ring.itself = ring  # type: ignore[attr-defined]
+        left = weakref.ref(ring)
+        del ring
+        give_back()
+        assert left() is None
+    assert not gc.get_freeze_count()

@@ -131,10 +131,10 @@ class FakeRay:
 
     def __init__(self, dying: str = "", gone: bool = False, raylet_dies: bool = False) -> None:
         self.dying, self.gone, self.raylet_dies = dying, gone, raylet_dies
-        self.open = False
+        self.open, self.given = False, dict[str, object]()
 
     def init(self, **given: object) -> None:
-        self.open = True
+        self.open, self.given = True, given
 
     def shutdown(self) -> None:
         self.open = False
@@ -175,6 +175,14 @@ def test_a_killed_worker_of_a_cluster_costs_its_job_and_no_other(
     died = "its process died 3 times (WorkerCrashedError)"
     assert ended == {"b": None, "doomed": died, "late": f"doomed failed: {died}"}
     assert not ray.open
+
+
+def test_a_local_cluster_is_one_of_its_own_even_where_another_runs_already(monkeypatch: pytest.MonkeyPatch) -> None:
+    ray = FakeRay()
+    monkeypatch.setitem(sys.modules, "ray", ray)
+    assert not list(work_on_ray([], go, address="local", workers=3))
+    assert ray.given["address"] == "local"  # without an address, Ray joins the one that runs
+    assert ray.given["num_cpus"] == 3
 
 
 @pytest.mark.parametrize("ray", [FakeRay(gone=True), FakeRay(raylet_dies=True)], ids=["head", "raylet"])
@@ -232,3 +240,26 @@ def test_a_cluster_that_does_not_answer_is_refused_at_once() -> None:
         free = server.getsockname()[1]
     with pytest.raises(ConfigError, match=f"--ray 127.0.0.1:{free}: nothing answers there"):
         list(work_on_ray([], go, address=f"127.0.0.1:{free}"))
+
+
+def note_cores(errand: Errand) -> None:
+    """An errand that writes down which cores its process may use."""
+    cores = ",".join(map(str, sorted(os.sched_getaffinity(0))))
+    Path(errand.folder, f"{os.getpid()}.cores").write_text(cores)
+
+
+@pytest.mark.skipif(len(getattr(os, "sched_getaffinity", lambda _: ())(0)) < 2, reason="needs two cores")
+def test_each_of_several_workers_keeps_to_cores_of_its_own_and_a_single_one_has_all(tmp_path: Path) -> None:
+    mine = {str(core) for core in os.sched_getaffinity(0)}
+    for workers in (1, 2):
+        folder = tmp_path / str(workers)
+        folder.mkdir()
+        assert not any(
+            end.error
+            for end in work_through([Errand(name, str(folder)) for name in "abcd"], note_cores, workers=workers)
+        )
+        shares = [set(file.read_text().split(",")) for file in folder.glob("*.cores")]
+        assert sum(map(len, shares)) == len(set().union(*shares))
+        assert set().union(*shares) <= mine
+        if workers == 1:
+            assert shares == [mine]

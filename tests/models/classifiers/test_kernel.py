@@ -259,6 +259,18 @@ def test_likeness_is_a_kernel(seed: int, task: bool) -> None:
     assert np.linalg.eigvalsh(gram).min() > -1e-8
 
 
+@pytest.mark.parametrize("task", [True, False])
+def test_two_examples_are_as_alike_among_many_as_alone(task: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("coopera.models.classifiers.features._AT_ONCE", 50)  # two rows of 25 at a time
+    batch = read(_some_examples(3, 25), WORDS)
+    similarity = Similarity(task=task, centre=centre_of(batch))
+    gram = similarity.gram(similarity.points(batch), similarity.points(batch))
+    alone = [similarity.points(batch.take(np.array([row]))) for row in range(25)]
+    pairs = [[float(similarity.gram(one, other)[0, 0]) for other in alone] for one in alone]
+    assert np.allclose(gram, pairs, atol=1e-9)
+    assert len(np.unique(gram.round(6))) > 100
+
+
 @settings(max_examples=25)
 @given(seed=st.integers(0, 10**6))
 def test_scores_of_what_was_left_out_equal_those_of_fits_without_it(seed: int) -> None:

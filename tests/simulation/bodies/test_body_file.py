@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -200,6 +201,39 @@ def test_the_arms_joints_are_named_from_the_base_on(mine: Path) -> None:
     joints = yaml.safe_load(mine.read_text())["arm"]["joints"]
     change(mine, "arm.joints", joints[::-1])
     assert refusal(mine) == f"mine.yaml, field arm.joints: from the base on they are {', '.join(joints)}."
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["../of_another.obj", "{elsewhere}", "file://{elsewhere}", "package://{above}/of_another.obj", "link.obj"],
+)
+def test_a_mesh_elsewhere_on_the_disk_is_refused(mine: Path, name: str) -> None:
+    folder = mine.parent / "robot"
+    folder.mkdir()
+    for file in (mine, mine.with_suffix(".urdf"), mine.with_name("ball.obj")):
+        shutil.move(file, folder / file.name)
+    elsewhere = mine.with_name("of_another.obj")
+    shutil.copy(folder / "ball.obj", elsewhere)
+    (folder / "link.obj").symlink_to(elsewhere)
+    given = name.format(elsewhere=elsewhere, above=mine.parent.name)
+    rewrite(folder / "mine.urdf", 'filename="ball.obj"', f'filename="{given}"')
+    said = f"mine.urdf: the mesh {given!r} must lie in {folder}, the folder of this robot (or of its package.xml)."
+    assert refusal(folder / "mine.yaml") == said
+
+
+def test_a_mesh_beside_the_folder_is_of_the_package_that_holds_both(mine: Path) -> None:
+    """As ROS has it: package.xml, urdf/ and meshes/ in one folder."""
+    folder = mine.parent / "robot" / "urdf"
+    folder.mkdir(parents=True)
+    for file in (mine, mine.with_suffix(".urdf")):
+        shutil.move(file, folder / file.name)
+    (folder.parent / "meshes").mkdir()
+    shutil.move(mine.with_name("ball.obj"), folder.parent / "meshes" / "ball.obj")
+    (folder.parent / "package.xml").write_text("<package/>")
+    for name in ("../meshes/ball.obj", "package://robot/meshes/ball.obj"):
+        text = (folder / "mine.urdf").read_text()
+        (folder / "mine.urdf").write_text(re.sub(r'filename="[^"]*ball.obj"', f'filename="{name}"', text))
+        assert load_robot(str(folder / "mine.yaml")).urdf.links
 
 
 @pytest.mark.parametrize(

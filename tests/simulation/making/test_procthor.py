@@ -31,6 +31,10 @@ def imported(folder: Path, data: dict[str, Any], assets: Any = None) -> Imported
     return import_house(read_house(folder / "house.json"), "house", folder / "house.json", known)
 
 
+def corners(wide: float, deep: float) -> list[dict[str, float]]:
+    return [{"x": x, "y": 0, "z": z} for x, z in ((0, 0), (0, deep), (wide, deep), (wide, 0))]
+
+
 def the(home: Imported, name: str) -> SceneObject:
     found = home.scene.object(name)
     assert found is not None, name
@@ -74,6 +78,18 @@ def test_a_chair_under_a_table_is_drawn_out(home: Imported) -> None:
     chair, table = the(home, "dining_chair_1"), the(home, "dining_table_1")
     assert not chair.bounds.overlaps(table.bounds)
     assert any("objects.2 (Chair_002_1): shifted by" in line for line in home.report.guessed)
+
+
+def test_furniture_that_overlaps_gives_way_alike_wherever_in_the_room_it_stands(tmp_path: Path) -> None:
+    """Sofas are 1.9 m x 0.8 m: the second of each pair stands 0.53 m from the first, and is shifted by 0.30 m."""
+    data = house() | {"walls": [], "doors": [], "windows": []}
+    data["rooms"] = [{"id": "room|2", "roomType": "LivingRoom", "floorPolygon": corners(30, 30)}]
+    middles = [(x, z + more) for x in (4.0, 7.96, 12.1, 27.5) for z in (3.9, 9.0, 25.75) for more in (0, 0.53)]
+    data["objects"] = [thing(f"Sofa|{n}", "Sofa_221_1", x, 0.45, z) for n, (x, z) in enumerate(middles)]
+    home = imported(tmp_path, data, ASSETS)
+    sofas = [the(home, f"sofa_{n + 1}").xy for n in range(len(middles))]
+    assert sofas[::2] == [pytest.approx(middle) for middle in middles[::2]]
+    assert sofas[1::2] == [pytest.approx((x, z + 0.3)) for x, z in middles[1::2]]
 
 
 def test_the_account_says_what_was_understood_guessed_and_left_out(home: Imported) -> None:

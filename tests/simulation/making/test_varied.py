@@ -92,6 +92,14 @@ def test_many_homes_come_with_a_card_and_are_not_made_twice(tmp_path: Path, caps
     others = str(len(load_scene(file).rooms) + 1)
     assert main([*command, "--rooms", others]) == 2  # a home of other rooms is not taken for one of these
     assert "there is a home of this id already" in capsys.readouterr().err
+    assert main([*command, "--things", "100"]) == 2  # nor one of other things, though none of these has more
+    assert "there is a home of this id already" in capsys.readouterr().err
+    file.unlink()  # as if it had been ended before the second
+    first = file.with_name("few-0000.json")
+    before = first.stat().st_mtime_ns
+    assert main(command) == 0
+    assert file.is_file()
+    assert first.stat().st_mtime_ns == before
 
 
 @pytest.mark.parametrize(
