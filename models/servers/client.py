@@ -7,6 +7,8 @@ a small answer could grow without bound. A redirect is an answer like any other:
 from __future__ import annotations
 
 import os
+import weakref
+from collections.abc import Sequence
 from typing import Any
 
 from openai import DefaultHttpxClient, OpenAIError
@@ -32,6 +34,9 @@ class BoundedClient(DefaultHttpxClient):
         """
         self._most_bytes = most_bytes
         super().__init__(auth=login, follow_redirects=False, headers={"accept-encoding": "identity"})
+        ways = [self._transport, *self._mounts.values()]
+        # Nothing else knows when nobody uses it any more; `__del__` could come after that of its connections.
+        weakref.finalize(self, _close, [way for way in ways if way is not None]).atexit = False
 
     @override
     def send(self, request: Any, *, stream: bool = False, **options: Any) -> Any:
@@ -62,10 +67,11 @@ class BoundedClient(DefaultHttpxClient):
             raise OpenAIError(f"the answer's JSON is nested more than {MOST_DEEP} levels deep")
         return bytes(body)
 
-    def __del__(self) -> None:
-        """Close the connections, since nothing else knows when nobody uses it any more."""
-        if not self.is_closed:
-            self.close()
+
+def _close(ways: Sequence[Any]) -> None:
+    """Close a client's connections."""
+    for way in ways:
+        way.close()
 
 
 def login() -> tuple[str, str] | None:

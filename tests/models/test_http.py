@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from coopera.core.randomness import Address
 from coopera.core.replies import VerdictsReply
 from coopera.models.backends import open_backend
 from coopera.models.door import Door
+from coopera.models.servers.client import BoundedClient
 from coopera.models.settings import CallSettings
 from coopera.models.transport import NobodyThereError
 from coopera.prompts import PromptLibrary
@@ -165,3 +167,15 @@ def test_a_server_that_never_was_is_not_waited_for() -> None:
     with pytest.raises(NobodyThereError, match=f"openai:tiny at {url} cannot be asked: no server listens there"):
         judge(door)
     assert len(door.take_calls()[0].faults) == 1
+
+
+def test_a_client_that_nobody_uses_has_closed_its_connections_in_whichever_order_they_go() -> None:
+    with serving() as base_url:
+        client: Any = BoundedClient(1_000_000)
+        client.itself = client
+        gc.freeze()
+        client.get(f"{base_url}/models")
+        gc.collect()
+        gc.unfreeze()  # of what refers to itself, the younger connection now goes first
+        del client
+        gc.collect()  # Python would warn of a connection that is still open, and a warning is an error here
