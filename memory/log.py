@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
 _BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's, where no text is said twice
-_TEXTS_IN_RAM = (
-    _BLOCKS_IN_RAM * BLOCK
-)  # what a robot reads every hour: sixty days of thirteen hours, each of five tasks
+_TEXTS_IN_RAM = _BLOCKS_IN_RAM * BLOCK  # what a robot reads every hour: five tasks of each of sixty days' hours
 _FAN = 32  # positions looked at together when searching by hour
 
 

@@ -6,7 +6,6 @@ question that waits, and `person/answers/…json` each answer, with its question
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -109,7 +108,7 @@ class Answers:
 
     def agree(self, id: str, consent: str) -> None:
         """Keep who is there, and that they agreed to a text."""
-        sha = hashlib.sha256(consent.encode()).hexdigest() if consent else ""
+        sha = sha256(consent) if consent else ""
         if consent:
             write_atomic(self.folder / "consent.txt", consent + "\n")
         agreed = self._moment() if consent else ""
