@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Protocol, TypeVar
 
@@ -140,15 +140,14 @@ class Home(Protocol):
         """Render the `count` moments of the recording that differ most into `folder`, the deed and the end among them.
 
         Files are robot-0.webp … from the robot's own eyes and human-0.webp … from across the room, in this order; with
-        a `name` only the latter, as NAME-0.webp …. Without `wait` the files may come later: see `finish_frames`.
+        a `name` only the latter, as NAME-0.webp …. Without `wait` the files may come later: see `frames_due`.
         """
         ...
 
-    def finish_frames(self) -> None:
-        """Wait for all files of `frames`.
+    def frames_due(self) -> Callable[[], None] | None:
+        """What waits for the files of `frames` asked for so far; None where all are there.
 
-        Raises:
-            SimulationError: If they cannot be written.
+        It raises a `SimulationError` if they cannot be written.
         """
         ...
 
@@ -213,12 +212,15 @@ class Recorder(Protocol):
         """Where an hour's video goes."""
         ...
 
-    def write_hour(self, record: HourRecord) -> None:
-        """Write trace/day-DD/hour-HH.json."""
+    def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
+        """Write trace/day-DD/hour-HH.json; with `after`, once that has returned, while the work goes on.
+
+        Whatever is written or read later waits for it, but for an hour that is asked for by its number alone.
+        """
         ...
 
     def read_hour(self, day: int, hour: int) -> HourRecord | None:
-        """An hour; None where it has not been written."""
+        """An hour; None where it has not been written, or not yet."""
         ...
 
     def read_day(self, day: int) -> list[HourRecord]:

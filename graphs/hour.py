@@ -161,8 +161,8 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
     services.life.end(services, plan, clock, human)
     if robot:
         remember_guess(services, plan, clock, robot)
-    world = services.home(plan.scene).snapshot()
-    services.home(plan.scene).finish_frames()  # an hour that stands has all its pictures
+    home = services.home(plan.scene)
+    world = home.snapshot()
     success = state.get("success")
     services.recorder.write_hour(
         HourRecord(
@@ -184,7 +184,8 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
             status="failed" if "failure" in state else "ok",
             reason=state.get("failure", ""),
             calls=services.ask.take_calls(),
-        )
+        ),
+        after=home.frames_due(),  # an hour that stands has all its pictures
     )
     runtime.stream_writer(
         {"day": plan.day, "hour": clock.hour, "node": "record", "success": success.model_dump() if success else None}

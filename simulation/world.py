@@ -309,18 +309,17 @@ class World:
         """
         views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
-        if wait:
-            self.finish_frames()
+        if wait and (due := self.frames_due()):
+            due()
         return files
 
     def frame_views(self, count: int) -> dict[str, View]:
         """What `frames` shows, as data, by the names of the files; errors as of `frames` and `view`."""
         return self._watching().views(self.recording, count, self.frame_size)
 
-    def finish_frames(self) -> None:
-        """Wait for the files of `frames` that nobody has waited for; a `SimulationError` if they cannot be written."""
-        if self._watcher is not None:
-            self._watcher.finish()
+    def frames_due(self) -> Callable[[], None] | None:
+        """What waits for the files of `frames` asked for so far, or None; a `SimulationError` if they cannot be."""
+        return None if self._watcher is None else self._watcher.due()
 
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video, the robot's view on the left, the third-person view on the right.
@@ -352,8 +351,10 @@ class World:
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         """Draw a person of the home as somebody from now on; nothing but pictures changes."""
-        self.finish_frames()
-        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
+        looks = appearance_of(person.profile, person.id, person.appearance)
+        if self._watcher is not None and self.looks.get(agent) != looks:
+            self._watcher.rest()  # those who are being drawn
+        self.looks[agent] = looks
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""
@@ -365,7 +366,6 @@ class World:
         Raises:
             SimulationError: If the snapshot is damaged, cannot be true, or is of another home.
         """
-        self.finish_frames()
         self.state = read_snapshot(self.layout, self._start, snapshot, self.motions)
         self._recording = None
 

@@ -116,10 +116,13 @@ class FakeHome:
         paths = [folder / f"{view}-{n}.webp" for view in views for n in range(count)]
         self.late += paths
         if wait:
-            self.finish_frames()
+            self._develop()
         return paths
 
-    def finish_frames(self) -> None:
+    def frames_due(self) -> Callable[[], None] | None:
+        return self._develop if self.late else None
+
+    def _develop(self) -> None:
         for path in self.late:
             path.write_bytes(b"picture")
         self.late = []
@@ -266,7 +269,9 @@ class FolderRecorder:
     def frames_folder(self, day: int, hour: int) -> Path:
         return self.root / f"frames/day-{day:02d}/hour-{hour:02d}"
 
-    def write_hour(self, record: HourRecord) -> None:
+    def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
+        if after:
+            after()
         path = self._day(record.day) / f"hour-{record.hour:02d}.json"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(record.model_dump_json())

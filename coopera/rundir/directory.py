@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
@@ -21,15 +21,17 @@ from coopera.models.settings import Budget, Spent
 from coopera.people.shipped import read_persona, write_persona
 from coopera.rundir import claim, retention, seals
 from coopera.rundir.about import SCHEMA, about, now, read_about
+from coopera.rundir.behind import Behind
 from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_lines, summarise
-from coopera.rundir.trace_files import read_record, write_record
+from coopera.rundir.trace import Trace
+from coopera.rundir.trace_files import write_record
 
 _LOG = logging.getLogger(__name__)
 
 
-class RunDir:
+class RunDir(Trace):
     """One run's folder; implements `coopera.core.protocols.Recorder`.
 
     Who writes holds a lock on the file `lock` and is named in run.json. Used as a context manager it records how the
@@ -44,13 +46,14 @@ class RunDir:
         self, root: Path, config: Config, info: dict[str, Any], lock: IO[str] | None, stop: Stop | None = None
     ) -> None:
         """Use `create`, `resume` or `open`."""
-        self.root = root
+        super().__init__(root)
         self.config = config
         self.info = info
         self._lock = lock
         self._rows: dict[tuple[int, int], str] = {}
         self._stop = Stop(stop)
         self._made: list[Path] = []
+        self._behind = Behind()
 
     @classmethod
     def create(
@@ -196,6 +199,7 @@ class RunDir:
     ) -> None:
         """Record how the work ended and let go of the run."""
         self._stop.__exit__(kind, error, trace)
+        self._behind.close()
         if self._lock is None:
             return
         if self.state == "running":
@@ -236,21 +240,39 @@ class RunDir:
         self._stop.check()
         return self.root / "video" / f"day-{day:02d}" / f"hour-{hour:02d}.mp4"
 
-    def write_hour(self, record: HourRecord) -> None:
-        """Write trace/day-DD/hour-HH.json."""
-        self._stop.check()
-        write_record(self.hour_file(record.day, record.hour), record)
-        self._rows[record.day, record.hour] = metrics_lines(record)
+    def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
+        """Write trace/day-DD/hour-HH.json, the hour before it first; with `after`, once that has returned.
 
-    def read_hour(self, day: int, hour: int) -> HourRecord | None:
-        """An hour, or None where there is no trace of it."""
-        path = self.hour_file(day, hour)
-        return read_record(path, HourRecord) if path.is_file() else None
+        The work may go on meanwhile: whatever reads the trace waits, and raises what went wrong.
+        """
+        self._stop.check()
+        self._behind.settle()
+
+        def write() -> None:
+            write_record(self.hour_file(record.day, record.hour), record)
+            self._rows[record.day, record.hour] = metrics_lines(record)
+
+        if after is None:
+            write()
+        else:
+            self._behind.write(after, write)
+
+    @contextmanager
+    def settling(self) -> Iterator[None]:
+        """Have all hours on file at the end, and after a failure as many as can be."""
+        try:
+            yield
+            self._behind.settle()
+        except BaseException:
+            with suppress(Exception):
+                self._behind.settle()
+            raise
 
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order."""
         self._stop.check()
-        return [read_record(path, HourRecord) for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))]
+        self._behind.settle()
+        return super().read_day(day)
 
     def write_evening(self, evening: Evening) -> None:
         """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
@@ -293,31 +315,6 @@ class RunDir:
         return folder
 
     # Reading
-
-    def days(self) -> list[int]:
-        """Numbers of the days of which there is a trace, sorted."""
-        return sorted(int(path.name[4:]) for path in (self.root / "trace").glob("day-*") if path.name[4:].isdigit())
-
-    def hours_done(self) -> list[tuple[int, int]]:
-        """(day, hour) of each hour of which there is a trace, in order, without reading it."""
-        return [
-            (day, int(path.stem[5:]))
-            for day in self.days()
-            for path in sorted(self._day(day).glob("hour-[0-9][0-9].json"))
-        ]
-
-    def hours(self) -> list[HourRecord]:
-        """All hours of the run, in order."""
-        return [record for day in self.days() for record in self.read_day(day)]
-
-    def read_evening(self, day: int) -> Evening | None:
-        """A day's evening, or None where the day has not ended."""
-        path = self.evening_file(day)
-        return read_record(path, Evening) if path.is_file() else None
-
-    def evenings(self) -> list[Evening]:
-        """All evenings of the run, in order."""
-        return [evening for day in self.days() if (evening := self.read_evening(day))]
 
     def people(self) -> dict[str, Persona]:
         """Those who took part, by id, as they were when the run began."""
@@ -386,14 +383,3 @@ class RunDir:
 
     def _write_metrics(self) -> None:
         write_atomic(self.root / "metrics.csv", metrics_csv(self._rows[key] for key in sorted(self._rows)))
-
-    def hour_file(self, day: int, hour: int) -> Path:
-        """The file trace/day-DD/hour-HH.json, there or not."""
-        return self._day(day) / f"hour-{hour:02d}.json"
-
-    def evening_file(self, day: int) -> Path:
-        """The file trace/day-DD/evening.json, there or not."""
-        return self._day(day) / "evening.json"
-
-    def _day(self, day: int) -> Path:
-        return self.root / "trace" / f"day-{day:02d}"

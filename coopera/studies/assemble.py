@@ -139,7 +139,7 @@ def open_services(
         ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
         days = open_earlier_life(config)
-        yield Services(
+        services = Services(
             ask=ask,
             method=method,
             people={persona.id: persona for persona in people.values()},
@@ -164,6 +164,8 @@ def open_services(
             life=EarlierLife(days) if days else LivedNow(),
             stranger=days.stranger if days and method.swapped else None,
         )
+        with run.settling():  # before its homes are closed
+            yield services
 
 
 def open_pupil(

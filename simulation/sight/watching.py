@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -25,7 +26,6 @@ from coopera.simulation.motions.props import Shown
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
-from coopera.simulation.sight.darkroom import Darkroom
 from coopera.simulation.sight.hiding import at_work, corners_of, framed_of, person_body, robot_body, tops_of
 from coopera.simulation.sight.labels import Name, labelled
 from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
@@ -64,12 +64,15 @@ class Watcher:
         self._renderer = renderer
         self._sought: Stage | None = None
         self._drawn: Stage | None = None
-        self._choosing, self._drawing, self._writing = self._rooms = Darkroom(), Darkroom(), Darkroom()
+        self._choosing, self._drawing, self._writing = self._rooms = [_darkroom() for _ in range(3)]
+        self._films: dict[Future[None], None] = {}
 
     def close(self) -> None:
         """Give pybullet back; pictures that nobody waited for may be missing."""
         for room in self._rooms:  # each gives work to the next
-            room.close()
+            room.shutdown(cancel_futures=True)
+        for film in list(self._films):
+            film.cancel()
         for stage in (self.stage, self._sought, self._drawn):
             if stage is not None:
                 stage.close()
@@ -77,8 +80,13 @@ class Watcher:
     @property
     def drawn(self) -> Stage:
         """The stage that pictures are taken of, once the darkrooms have done with it."""
-        self.finish()
+        self.rest()
         return self._set()
+
+    def rest(self) -> None:
+        """Wait until nothing is done in the darkrooms."""
+        for room in self._rooms:
+            room.submit(_nothing).result()
 
     def _set(self) -> Stage:
         if self._drawn is None:
@@ -141,20 +149,25 @@ class Watcher:
     ) -> list[Path]:
         """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
 
-        With our own renderer that is done in darkrooms, one for each step, while the home goes on: `finish` waits for
-        it, and raises what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it is
-        done at once.
+        With our own renderer that is done in darkrooms, one for each step, while the home goes on: `due` has what waits
+        for it, and raises what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it
+        is done at once.
 
         Returns:
             The files, view by view, in order of time: STEM-0.webp ….
+
+        Raises:
+            SimulationError: If the files cannot be written, where that is done at once.
         """
         aside = chosen(self._renderer) == "gl"
+        film: Future[None] = Future()
 
-        def then(room: Darkroom, job: Callable[[], None]) -> None:
+        def then(room: ThreadPoolExecutor, job: Callable[[], None]) -> None:
+            step = partial(_step, film, job)
             if aside:
-                room.add(job)
+                room.submit(step)
             else:
-                job()
+                step()
 
         def choose() -> None:
             ticks = telling_ticks(recording, self.ground.robots, count)
@@ -163,24 +176,35 @@ class Watcher:
 
         def draw(takes: list[Take]) -> None:
             for stem, number, picture in self._developed(recording, takes, size, stems, labels):
-                then(self._writing, partial(write_frame, frame_file(folder, stem, number), picture))
+                then(self._writing, partial(write, frame_file(folder, stem, number), picture))
+            then(self._writing, lambda: film.set_result(None))
+
+        def write(path: Path, picture: Callable[[], Image]) -> None:
+            write_frame(path, picture())
 
         then(self._choosing, choose)
+        if not aside:
+            film.result()
+        self._films[film] = None
         shots = min(count, recording.ticks)
         return [frame_file(folder, stem, i) for stem in stems.values() for i in range(shots)]
 
-    def finish(self) -> None:
-        """Wait for all pictures that were taken.
+    def due(self) -> Callable[[], None] | None:
+        """What waits for all pictures that were taken so far; None where all are there.
 
-        Raises:
-            SimulationError: If the files cannot be written.
+        It raises a `SimulationError` if the files cannot be written, and something else if the watcher was closed.
         """
-        try:
-            for room in self._rooms:
-                room.finish()
-        finally:
-            for room in self._rooms:
-                room.drop()
+        for film in [one for one in list(self._films) if one.done() and not one.exception()]:
+            self._films.pop(film, None)
+        films = list(self._films)
+        return partial(self._wait_for, films) if films else None
+
+    def _wait_for(self, films: Iterable[Future[None]]) -> None:
+        for film in films:
+            try:
+                film.result()
+            finally:
+                self._films.pop(film, None)
 
     def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
         """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
@@ -220,15 +244,15 @@ class Watcher:
         size: tuple[int, int],
         stems: Mapping[Viewpoint, str],
         labels: bool,
-    ) -> Iterator[tuple[str, int, Image]]:
-        """The pictures, with stem and number."""
+    ) -> Iterator[tuple[str, int, Callable[[], Image]]]:
+        """What waits for the pictures, with stem and number."""
         stage = self._set()
         for number, (moment, cameras) in enumerate(takes):
             stage.show(recording.state, moment)
             names = self._names(recording, moment, stage) if labels else []
             for view, camera in cameras.items():
-                picture = labelled(*stage.picture(camera, size), names) if names else stage.colours(camera, size)
-                yield stems[view], number, picture
+                soon = stage.colours_soon if not names else partial(_labelled_soon, stage, names)
+                yield stems[view], number, soon(camera, size)
 
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
@@ -301,6 +325,29 @@ class Watcher:
     def _class_of(self, recording: Recording, name: str) -> str:
         known, thing = recording.state.box.get(name), self.ground.scene.object(name)
         return known.text if known is not None else thing.cls if thing is not None else name
+
+
+def _labelled_soon(stage: Stage, names: list[Name], camera: Camera, size: tuple[int, int]) -> Callable[[], Image]:
+    return partial(labelled, *stage.picture(camera, size), names)
+
+
+def _darkroom() -> ThreadPoolExecutor:
+    """Where jobs are done one after another, in their order, on a thread that starts with the first."""
+    return ThreadPoolExecutor(1, thread_name_prefix="pictures")
+
+
+def _nothing() -> None:
+    """Be a job that tells, once it is done, that those before it are."""
+
+
+def _step(film: Future[None], job: Callable[[], None]) -> None:
+    """Do a job of a film, of which nothing more is done once a job has failed."""
+    if film.done():
+        return
+    try:
+        job()
+    except BaseException as err:  # noqa: BLE001 - who waits for the film is told
+        film.set_exception(err)
 
 
 @dataclass(frozen=True, slots=True)

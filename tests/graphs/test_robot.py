@@ -277,7 +277,9 @@ def test_an_hour_that_stands_has_all_its_pictures(make_services: MakeServices, t
     home, missing = FakeHome(), []
 
     class Counting(FolderRecorder):
-        def write_hour(self, record: HourRecord) -> None:
+        def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
+            if after:
+                after()
             missing.append(len(home.late))
             super().write_hour(record)
 

@@ -10,54 +10,12 @@ from coopera.core.household import HUMAN, ROBOT, AgentId
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import problem
 from coopera.simulation.sight import watching
-from coopera.simulation.sight.darkroom import Darkroom
 from coopera.simulation.sight.recording import Recording
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move
 
 needs_gl = pytest.mark.skipif(bool(problem()), reason=f"nothing can be drawn with OpenGL here: {problem()}")
-
-
-@pytest.fixture
-def darkroom():
-    made = Darkroom()
-    yield made
-    made.close()
-
-
-def test_jobs_are_done_in_their_order_and_beside_who_gave_them(darkroom: Darkroom) -> None:
-    go, done = threading.Event(), []
-    for number in range(3):
-        darkroom.add(lambda number=number: (go.wait(), done.append(number)))
-    assert done == []
-    go.set()
-    darkroom.finish()
-    assert done == [0, 1, 2]
-
-
-def test_what_goes_wrong_is_raised_to_who_waits_and_once(darkroom: Darkroom) -> None:
-    def fail() -> None:
-        raise SimulationError("The disk is full.")
-
-    darkroom.add(lambda: None)
-    darkroom.add(fail)
-    with pytest.raises(SimulationError, match="full"):
-        darkroom.finish()
-    darkroom.finish()
-
-
-def test_closing_leaves_undone_what_has_not_begun_and_waits_for_what_has(darkroom: Darkroom) -> None:
-    begun, go, done = threading.Event(), threading.Event(), []
-    darkroom.add(lambda: (begun.set(), go.wait(), done.append("first")))
-    darkroom.add(lambda: done.append("second"))
-    begun.wait()
-    darkroom._jobs[1].add_done_callback(lambda _: go.set())  # as soon as it is given up
-    late = threading.Timer(30, go.set)  # so that it ends where it is not
-    late.start()
-    darkroom.close()
-    late.cancel()
-    assert done == ["first"]
 
 
 def pictures_of(folder: Path) -> dict[str, bytes]:
@@ -71,7 +29,8 @@ def lived(world: World, folder: Path, wait: bool) -> dict[str, bytes]:
     assert world.perform(ROBOT, bring("mug"), record=True).ok
     files += world.frames(2, folder, "help-0", wait=wait)
     assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
-    world.finish_frames()
+    if due := world.frames_due():
+        due()
     assert sorted(folder.iterdir()) == sorted(files)
     return pictures_of(folder)
 
