@@ -6,6 +6,7 @@ Nothing but the state decides a picture: the same scenery and camera give the sa
 from __future__ import annotations
 
 from collections.abc import Mapping
+from concurrent.futures import Future
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
@@ -14,13 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.drawing.context import on_context
+from coopera.simulation.drawing.context import on_context, soon_on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
 from coopera.simulation.drawing.light import contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
 from coopera.simulation.drawing.sight import in_view, rooms_seen
-from coopera.simulation.drawing.unheld import finish, render
+from coopera.simulation.drawing.unheld import finish, render, render_picture
 from coopera.simulation.drawing.view import View
 from coopera.simulation.shapes.rotations import Array
 
@@ -241,7 +242,14 @@ class Renderer:
 
     def draw(self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False) -> Drawn:
         """Draw a picture, with what else is asked for."""
-        return on_context(lambda context: self._draw(context, camera, size, tags, depth))
+        return self.draw_soon(camera, size, tags=tags, depth=depth).result()
+
+    def draw_soon(
+        self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False
+    ) -> Future[Drawn]:
+        """Have a picture drawn of the scenery as it is now, while it goes on to change."""
+        on_context(self._update)
+        return soon_on_context(lambda context: self._draw(context, camera, size, tags, depth))
 
     def view(self, camera: Camera, size: tuple[int, int], names: Mapping[int, str]) -> View:
         """Draw a picture with all that is known of it; `names` are those of the bodies, by number."""
@@ -252,7 +260,6 @@ class Renderer:
         )
 
     def _draw(self, context: Any, camera: Camera, size: tuple[int, int], tags: bool, depth: bool) -> Drawn:
-        self._update(context)
         width, height = size
         found = Drawn(
             np.zeros((height, width, 3), dtype=np.uint8),
@@ -293,7 +300,7 @@ class Renderer:
         context.enable_only(context.DEPTH_TEST)
         context.depth_func = "1"
         self._still.depth_attachment.use(0)
-        self._kit.copying.render(vertices=3)
+        render_picture(self._kit.copying)
         context.depth_func = "<"
         self._kit.shadow["lens"].write(_columns(self._sunlens))
         if self._moving is not None and self._moving.pieces:
@@ -354,7 +361,7 @@ class Renderer:
         target.smooth.use()
         context.enable_only(context.NOTHING)
         target.colour.use(0)
-        self._kit.smoothing.render(vertices=3)
+        render_picture(self._kit.smoothing)
         finish(context)
         raw = np.frombuffer(target.smooth.read(components=3, alignment=1), dtype=np.uint8)
         found.colour[part] = raw.reshape(height, width, 3)[::-1]

@@ -31,6 +31,19 @@ def finish(context: Any) -> None:
     (_call("glFinish") or context.finish)()
 
 
+def render_picture(array: Any) -> None:
+    """Draw the one triangle that covers a picture; Mesa waits here for what the picture is made of."""
+    number = ctypes.c_uint
+    use, bind = _call("glUseProgram", number), _call("glBindVertexArray", number)
+    draw = _call("glDrawArrays", number, ctypes.c_int, ctypes.c_int)
+    if use is None or bind is None or draw is None:
+        array.render(vertices=3)
+        return
+    use(array.program.glo)
+    bind(array.glo)
+    draw(_TRIANGLES, 0, 3)
+
+
 def render(array: Any, orders: Any) -> None:
     """Draw a vertex array by orders in a buffer, as moderngl's `render_indirect` does."""
     number = ctypes.c_uint
