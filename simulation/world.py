@@ -33,10 +33,11 @@ from coopera.simulation.motions.library import Library, Rank, load_library
 from coopera.simulation.people.appearance import appearance_of
 from coopera.simulation.sight.percept import perceive
 from coopera.simulation.sight.recording import Recording
+from coopera.simulation.sight.studio import Films
 from coopera.simulation.sight.timing import TICKS
 from coopera.simulation.sight.video import FPS, write_video
 from coopera.simulation.sight.views import view
-from coopera.simulation.sight.watching import Onlooker, Viewpoint, Watcher, onlooker, recorded
+from coopera.simulation.sight.watching import Onlooker, Order, Viewpoint, Watcher, onlooker, recorded
 from coopera.simulation.state.agents import Agent, PersonAgent, RobotAgent, check_agents
 from coopera.simulation.state.home_state import HomeState, room_of_thing, standing_now
 from coopera.simulation.state.looks import place_in_words, states_in_sight, things_in_sight
@@ -100,6 +101,7 @@ class World:
         self.looks = {one.id: one.looks for one in agents if isinstance(one, PersonAgent) and one.looks is not None}
         """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
+        self._films = Films(self._ground, renderer, self.looks)
         self._recording: Recording | None = None
         self._planned: dict[AgentId, tuple[HomeState, Act, Plan]] = {}
 
@@ -113,6 +115,7 @@ class World:
 
     def close(self) -> None:
         """Give pybullet back; the state stays."""
+        self._films.close()
         if self._watcher is not None:
             self._watcher.close()
             self._watcher = None
@@ -307,11 +310,13 @@ class World:
         Files are robot-0.webp … from the robot's eyes and human-0.webp … from across the room; with a `name` only the
         latter. Without `wait` they are written while the home goes on. A `SimulationError` where nothing can be.
         """
-        views: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
-        files = self._watching().film(self.recording, count, self.frame_size, Path(folder), views, labels=self.labels)
+        stems: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
+        order = Order(count, self.frame_size, Path(folder), stems, self.labels)
+        beside = None if wait else self._films.beside()
+        self._films.add((beside or self._watching()).take(self.recording, order))
         if wait and (due := self.frames_due()):
             due()
-        return files
+        return order.files(self.recording)
 
     def frame_views(self, count: int) -> dict[str, View]:
         """What `frames` shows, as data, by the names of the files; errors as of `frames` and `view`."""
@@ -319,7 +324,7 @@ class World:
 
     def frames_due(self) -> Callable[[], None] | None:
         """What waits for the files of `frames` asked for so far, or None; a `SimulationError` if they cannot be."""
-        return None if self._watcher is None else self._watcher.due()
+        return self._films.due()
 
     def film(self, path: Path) -> Path:
         """Write the recording as H.264 video, the robot's view on the left, the third-person view on the right.

@@ -255,7 +255,7 @@ class Config(Frozen):
     ] = "sampled"
     frames: Annotated[
         int, Field(strict=True, ge=1, le=64), Setting("Pictures per view and hour, of different moments.")
-    ] = 5
+    ] = 4
     help_frames: HelpFrames = 1
     labels: Labels = False
     frame_size: FrameSize = SMALL

@@ -42,6 +42,7 @@ from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import Scene, World, load_scene
 from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
+from coopera.simulation.sight.studio import get_ready
 from coopera.studies.catalogues import known_activities, persons_household, tuned_model
 
 
@@ -138,6 +139,9 @@ def open_services(
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
         ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
+        frames = config.frames if config.pictures in ("sampled", "video") else 0
+        if frames and not ask.sees("robot"):
+            get_ready(config.renderer)
         days = open_earlier_life(config)
         services = Services(
             ask=ask,
@@ -153,7 +157,7 @@ def open_services(
             recorder=run,
             score=Measure(ask, embeddings),
             seed=config.seed,
-            frames=config.frames if config.pictures in ("sampled", "video") else 0,
+            frames=frames,
             help_frames=config.help_frames,
             video=config.pictures == "video",
             person=PERSON_MODELS[config.person_model],

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -68,6 +68,10 @@ class Chain:
     end: Array | None = None
     pan: tuple[int | None, float, float] = (None, 0.0, 0.0)
     lift: float | None = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go to another process without what was remembered."""
+        return type(self), (self.joints, self.tip, self.end, self.pan, self.lift)
 
     @cached_property
     def low(self) -> Array:

@@ -89,14 +89,15 @@ class Shot:
 class Recording:
     """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
 
-    `actor` is who acts, `robot` who sees it, `person` who is looked at. `states` is {object: its states in words} of
-    what could be seen after the act not to be as at first.
+    `actor` is who acts, by `steps`, `robot` who sees it, `person` who is looked at. `states` is {object: its states in
+    words} of what could be seen after the act not to be as at first.
     """
 
     state: HomeState
     robot: AgentId
     person: AgentId
     actor: AgentId
+    steps: list[Step] = field(default_factory=list)
     shots: list[Shot] = field(default_factory=list)
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
@@ -146,6 +147,7 @@ class Filming:
     def film(self, steps: list[Step], actor: AgentId) -> Recording:
         """Film all steps; walks of those who are not acting happen between the shots."""
         self._actor = self.recording.actor = actor
+        self.recording.steps += steps
         for step in steps:
             if isinstance(step, Walk):
                 self._go(step)

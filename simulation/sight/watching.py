@@ -52,6 +52,23 @@ class Take(NamedTuple):
     cameras: Mapping[Viewpoint, Camera]
 
 
+class Order(NamedTuple):
+    """What is wanted of a recording: how many moments, and where pictures of them go, of a size in pixels."""
+
+    moments: int
+    size: tuple[int, int]
+    folder: Path
+    stems: Mapping[Viewpoint, str]
+    """What the files of each view are called: STEM-0.webp …."""
+    labels: bool = False
+    """Whether names are written into them."""
+
+    def files(self, recording: Recording) -> list[Path]:
+        """The pictures, view by view, in order of time."""
+        shots = range(min(self.moments, recording.ticks))
+        return [frame_file(self.folder, stem, i) for stem in self.stems.values() for i in shots]
+
+
 class Watcher:
     """Owns the stages of a home: for the robots' eyes, for choosing cameras beside the hour, and for pictures."""
 
@@ -65,7 +82,7 @@ class Watcher:
         self._sought: Stage | None = None
         self._drawn: Stage | None = None
         self._choosing, self._drawing, self._writing = self._rooms = [_darkroom() for _ in range(3)]
-        self._films: dict[Future[None], None] = {}
+        self._films: set[Future[None]] = set()
 
     def close(self) -> None:
         """Give pybullet back; pictures that nobody waited for may be missing."""
@@ -87,6 +104,10 @@ class Watcher:
         """Wait until nothing is done in the darkrooms."""
         for room in self._rooms:
             room.submit(_nothing).result()
+
+    def get_ready(self) -> None:
+        """Have the stage set that pictures will be taken of, in the darkroom that will use it."""
+        self._drawing.submit(self._set)
 
     def _set(self) -> Stage:
         if self._drawn is None:
@@ -137,27 +158,15 @@ class Watcher:
         plan.steps.append(Turn(robot, yaw))
         plan.state = plan.state.with_agent(robot, yaw=yaw)
 
-    def film(
-        self,
-        recording: Recording,
-        count: int,
-        size: tuple[int, int],
-        folder: Path,
-        stems: Mapping[Viewpoint, str],
-        *,
-        labels: bool = False,
-    ) -> list[Path]:
+    def take(self, recording: Recording, order: Order) -> Future[None]:
         """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
 
-        With our own renderer that is done in darkrooms, one for each step, while the home goes on: `due` has what waits
-        for it, and raises what went wrong. Pybullet's renderers belong to a thread and hold up all others: with them it
-        is done at once.
+        With our own renderer that is done in darkrooms, one for each step, while the home goes on. Pybullet's renderers
+        belong to a thread and hold up all others: with them it is done at once.
 
         Returns:
-            The files, view by view, in order of time: STEM-0.webp ….
-
-        Raises:
-            SimulationError: If the files cannot be written, where that is done at once.
+            What is done once the files are there; its error is a `SimulationError` where they cannot be written. It is
+            cancelled where the watcher is closed before.
         """
         aside = chosen(self._renderer) == "gl"
         film: Future[None] = Future()
@@ -170,41 +179,22 @@ class Watcher:
                 step()
 
         def choose() -> None:
-            ticks = telling_ticks(recording, self.ground.robots, count)
-            takes = list(self._takes(recording, ticks, tuple(stems)))
+            ticks = telling_ticks(recording, self.ground.robots, order.moments)
+            takes = list(self._takes(recording, ticks, tuple(order.stems)))
             then(self._drawing, lambda: draw(takes))
 
         def draw(takes: list[Take]) -> None:
-            for stem, number, picture in self._developed(recording, takes, size, stems, labels):
-                then(self._writing, partial(write, frame_file(folder, stem, number), picture))
+            for stem, number, picture in self._developed(recording, takes, order):
+                then(self._writing, partial(write, frame_file(order.folder, stem, number), picture))
             then(self._writing, lambda: film.set_result(None))
 
         def write(path: Path, picture: Callable[[], Image]) -> None:
             write_frame(path, picture())
 
+        self._films.add(film)
+        film.add_done_callback(self._films.discard)
         then(self._choosing, choose)
-        if not aside:
-            film.result()
-        self._films[film] = None
-        shots = min(count, recording.ticks)
-        return [frame_file(folder, stem, i) for stem in stems.values() for i in range(shots)]
-
-    def due(self) -> Callable[[], None] | None:
-        """What waits for all pictures that were taken so far; None where all are there.
-
-        It raises a `SimulationError` if the files cannot be written, and something else if the watcher was closed.
-        """
-        for film in [one for one in list(self._films) if one.done() and not one.exception()]:
-            self._films.pop(film, None)
-        films = list(self._films)
-        return partial(self._wait_for, films) if films else None
-
-    def _wait_for(self, films: Iterable[Future[None]]) -> None:
-        for film in films:
-            try:
-                film.result()
-            finally:
-                self._films.pop(film, None)
+        return film
 
     def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
         """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
@@ -238,21 +228,16 @@ class Watcher:
             yield Take(moment, {v: self._eyes(recording, moment) if v == "robot" else across[index] for v in views})
 
     def _developed(
-        self,
-        recording: Recording,
-        takes: Sequence[Take],
-        size: tuple[int, int],
-        stems: Mapping[Viewpoint, str],
-        labels: bool,
+        self, recording: Recording, takes: Sequence[Take], order: Order
     ) -> Iterator[tuple[str, int, Callable[[], Image]]]:
         """What waits for the pictures, with stem and number."""
         stage = self._set()
         for number, (moment, cameras) in enumerate(takes):
             stage.show(recording.state, moment)
-            names = self._names(recording, moment, stage) if labels else []
+            names = self._names(recording, moment, stage) if order.labels else []
             for view, camera in cameras.items():
                 soon = stage.colours_soon if not names else partial(_labelled_soon, stage, names)
-                yield stems[view], number, soon(camera, size)
+                yield order.stems[view], number, soon(camera, order.size)
 
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])

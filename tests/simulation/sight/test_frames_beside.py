@@ -52,6 +52,8 @@ def test_what_is_looked_at_now_is_not_mixed_up_with_pictures_that_are_being_draw
         before = world.view(ROBOT).colour
         world.frames(4, tmp_path, wait=False)
         assert (world.view(ROBOT).colour == before).all()
+        if due := world.frames_due():
+            due()
         assert len(pictures_of(tmp_path)) == 8
 
 
