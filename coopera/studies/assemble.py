@@ -42,7 +42,7 @@ from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import Scene, World, load_scene
 from coopera.simulation.motions.library import Library, Rank
 from coopera.simulation.motions.user_folder import load_motions
-from coopera.simulation.sight.studio import get_ready
+from coopera.simulation.sight.studio import ready
 from coopera.studies.catalogues import known_activities, persons_household, tuned_model
 
 
@@ -141,7 +141,7 @@ def open_services(
         method = find_method(config.method)
         frames = config.frames if config.pictures in ("sampled", "video") else 0
         if frames and not ask.sees("robot"):
-            get_ready(config.renderer)
+            stack.enter_context(ready(config.renderer))
         days = open_earlier_life(config)
         services = Services(
             ask=ask,

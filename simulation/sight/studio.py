@@ -12,8 +12,9 @@ import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future
+from contextlib import contextmanager
 from functools import partial
 from itertools import count
 from multiprocessing.connection import Connection
@@ -77,9 +78,8 @@ class Studio:
 
     def __init__(self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance]) -> None:
         """Have the process get ready; `looks` says how people look, and may change."""
-        self._process, self._looks = _started(), looks
-        self._home = next(_numbers)
-        self._process.homes.add(self._home)
+        self._home, self._looks = next(_numbers), looks
+        self._process = _started(self._home)
         self._process.send(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
 
     def take(self, recording: Recording, order: Order) -> Future[None]:
@@ -178,18 +178,26 @@ class _Process:
     def leave(self, home: int) -> None:
         """Have a home closed, and the process ended where it was the last one."""
         closed = self.ask(partial(Closed, home))
-        self.homes.discard(home)
         try:
             closed.result(_PATIENCE)
-            if not self.homes:
-                self.send(None)
-                self.ended = True
-                self._process.wait(_PATIENCE)
-        except (TimeoutError, SimulationError, subprocess.TimeoutExpired):
+        except (TimeoutError, SimulationError):
+            self._process.kill()
+        with _one_at_a_time:
+            self.homes.discard(home)
+            self.end_if_idle()
+
+    def end_if_idle(self) -> None:
+        """End the process where it has no home."""
+        if self.homes:
+            return
+        self.send(None)
+        self.ended = True
+        try:
+            self._process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        if self.ended:
-            self._hearing.join()
+        self._hearing.join()
 
     def _hear(self) -> None:
         """Take the answers, until the process ends."""
@@ -226,15 +234,24 @@ def possible(renderer: Renderer) -> bool:
     return chosen(renderer) == "gl" and os.name == "posix" and bool(sys.executable)
 
 
-def get_ready(renderer: Renderer) -> None:
-    """Begin the process, if there can be one, which takes a second of its own, before there is a home."""
+@contextmanager
+def ready(renderer: Renderer) -> Iterator[None]:
+    """Begin the process, if there can be one, before there is a home: that takes a second. It ends if there is none."""
     if possible(renderer):
         _started()
+    try:
+        yield
+    finally:
+        with _one_at_a_time:
+            if _processes and not _processes[0].ended:
+                _processes[0].end_if_idle()
 
 
-def _started() -> _Process:
-    """The process of this one that takes pictures, begun where there is none."""
+def _started(home: int | None = None) -> _Process:
+    """The process of this one that takes pictures, begun where there is none; a home keeps it from ending."""
     with _one_at_a_time:
         if not _processes or _processes[0].ended:
             _processes[:] = [_Process()]
+        if home is not None:
+            _processes[0].homes.add(home)
         return _processes[0]
