@@ -44,6 +44,8 @@ class BuiltHome:
     """Name of each object, by its body."""
     scenery: Scenery | None = None
     """What another renderer draws of it, kept up to date."""
+    hulls: dict[Size, int] = field(default_factory=dict)
+    """Shape for rays of things of a size: pybullet keeps a shape when its body is removed, so each is made once."""
 
     def move(self, name: str, position: tuple[float, float, float], yaw: float) -> None:
         """Set an object's base centre and yaw; nothing else is touched."""
@@ -62,7 +64,7 @@ class BuiltHome:
 
     def add(self, name: str, cls: str, size: Size, colour: Colour) -> int:
         """Add one more thing (out of the magic box) far below the floor, to be moved into sight; returns its body."""
-        body = _body(self.client, self.visual(parts_of(cls, size, colour)), size)
+        body = self.body(self.visual(parts_of(cls, size, colour)), size)
         self.bodies[name], self.names[body] = body, name
         if self.scenery is not None:
             self.scenery.add(name, shape_mesh(cls, size, colour), body, cls)
@@ -84,6 +86,25 @@ class BuiltHome:
         if self.scenery is not None:
             self.scenery.add(name, parts_mesh(parts, cls, parts[0].rgba[:3]), body, cls)
         return body
+
+    def body(self, visual: int, size: Size) -> int:
+        """Make a body that looks like something, with a box around it for rays."""
+        if size not in self.hulls:
+            half = [size[0] / 2, size[1] / 2, size[2] / 2]
+            self.hulls[size] = pybullet.createCollisionShape(
+                pybullet.GEOM_BOX,
+                halfExtents=half,
+                collisionFramePosition=[0, 0, half[2]],
+                physicsClientId=self.client,
+            )
+        return int(
+            pybullet.createMultiBody(
+                baseMass=0,
+                baseCollisionShapeIndex=self.hulls[size],
+                baseVisualShapeIndex=visual,
+                physicsClientId=self.client,
+            )
+        )
 
     def visual(self, parts: list[Part]) -> int:
         """What a body of some parts looks like, for pybullet."""
@@ -114,23 +135,10 @@ def build(scene: Scene, client: int, *, drawn: bool = True) -> BuiltHome:
             visual = _mesh_visual(client, thing, scene.meshes)
         else:
             visual = home.visual(parts_of(thing.cls, thing.size, thing.rgb))
-        body = _body(client, visual, thing.size)
+        body = home.body(visual, thing.size)
         home.bodies[thing.name], home.names[body] = body, thing.name
         home.move(thing.name, thing.position, thing.yaw)
     return home
-
-
-def _body(client: int, visual: int, size: Size) -> int:
-    """One body that looks like something, with a box around it for rays."""
-    half = [size[0] / 2, size[1] / 2, size[2] / 2]
-    hull = pybullet.createCollisionShape(
-        pybullet.GEOM_BOX, halfExtents=half, collisionFramePosition=[0, 0, half[2]], physicsClientId=client
-    )
-    return int(
-        pybullet.createMultiBody(
-            baseMass=0, baseCollisionShapeIndex=hull, baseVisualShapeIndex=visual, physicsClientId=client
-        )
-    )
 
 
 def _visual(client: int, parts: list[Part]) -> int:

@@ -133,3 +133,23 @@ def test_furniture_without_an_inside_looks_the_same_when_open(stage) -> None:
     assert opened(window) == ([], [])
     stage.show(state(), moment(opened=frozenset((window.name,))))
     assert f"{window.name}:open" not in stage.home.bodies
+
+
+def test_things_out_of_the_magic_box_that_come_and_go_leave_nothing_behind(stage) -> None:
+    """The engine keeps a shape when its body is removed, and a person's weeks bring the same kinds of things again."""
+
+    def next_shape() -> int:
+        made: int = pybullet.createCollisionShape(pybullet.GEOM_SPHERE, radius=0.1, physicsClientId=stage.client)
+        pybullet.removeCollisionShape(made, physicsClientId=stage.client)
+        return made
+
+    def come_and_go(number: int) -> None:
+        lying = ThingState(position=(2.0, 1.0, 0.75), yaw=0.0, on=None)
+        name = f"cup_{number}"
+        stage.show(state(box={name: {"id": 900 + number, "text": "cup"}}, moved={name: lying}), moment())
+
+    come_and_go(1)
+    before = next_shape()
+    for number in range(2, 30):
+        come_and_go(number)
+    assert next_shape() == before
