@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from coopera.core.errors import ConfigError, MemoryStoreError
+from coopera.memory.folder import CHROMA
 
 if TYPE_CHECKING:
     import httpx
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 
 _PATIENCE = 10.0  # seconds to wait for a server's answer when connecting
 _REQUEST_PATIENCE = 60.0
+_PAGES = 100
+"""Pages of 4 kB of its database that each connection of Chroma's keeps in RAM; by SQLite's own measure, 2 MB each."""
 
 
 @contextmanager
@@ -37,16 +41,29 @@ def translated(where: str) -> Iterator[None]:
 
 
 def open_client(folder: Path) -> ClientAPI:
-    """Open a folder with Chroma; the caller holds the lock."""
+    """Open a folder with Chroma; the caller holds the lock.
+
+    Of its database Chroma then keeps little in RAM: what is read again and again a stream keeps itself, and half a
+    dozen connections would each hold more of it every day.
+    """
     import chromadb  # noqa: PLC0415 - heavy
     from chromadb.config import Settings  # noqa: PLC0415
 
+    with suppress(sqlite3.Error):  # Chroma tells what is wrong
+        _limit_pages(folder / CHROMA)
     with translated(str(folder)):
         try:
             return chromadb.PersistentClient(str(folder), settings=Settings(anonymized_telemetry=False))
         except BaseException:
             _forget(str(folder))
             raise
+
+
+def _limit_pages(database: Path) -> None:
+    """Note in the database, made now if need be, how much of it a connection may keep."""
+    with closing(sqlite3.connect(database)) as connection:
+        if connection.execute("PRAGMA default_cache_size").fetchone() != (_PAGES,):
+            connection.execute(f"PRAGMA default_cache_size = {_PAGES}")
 
 
 def _forget(folder: str) -> None:

@@ -17,7 +17,7 @@ from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.rows import Record, Row, restored, row, vector_sum
 from coopera.memory.scan import BLOCK, Block
-from coopera.memory.vectors import Vectors, repeated
+from coopera.memory.vectors import Held, Places, Table, Vectors
 
 if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
@@ -56,7 +56,8 @@ class Log:
         self._collection = reach()
         self._numbering = Numbering()
         self._length = 0
-        self._tail = _empty(0, 0)
+        self._table = vectors.table if vectors is not None else Table()
+        self._tail = _empty(0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
         self._lately: OrderedDict[int, Record] = OrderedDict()
@@ -70,7 +71,7 @@ class Log:
     @property
     def dimension(self) -> int | None:
         """Numbers per vector; None while there is no record."""
-        return int(self._tail.vectors.shape[1]) if self._length else None
+        return int(self._table.rows.shape[1]) if self._length else None
 
     @property
     def last_hour(self) -> int | None:
@@ -81,11 +82,11 @@ class Log:
         """Return one block of 512 records, from RAM if it is there."""
         if number * BLOCK == self._tail.start:
             filled = self._length - self._tail.start
-            return Block(self._tail.start, self._tail.vectors[:filled], self._tail.hours[:filled])
+            return self._block(self._tail, filled)
         block = self._blocks.pop(number, None)
         if block is None:
             vectors, hours = self._read(number * BLOCK, min((number + 1) * BLOCK, self._length))
-            block = Block(number * BLOCK, repeated(vectors), hours)
+            block = Block(number * BLOCK, Held(self._table, self._table.hold(vectors)), hours)
         self._keep_block(number, block)
         return block
 
@@ -181,7 +182,15 @@ class Log:
     def _keep_block(self, number: int, block: Block) -> None:
         self._blocks[number] = block
         if len(self._blocks) > _BLOCKS_IN_RAM:
-            self._blocks.popitem(last=False)
+            _, oldest = self._blocks.popitem(last=False)
+            self._let_go_of(oldest)
+
+    def _let_go_of(self, block: Block) -> None:
+        if isinstance(block.vectors, Held):
+            self._table.let_go(block.vectors.places)
+
+    def _block(self, tail: _Tail, filled: int) -> Block:
+        return Block(tail.start, Held(self._table, tail.places[:filled]), tail.hours[:filled])
 
     def _read_records(self, positions: Sequence[int]) -> dict[int, Record]:
         """Return records by position from the store, up to `_PER_CALL` of them."""
@@ -213,6 +222,7 @@ class Log:
     def _append(
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
     ) -> None:
+        places = self._table.hold(vectors)
         ids = self._ids(range(self._length, self._length + len(texts)))
         records = [Record(*one) for one in zip(texts, hours, metadata, strict=True)]
         rows = [row(*one) for one in zip(ids, records, vectors, strict=True)]
@@ -220,7 +230,7 @@ class Log:
         self._waiting += rows
         added = enumerate(rows, self._length)
         self._keep({at: record for at, one in added if (record := restored(one.text, one.entry)[0])})
-        self._extend(vectors, np.asarray(hours, np.int64))
+        self._extend(places, np.asarray(hours, np.int64))
 
     def _write(self, rows: Sequence[Row]) -> None:
         """Put rows into the store, up to `_PER_CALL` of them, once all vectors are there."""
@@ -250,32 +260,36 @@ class Log:
         if any(there.get(key) != entry for key, entry in zip(ids, entries, strict=True)):
             raise MemoryStoreError(f"{self.where}: another process writes to this stream; a stream has one writer")
 
-    def _extend(self, vectors: Vector, hours: npt.NDArray[np.int64]) -> None:
+    def _extend(self, places: Places, hours: npt.NDArray[np.int64]) -> None:
         """Take records that are in the store into the tail; where it is full, a new one begins.
 
         The tail is empty only while there is no record, so that the newest hour is always at hand.
         """
-        for vector, hour in zip(vectors, hours, strict=True):
+        for place, hour in zip(places, hours, strict=True):
             filled = self._length - self._tail.start
-            if filled == 0:
-                self._tail = _empty(0, vectors.shape[1])
-            elif filled == BLOCK:
-                full = self._tail
-                self._keep_block(full.start // BLOCK, Block(full.start, repeated(full.vectors), full.hours))
-                self._tail = _empty(self._length, vectors.shape[1])
+            if filled == BLOCK:
+                self._keep_block(self._tail.start // BLOCK, self._block(self._tail, filled))
+                self._tail = _empty(self._length)
                 filled = 0
-            self._tail.vectors[filled] = vector
+            self._tail.places[filled] = place
             self._tail.hours[filled] = hour
             self._length += 1
 
+    def let_go(self) -> None:
+        """Hold no vectors in RAM any longer, once nobody recalls by this log."""
+        for block in (*self._blocks.values(), self._block(self._tail, self._length - self._tail.start)):
+            self._let_go_of(block)
+        self._blocks.clear()
+        self._tail = _empty(self._length)
+
     def _reload(self) -> None:
         """Read the log's end from the store."""
-        self._blocks.clear()
+        self.let_go()
         self._starts.clear()
         self._lately.clear()
         self._waiting.clear()
         self._length = 0
-        self._tail = _empty(0, 0)
+        self._tail = _empty(0)
         with translated(self.where):
             self._collection = self._reach()
             self._numbering = Numbering.of(self._collection.metadata)
@@ -284,8 +298,8 @@ class Log:
             return
         start = (length - 1) // BLOCK * BLOCK
         vectors, hours = self._read(start, length)
-        self._tail = _empty(start, vectors.shape[1])
-        self._tail.vectors[: length - start] = vectors
+        self._tail = _empty(start)
+        self._tail.places[: length - start] = self._table.hold(vectors)
         self._tail.hours[: length - start] = hours
         self._length = length
 
@@ -362,9 +376,9 @@ class _Tail(NamedTuple):
     """The newest block, which is not full."""
 
     start: int
-    vectors: Vector
+    places: Places
     hours: npt.NDArray[np.int64]
 
 
-def _empty(start: int, dimension: int) -> _Tail:
-    return _Tail(start, np.zeros((BLOCK, dimension), np.float32), np.zeros(BLOCK, np.int64))
+def _empty(start: int) -> _Tail:
+    return _Tail(start, np.zeros(BLOCK, np.int32), np.zeros(BLOCK, np.int64))

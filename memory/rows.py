@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import zlib
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -55,7 +56,7 @@ def restored(text: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, 
     except ValueError:
         own = {}
     whole = meta.get("text_sum") == _text_sum(text, hour, own_json)
-    return Record(text, hour, own if isinstance(own, dict) else {}), whole
+    return Record(sys.intern(text), hour, own if isinstance(own, dict) else {}), whole  # said again, held once
 
 
 def _text_sum(text: str, hour: int, own_json: str) -> int:

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from coopera.memory.minilm import Vector
-from coopera.memory.vectors import Repeated
+from coopera.memory.vectors import Held
 
 BLOCK = 512
 """Records per block: what is read at once."""
@@ -30,7 +30,7 @@ class Block(NamedTuple):
     """Records start, start + 1, …: unit vectors (n, d) float32 and hours (n,) int64, non-decreasing."""
 
     start: int
-    vectors: Vector | Repeated
+    vectors: Vector | Held
     hours: npt.NDArray[np.int64]
 
 
@@ -38,7 +38,7 @@ class _Part(NamedTuple):
     """Some records of a block."""
 
     start: int
-    vectors: Vector
+    vectors: Vector | Held
     hours: npt.NDArray[np.int64]
 
 
@@ -146,7 +146,8 @@ class _Window:
     def take(self, block: _Part) -> None:
         """Roughly score some records, in float32."""
         recency = np.power(self._decay, (self._newest - block.hours).astype(np.float64))
-        scores = recency * (block.vectors @ self._query)
+        unlike, of = _different(block.vectors)
+        scores = recency * (unlike @ self._query)[of]
         self._best = np.concatenate((self._best, scores))
         if len(self._best) >= self._k:
             self._best = np.partition(self._best, -self._k)[-self._k :]
@@ -168,10 +169,16 @@ class _Window:
             near = np.flatnonzero(scores >= self._floor)
             positions.append(block.start + rows[near])
             hours.append(block.hours[near])
-            cosines.append((block.vectors[near].astype(np.float64) * query).sum(1))
+            unlike, of = _different(block.vectors[near])
+            cosines.append((unlike.astype(np.float64) * query).sum(1)[of])
         position, hour, cosine = (np.concatenate(column) for column in (positions, hours, cosines))
         asked, place = np.unique(hour, return_inverse=True)
         recency = np.array([self._decay ** (self._newest - one) for one in asked.tolist()])
         order = np.lexsort((-position, -cosine * recency[place]))[: self._k]
         columns = (column[order].tolist() for column in (position, hour, cosine))
         return list(map(Hit._make, zip(*columns, strict=True)))
+
+
+def _different(vectors: Vector | Held) -> tuple[Vector, npt.NDArray[np.int64] | slice]:
+    """Return vectors, each once where equal ones are known, and which of these each of the n is."""
+    return vectors.different() if isinstance(vectors, Held) else (vectors, slice(None))

@@ -34,10 +34,14 @@ MAX_NAME = 200
 
 
 class Flushed(Protocol):
-    """Something that keeps back what it writes."""
+    """Something that keeps back what it writes, and holds what it read."""
 
     def flush(self) -> None:
         """Write it."""
+        ...
+
+    def let_go(self) -> None:
+        """Hold nothing any longer."""
         ...
 
 
@@ -212,6 +216,8 @@ class Store:
             users, thing = self._shared.pop(name)
             if users > 1:
                 self._shared[name] = (users - 1, thing)
+            else:
+                thing.let_go()
 
     def _check(self, collection: Collection, name: str, model: str) -> None:
         """Refuse a stream that is of another kind than asked for."""

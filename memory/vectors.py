@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
 
 _PER_CALL = 1000
 _KNOWN = 4096  # texts of which it is remembered that their vectors are there
+_ROOM = 256  # vectors by which a table grows
+
+Places: TypeAlias = npt.NDArray[np.int32]
+"""Where vectors are in a table, shape (n,)."""
 
 
 class Vectors:
@@ -37,6 +41,8 @@ class Vectors:
         self._where = where
         self._known: dict[str, None] = {}
         self._waiting: dict[str, Vector] = {}
+        self.table = Table()
+        """Those that the streams have in RAM."""
         self._lock = threading.Lock()
 
     def add(self, texts: Sequence[str], vectors: Vector) -> None:
@@ -98,21 +104,91 @@ def _key(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:40]
 
 
+class Table:
+    """Vectors that blocks in RAM consist of, each different one held once, for as long as a block holds it.
+
+    What the streams of a store have in RAM says the same again and again; a block of it is then a row of numbers.
+    """
+
+    def __init__(self) -> None:
+        """Start empty; the first vectors say how long all are."""
+        self.rows: Vector = np.zeros((0, 0), np.float32)
+        """Room for vectors, by place; those of places that nobody holds are of no meaning."""
+        self._at: dict[bytes, int] = {}
+        self._known: list[bytes] = []
+        self._holders: list[int] = []
+        self._free: list[int] = []
+        self._lock = threading.Lock()
+
+    def __len__(self) -> int:
+        """How many different vectors are held."""
+        return len(self._at)
+
+    def hold(self, vectors: Vector) -> Places:
+        """Hold n vectors, shape (n, d), until `let_go`; returns where they are, shape (n,).
+
+        Raises:
+            MemoryStoreError: If those that are held have another length.
+        """
+        with self._lock:
+            if vectors.shape[1] != self.rows.shape[1]:
+                if self._at:
+                    raise MemoryStoreError(f"vectors have {self.rows.shape[1]} numbers here, not {vectors.shape[1]}")
+                self.rows = np.zeros((0, vectors.shape[1]), np.float32)
+                self._known, self._holders, self._free = [], [], []
+            return np.array([self._hold(row) for row in np.ascontiguousarray(vectors, np.float32)], np.int32)
+
+    def let_go(self, places: Places) -> None:
+        """Hold these no longer; places that come several times were held as often."""
+        with self._lock:
+            for place in places.tolist():
+                self._holders[place] -= 1
+                if not self._holders[place]:
+                    del self._at[self._known[place]]
+                    self._free.append(place)
+
+    def _hold(self, row: Vector) -> int:
+        known = hashlib.blake2b(row.tobytes(), digest_size=16).digest()
+        place = self._at.get(known)
+        if place is None:
+            place = self._at[known] = self._free.pop() if self._free else self._more()
+            self._known[place] = known
+            self.rows[place] = row
+        self._holders[place] += 1
+        return place
+
+    def _more(self) -> int:
+        """Make room for one more; readers go on with the array that they have."""
+        place = len(self._known)
+        if place == len(self.rows):
+            room = np.zeros((place + _ROOM, self.rows.shape[1]), np.float32)
+            room[:place] = self.rows
+            self.rows = room
+        self._known.append(b"")
+        self._holders.append(0)
+        return place
+
+
 @dataclass(frozen=True, slots=True)
-class Repeated:
-    """Vectors among which some are the same, each of them held once: `rows[of]` has shape (n, d)."""
+class Held:
+    """n vectors in a table, shape (n, d): those at `places`."""
 
-    rows: Vector
-    of: npt.NDArray[np.int64]
+    table: Table
+    places: Places
 
-    def __getitem__(self, part: slice) -> Vector:
-        """Return some of the n vectors."""
-        some: Vector = self.rows[self.of[part]]
-        return some
+    def __len__(self) -> int:
+        """Return n."""
+        return len(self.places)
 
+    def __getitem__(self, part: slice | npt.NDArray[np.int64]) -> Held:
+        """Return some of them."""
+        return Held(self.table, self.places[part])
 
-def repeated(vectors: Vector) -> Repeated:
-    """Hold each different vector of n, shape (n, d), once; bit for bit."""
-    first: dict[bytes, int] = {}
-    of = np.array([first.setdefault(row.tobytes(), len(first)) for row in vectors], np.int64)
-    return Repeated(np.frombuffer(b"".join(first), np.float32).reshape(len(first), -1), of)
+    def array(self) -> Vector:
+        """Return them as an array, bit for bit."""
+        return self.table.rows[self.places]
+
+    def different(self) -> tuple[Vector, npt.NDArray[np.int64]]:
+        """Return each different one once, shape (m, d), and which of these each of the n is, shape (n,)."""
+        places, of = np.unique(self.places, return_inverse=True)
+        return self.table.rows[places], of

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sqlite3
+from contextlib import ExitStack, closing
 from pathlib import Path
 
 import chromadb
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 
 from coopera.memory import MemoryStream
-from coopera.memory.vectors import repeated
+from coopera.memory.vectors import Held, Table
 from tests.memory.fakes import Letters
 
 TEXTS = ["tea", "read", "tea"]
@@ -60,7 +62,62 @@ def test_a_stream_of_before_is_gone_on_with_as_it_was(tmp_path: Path, monkeypatc
 
 def test_vectors_held_once_come_out_bit_for_bit() -> None:
     some = np.array([[0.0, 1.0], [-0.0, 1.0], [0.5, 0.25], [0.0, 1.0]], np.float32)
-    held = repeated(some)
-    assert len(held.rows) == 3
-    assert held[slice(0, 4)].tobytes() == some.tobytes()
-    assert held[slice(1, 3)].tobytes() == some[1:3].tobytes()
+    table = Table()
+    held = Held(table, table.hold(some))
+    assert len(table) == 3
+    assert held.array().tobytes() == some.tobytes()
+    assert held[1:3].array().tobytes() == some[1:3].tobytes()
+    different, of = held.different()
+    assert different[of].tobytes() == some.tobytes()
+
+
+def test_a_table_lets_go_of_what_nobody_holds_and_uses_its_place_again() -> None:
+    table = Table()
+    kept = table.hold(np.eye(3, dtype=np.float32))
+    for number in range(2000):
+        gone = table.hold(np.array([[number, 2.0, 1.0], [0.0, 1.0, 0.0]], np.float32))
+        assert len(table) == 4
+        table.let_go(gone)
+    assert Held(table, kept).array().tobytes() == np.eye(3, dtype=np.float32).tobytes()
+    assert len(table.rows) < 1000
+
+
+def test_what_a_long_life_says_again_is_in_ram_once_for_all_streams(tmp_path: Path) -> None:
+    texts = ["a" * one + "b" * other + "c" for one in range(5) for other in range(6)]
+    names = ("told", "lived", "guessed")
+    with ExitStack() as stack:
+        streams = [stack.enter_context(MemoryStream.open(tmp_path, name, Letters(), durable=False)) for name in names]
+        for hour in range(150):
+            for stream in streams:
+                stream.add(texts, hour)
+        table = streams[0]._open_log._table
+        assert all(stream._open_log._table is table for stream in streams)
+        assert len(table) == len(texts), "of 13,500 records"
+        streams[1].close()
+        assert [len(stream.recall("ab", 150, 5)) for stream in (streams[0], streams[2])] == [5, 5]
+    assert not len(table)
+
+
+def test_connections_to_a_store_are_told_to_keep_little_of_it_in_ram(tmp_path: Path) -> None:
+    """SQLite's own measure is 2 MB for each of Chroma's connections, which a long life fills."""
+
+    def pages() -> int:
+        with closing(sqlite3.connect(tmp_path / "chroma.sqlite3")) as database:
+            return int(database.execute("PRAGMA default_cache_size").fetchone()[0])
+
+    with MemoryStream.open(tmp_path, "x", Letters()) as stream:
+        stream.add(["a"], 0)
+    assert pages() == 100
+    with closing(sqlite3.connect(tmp_path / "chroma.sqlite3")) as database:
+        database.execute("PRAGMA default_cache_size = 2000")  # as in a store of before
+    with MemoryStream.open(tmp_path, "x", Letters()) as stream:
+        assert [one.text for one in stream.recall("a", 0, 1)] == ["a"]
+    assert pages() == 100
+
+
+def test_an_opening_that_was_killed_as_it_began_is_done_again(tmp_path: Path) -> None:
+    with closing(sqlite3.connect(tmp_path / "chroma.sqlite3")) as database:
+        database.execute("PRAGMA default_cache_size = 100")
+    with MemoryStream.open(tmp_path, "x", Letters()) as stream:
+        stream.add(["a"], 0)
+        assert len(stream) == 1
