@@ -16,7 +16,7 @@ import math
 from collections.abc import Sequence
 
 from coopera.core.household import Act, Collab, FreeMotion, PickPlace, Use, plain
-from coopera.graphs.robots.told import ToldHour, share
+from coopera.graphs.robots.told import ToldHour, Uses, share, used_in
 
 PATIENCE = 1.0
 """As many hours of common sense stand against what was told."""
@@ -57,6 +57,7 @@ def of_intentions(
 def of_task(
     act: Act,
     told: Sequence[ToldHour],
+    uses: Uses,
     intentions: Sequence[tuple[float, Sequence[float]]],
     own: int,
     collab: Collab,
@@ -66,15 +67,16 @@ def of_task(
     Args:
         act: The task.
         told: The told hours.
+        uses: What was used in them (`uses_of`).
         intentions: For each intention that tasks were imagined for, how probable it is, and how much each told hour
             counts for it (`weights_for`). Alike ones may both be right, so their chances may sum to more than 1.
         own: Which of these is the candidate's own.
         collab: The collaboration type.
     """
-    use, usual = _use(act), USUAL_TASK[collab]
-    within = [share(told, weights, use, usual=usual, patience=PATIENCE) for _, weights in intentions]
+    used, usual = used_in(uses, _use(act)), USUAL_TASK[collab]
+    within = [share(used, weights, usual=usual, patience=PATIENCE) for _, weights in intentions]
     sight, hour = (
-        share(told, weights, use, usual=ELSEWHERE, patience=PATIENCE)
+        share(used, weights, usual=ELSEWHERE, patience=PATIENCE)
         for weights in ([one.speaks for one in told], [one.near for one in told])
     )
     total = sum(p for p, _ in intentions)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import os
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -289,7 +290,9 @@ def _write_told(path: Path, account: DayAccount) -> None:
 def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
     try:
         said = json.loads(path.read_text(encoding="utf-8"))
-        return said["person"], {int(now): frozenset(map(str, used)) for now, used in said["things"].items()}
+        return said["person"], {
+            int(now): frozenset(sys.intern(str(thing)) for thing in used) for now, used in said["things"].items()
+        }
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as err:
         raise RunError(f"{path}: what was told on this day cannot be read: {err}") from err
 

@@ -12,7 +12,7 @@ from coopera.core.replies import ImaginedIntention
 from coopera.graphs.robots.evidence import of_intentions, of_task
 from coopera.graphs.robots.method import Method, Numbers
 from coopera.graphs.robots.robot_view import RobotView
-from coopera.graphs.robots.told import ToldHour, best_hours, held, likeness, same, shares
+from coopera.graphs.robots.told import ToldHour, best_hours, held, likeness, same, shares, uses_of
 
 WORTH_A_TRY = 0.15
 """The share of like told hours from which a thing adds to the number of tasks that are imagined."""
@@ -84,8 +84,6 @@ def with_evidence(
     """The tasks with what speaks for each, over all intentions that tasks were imagined for."""
     chance = {one.text: one.probability or 0.0 for one in intentions}
     of = {batch["tasks"][0].intention: batch["weights"] for batch in imagined if batch["tasks"]}
-    weighed, texts = [(chance[text], weights) for text, weights in of.items()], list(of)
-    return [
-        task.model_copy(update={"evidence": of_task(task.act, told, weighed, texts.index(task.intention), view.collab)})
-        for task in superset
-    ]
+    weighed, texts, uses = [(chance[text], weights) for text, weights in of.items()], list(of), uses_of(told)
+    found = [of_task(task.act, told, uses, weighed, texts.index(task.intention), view.collab) for task in superset]
+    return [task.model_copy(update={"evidence": one}) for task, one in zip(superset, found, strict=True)]

@@ -76,12 +76,13 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
 def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: int) -> list[Recalled]:
     found = stream.recall(query, now.day * 24 - 1, _ALL, (now.day - DAYS) * 24) if now.day else []
     recency = {hour: weight(now, hour) for hour in {one.hour for one in found}}
-    ranked = sorted(found, key=lambda one: (-one.relevance * recency[one.hour], -one.hour, one.text))
-    best: dict[str, Recollection] = {}
-    for one in ranked:
-        best.setdefault(one.text, one)
-        if len(best) == most:
-            break
+    best: dict[str, tuple[float, int, str, Recollection]] = {}
+    for one in found:  # thousands, most of them said before
+        rank = (-one.relevance * recency[one.hour], -one.hour, one.text, one)
+        known = best.get(one.text)
+        if known is None or rank[:2] < known[:2]:
+            best[one.text] = rank
+    chosen = [one for *_, one in sorted(best.values(), key=lambda rank: rank[:3])[:most]]
     return [
         Recalled(
             kind=kind,
@@ -92,18 +93,18 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
             score=one.relevance * recency[one.hour],
             source="told",
         )
-        for one in best.values()
+        for one in chosen
     ]
 
 
 def weight(now: Clock, hour: int, width: float = NARROW) -> float:
     """How much a told hour (a global index) counts at this hour of this day, in (0, 1]."""
-    then = Clock(day=hour // 24, hour=hour % 24)
-    fade = FADING ** (now.day - then.day)
-    if day_type(now.day) != day_type(then.day):
+    day, hour_of_day = divmod(hour, 24)
+    fade = FADING ** (now.day - day)
+    if day_type(now.day) != day_type(day):
         fade *= OTHER_KIND
     any_hour = _AT_ANY_HOUR[width]
-    return fade * (any_hour + (1 - any_hour) * math.exp(-(((then.hour - now.hour) / width) ** 2) / 2))
+    return fade * (any_hour + (1 - any_hour) * math.exp(-(((hour_of_day - now.hour) / width) ** 2) / 2))
 
 
 def _rank(memory: Recalled) -> tuple[float, int, str]:

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from coopera.core.clock import Clock
 from coopera.core.hour import Observation
@@ -71,12 +71,22 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     for record in view.history.tasks.records(since=since):
         tasks[record.hour].append(record.text)
     said = {record.hour: record.text for record in view.history.intentions.records(since=since)}
-    told = [_told(view, saw, now, text, tasks[now]) for now, text in said.items() if now < dawn]
-    if not turns:
-        return told
-    counts = still_counts(things_of((hour.now, hour.uses) for hour in told))
-    faded = [(hour, counts.get(hour.now // 24, 1.0)) for hour in told]
-    return [replace(hour, near=hour.near * count, wide=hour.wide * count) for hour, count in faded]
+    hours = [(now, text, tuple(tasks[now])) for now, text in said.items() if now < dawn]
+    uses = [tuple(use for text in done if (use := use_of(text)) is not None) for _, _, done in hours]
+    used = [(now, done) for (now, _, _), done in zip(hours, uses, strict=True)]
+    counts = still_counts(things_of(used)) if turns else {}
+    return [
+        ToldHour(
+            now,
+            text,
+            done,
+            those,
+            near=weight_of(clock, now, NARROW) * counts.get(now // 24, 1.0),
+            looks=_looks(view.observation, saw, those),
+            wide=weight_of(clock, now, WIDE) * counts.get(now // 24, 1.0),
+        )
+        for (now, text, done), those in zip(hours, uses, strict=True)
+    ]
 
 
 def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[float]:
@@ -123,10 +133,27 @@ def same(one: Use | None, other: Use) -> bool:
     return one.place is None or other.place is None or one.place.lower() == other.place.lower()
 
 
-def share(told: Sequence[ToldHour], weights: Sequence[float], use: Use, *, usual: float, patience: float) -> float:
-    """In which share of the hours something was used, by weight; `patience` hours of the `usual` share come on top."""
-    used = sum(w for hour, w in zip(told, weights, strict=True) if any(same(one, use) for one in hour.uses))
-    return (used + patience * usual) / (sum(weights) + patience)
+Uses: TypeAlias = Mapping[Use, Sequence[int]]
+"""In which told hours each thing was used, by their places in order of time."""
+
+
+def uses_of(told: Sequence[ToldHour]) -> Uses:
+    """Look once at what was used in the told hours, for all that is asked of them now."""
+    found: dict[Use, list[int]] = defaultdict(list)
+    for place, hour in enumerate(told):
+        for use in dict.fromkeys(hour.uses):
+            found[use].append(place)
+    return found
+
+
+def used_in(uses: Uses, use: Use) -> list[int]:
+    """The places of the told hours in which a thing was used, ascending."""
+    return sorted({place for one, places in uses.items() if same(one, use) for place in places})
+
+
+def share(used: Sequence[int], weights: Sequence[float], *, usual: float, patience: float) -> float:
+    """The share by weight of the hours at some places; `patience` hours of the `usual` share come on top."""
+    return (sum(weights[place] for place in used) + patience * usual) / (sum(weights) + patience)
 
 
 def shares(
@@ -140,12 +167,6 @@ def shares(
         for use in dict.fromkeys(kept if places else (Use(use.thing) for use in kept)):
             found[use] += weight / total
     return found
-
-
-def _told(view: RobotView, saw: str, now: int, intention: str, tasks: Sequence[str]) -> ToldHour:
-    uses = tuple(use for text in tasks if (use := use_of(text)) is not None)
-    near, wide = (weight_of(view.clock, now, width) for width in (NARROW, WIDE))
-    return ToldHour(now, intention, tuple(tasks), uses, near, _looks(view.observation, saw, uses), wide)
 
 
 def _looks(seen: Observation, saw: str, uses: Sequence[Use]) -> float:

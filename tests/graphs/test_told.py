@@ -17,7 +17,7 @@ from coopera.graphs.hour import robot_view
 from coopera.graphs.robot import robot_hour
 from coopera.graphs.robots.evidence import of_intentions
 from coopera.graphs.robots.recall import recall_weeks, weight
-from coopera.graphs.robots.told import told_hours
+from coopera.graphs.robots.told import ToldHour, share, told_hours, used_in, uses_of
 from tests.fakes import MARA, FakeHome, ScriptedAsk, TableClassifier, placing, type2_answers
 from tests.graphs.conftest import MakeServices
 
@@ -285,3 +285,20 @@ def test_a_chance_is_accepted_where_it_pays_for_needs_and_any_other_verdict_from
     tasks = watch(ctx).tasks
     assert tasks
     assert {task.accepted for task in tasks} == {accepted}
+
+
+def test_a_told_hour_counts_once_for_a_thing_however_often_it_was_used_in_it() -> None:
+    def hour(now: int, *uses: Use) -> ToldHour:
+        return ToldHour(now, "cook", (), uses, near=1.0, looks=1.0, wide=1.0)
+
+    told = [
+        hour(9, Use("pot", "stove"), Use("Pot", "table"), Use("pot", "stove")),
+        hour(10, Use("novel")),
+        hour(11, Use("spoon"), Use("pot")),
+    ]
+    uses, weights = uses_of(told), [0.5, 0.25, 0.125]
+    assert used_in(uses, Use("pot")) == [0, 2]
+    assert used_in(uses, Use("pot", "table")) == [0, 2], "where no place was named, it may be this one"
+    assert used_in(uses, Use("novel", "sofa")) == [1]
+    assert used_in(uses, Use("ladle")) == []
+    assert share([0, 2], weights, usual=0.5, patience=1.0) == pytest.approx((0.625 + 0.5) / (0.875 + 1.0))
