@@ -35,7 +35,7 @@ class Block(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """Some records of a block."""
+    """Some records of a block, which may leave RAM, and its vectors with it, while others are read."""
 
     start: int
     vectors: Vector | Held
@@ -137,7 +137,7 @@ class _Window:
         self._k = k
         self._decay = decay
         self._newest = newest
-        self._kept: list[tuple[npt.NDArray[np.float64], _Part, npt.NDArray[np.int64]]] = []
+        self._kept: list[_Kept] = []
         self._best = np.empty(0)
         self._floor = -np.inf
         self.complete = False
@@ -155,8 +155,8 @@ class _Window:
             self._floor = kth - _MARGIN
             self.complete = bool(recency[0] * (1 + _MARGIN) < self._floor)  # recency[0]: nothing before is newer
         rows = np.flatnonzero(scores >= self._floor)
-        kept = _Part(block.start, block.vectors[rows], block.hours[rows])
-        self._kept.append((scores[rows], kept, rows))
+        unlike, of = _different(block.vectors[rows])
+        self._kept.append(_Kept(scores[rows], block.start + rows, block.hours[rows], unlike, of))
 
     def best(self) -> list[Hit]:
         """Score the records that may be among the k best in float64, one by one, and order them.
@@ -165,12 +165,12 @@ class _Window:
         """
         query = self._query.astype(np.float64)
         positions, hours, cosines = [], [], []
-        for scores, block, rows in self._kept:
-            near = np.flatnonzero(scores >= self._floor)
-            positions.append(block.start + rows[near])
-            hours.append(block.hours[near])
-            unlike, of = _different(block.vectors[near])
-            cosines.append((unlike.astype(np.float64) * query).sum(1)[of])
+        for kept in self._kept:
+            near = np.flatnonzero(kept.scores >= self._floor)
+            positions.append(kept.positions[near])
+            hours.append(kept.hours[near])
+            unlike, of = np.unique(kept.of[near], return_inverse=True)
+            cosines.append((kept.unlike[unlike].astype(np.float64) * query).sum(1)[of])
         position, hour, cosine = (np.concatenate(column) for column in (positions, hours, cosines))
         asked, place = np.unique(hour, return_inverse=True)
         recency = np.array([self._decay ** (self._newest - one) for one in asked.tolist()])
@@ -179,6 +179,17 @@ class _Window:
         return list(map(Hit._make, zip(*columns, strict=True)))
 
 
-def _different(vectors: Vector | Held) -> tuple[Vector, npt.NDArray[np.int64] | slice]:
+class _Kept(NamedTuple):
+    """n records that may be among the best, with vectors of their own."""
+
+    scores: npt.NDArray[np.float64]
+    positions: npt.NDArray[np.int64]
+    hours: npt.NDArray[np.int64]
+    unlike: Vector
+    of: npt.NDArray[np.int64]
+    """Which of the `unlike` vectors each record has."""
+
+
+def _different(vectors: Vector | Held) -> tuple[Vector, npt.NDArray[np.int64]]:
     """Return vectors, each once where equal ones are known, and which of these each of the n is."""
-    return vectors.different() if isinstance(vectors, Held) else (vectors, slice(None))
+    return vectors.different() if isinstance(vectors, Held) else (vectors, np.arange(len(vectors)))

@@ -188,3 +188,15 @@ def test_how_much_is_read_does_not_depend_on_how_long_a_life_is() -> None:
         queries = vectors[rng.integers(5000, 6000, 20)]
         scanned.append([top(rows, query, 5, now=hours[-1], decay=0.95).scanned for query in queries])
     assert np.median(scanned[1]) <= np.median(scanned[0]) + 512
+
+
+@pytest.mark.usefixtures("small_blocks")
+def test_what_has_left_ram_while_the_rest_is_read_is_scored_by_its_own_vector(tmp_path: Path) -> None:
+    vectors = unit(np.random.default_rng(3).standard_normal((80, 5)).astype(np.float32), [""] * 80)
+    asked = {f"record {place}": vector for place, vector in enumerate(vectors)} | {"question": vectors[7]}
+    embeddings = CachedEmbeddings(lambda text: asked[text], "by name", None, 5)
+    with MemoryStream.open(tmp_path, "x", embeddings, 1.0) as stream:
+        for hour in range(80):
+            stream.add([f"record {hour}"], hour)
+        found = [(int(one.text.split()[1]), one.relevance) for one in stream.recall("question", 80, 80)]
+    assert found == brute_force(vectors, list(range(80)), vectors[7], 80, 80, 1.0, None)
