@@ -3,7 +3,7 @@
 A module for each kind of file names its readers in `READERS`; `kit` says what a reader is, `mutations` changes bytes.
 """
 
-from benchmarks.fuzzing import bodies, homes, models, people, runs, studies
+from benchmarks.fuzzing import bodies, homes, models, people, runs, shapes, studies
 from benchmarks.fuzzing.kit import Reader
 
 READERS: dict[str, Reader] = {
@@ -11,6 +11,7 @@ READERS: dict[str, Reader] = {
     **studies.READERS,
     **homes.READERS,
     **bodies.READERS,
+    **shapes.READERS,
     **models.READERS,
     **runs.READERS,
 }

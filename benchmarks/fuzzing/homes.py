@@ -16,11 +16,11 @@ from coopera.simulation.homes.glb import read_glb
 from coopera.simulation.homes.meshes import look_of, part_file
 from coopera.simulation.homes.scene import MeshPart, dump_scene, load_scene
 from coopera.simulation.making.habitat.files import Folder
-from coopera.simulation.making.procthor.files import read_house
+from coopera.simulation.making.procthor.files import read_assets, read_house
 from coopera.simulation.making.procthor.plan import plan_of
 from coopera.simulation.making.procthor.things import kind_of
 from tests.simulation.polygons import polygon_flat
-from tests.simulation.procthor_house import house
+from tests.simulation.procthor_house import ASSETS, house
 from tests.simulation.synthetic_hssd import SCENE, boxes_document, write_glb, write_hssd
 
 
@@ -122,6 +122,7 @@ def _house(path: Path) -> object:
 READERS: dict[str, Reader] = {
     "polygons": Reader(of_file("flat.json", [json.dumps(polygon_flat()).encode()], _scene), change.in_json),
     "procthor": Reader(of_file("house.json", [json.dumps(house()).encode()], _house), change.in_json),
+    "procthor-assets": Reader(of_file("assets.json", [json.dumps(ASSETS).encode()], read_assets), change.in_json),
     "scene": Reader(of_file("maple.json", [_small_scene()], _scene), change.in_json),
     "hssd-scene": Reader(_hssd(f"scenes/{SCENE}.scene_instance.json"), change.in_json),
     "hssd-rooms": Reader(_hssd(f"semantics/scenes/{SCENE}.semantic_config.json"), change.in_json),

@@ -8,6 +8,7 @@ trimesh, from bytes that we have counted; it opens no further file but those bes
 from __future__ import annotations
 
 import io
+import logging
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -41,6 +42,7 @@ def _read(path: Path, kind: str) -> list[Any]:
     import trimesh  # noqa: PLC0415  (half a second, and most homes are of glb files)
 
     data = read_limited(path, MOST_BYTES, "mesh")
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # else it writes tracebacks of what it does without
     try:
         beside = _Beside(path.parent)
         scene = trimesh.load_scene(io.BytesIO(data), file_type=kind[1:], resolver=beside, process=False)

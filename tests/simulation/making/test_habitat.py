@@ -6,6 +6,8 @@ import json
 import math
 import os
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -269,6 +271,17 @@ def test_meshes_of_other_formats_are_read_as_they_are(tmp_path: Path, kind: str)
     mesh = read_mesh(tmp_path / f"box.{kind}")
     assert len(mesh.triangles) == 12
     assert mesh.corners.max(axis=0) == pytest.approx((1, 2, 3))
+
+
+def test_what_a_mesh_lacks_leaves_no_traceback_in_the_terminal(tmp_path: Path) -> None:
+    """trimesh does without a normal that is no number, and logs that as an error; nobody listens, so it is printed."""
+    text = trimesh.Trimesh(*box((0, 1), (0, 2), (0, 3)), process=False).export(file_type="stl_ascii")
+    (tmp_path / "box.stl").write_text(text.replace("facet normal", "facet normal x", 1))
+    code = "import sys; from pathlib import Path; from coopera.simulation.homes.mesh_files import read_mesh; "
+    code += "print(len(read_mesh(Path(sys.argv[1])).triangles))"
+    command = [sys.executable, "-c", code, str(tmp_path / "box.stl")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("12\n", "")
 
 
 def test_a_data_set_without_a_scene_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
