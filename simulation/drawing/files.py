@@ -84,7 +84,10 @@ def _obj(path: Path) -> Solid:
             for i in range(1, len(face) - 1):
                 corners += [face[0], face[i], face[i + 1]]
     at = np.array(points, dtype=np.float32).reshape(-1, 3)
-    pairs = np.array(corners, dtype=np.int64).reshape(-1, 2)
+    try:
+        pairs = np.array(corners, dtype=np.int64).reshape(-1, 2)
+    except OverflowError as err:
+        raise ValueError("a face names a corner that is not there") from err
     if pairs.size and not (pairs[:, 0].min() >= 0 and pairs[:, 0].max() < len(at)):
         raise ValueError("a face names a corner that is not there")
     if not normals or (pairs.size and (pairs[:, 1].min() < 0 or pairs[:, 1].max() >= len(normals))):
