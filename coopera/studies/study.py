@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.heap import give_back, lasting, steady_heap
+from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
 from coopera.studies.standing import (
@@ -108,8 +108,11 @@ def run_study(
         ConfigError: If the configuration is wrong; nothing is then written.
         CooperaError: If the work fails; `resume_study` goes on from the last whole hour.
     """
-    with new_run(config, stop, resumable) as (run, services):
-        return _carry_on(run, services, on_event, ask_person, callbacks)
+    try:
+        with new_run(config, stop, resumable) as (run, services):
+            return _carry_on(run, services, on_event, ask_person, callbacks)
+    finally:
+        clear_up()
 
 
 def resume_study(

@@ -7,7 +7,7 @@ import weakref
 
 import pytest
 
-from coopera.studies.heap import give_back, lasting, steady_heap
+from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 
 HEAPS = """
 import ctypes, re, tempfile, threading
@@ -108,3 +108,23 @@ def test_garbage_goes_with_the_evening_and_the_end_of_a_run_looks_through_everyt
         give_back()
         assert left() is None
     assert not gc.get_freeze_count()
+
+
+def test_what_some_runs_of_a_process_left_is_let_go_of_before_the_next_ones() -> None:
+    class Run:
+        pass
+
+    gc.disable()
+    try:
+        left = []
+        for _ in range(12):
+            run = Run()
+            run.itself = run  # type: ignore[attr-defined]
+            left.append(weakref.ref(run))
+            del run
+            clear_up()
+        still = [one for one in left if one() is not None]
+    finally:
+        gc.enable()
+    assert len(still) < 5
+    assert left[0]() is None
