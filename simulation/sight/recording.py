@@ -97,11 +97,11 @@ class Recording:
     robot: AgentId
     person: AgentId
     actor: AgentId
-    steps: list[Step] = field(default_factory=list)
     shots: list[Shot] = field(default_factory=list)
     near: list[str] = field(default_factory=list)
     in_hand: str | None = None
     states: dict[str, str] = field(default_factory=dict)
+    steps: list[Step] = field(default_factory=list)
 
     @property
     def ticks(self) -> int:

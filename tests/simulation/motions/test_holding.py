@@ -29,7 +29,7 @@ SETTINGS = {
     "floor": Setting(0.0, None, "floor"),
 }
 TABLE = Worktop(0.58, 0.0, 0.0, 0.3, 0.6)
-AT_HAND = 0.08
+AT_HAND = 0.0801  # eight centimetres, whichever processor works them out
 """The middle of a hand is at most this far from what it holds (metres)."""
 OVER_A_POT = 0.12
 """Who stirs may have the length of a spoon between the hand and the bowl."""
