@@ -14,9 +14,12 @@ class Behind:
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="trace")
         self._writing: Future[None] | None = None
 
-    def write(self, after: Callable[[], None], job: Callable[[], None]) -> None:
-        """Have a job done once `after` has returned; what was given before is settled first."""
+    def write(self, job: Callable[[], None], after: Callable[[], None] | None) -> None:
+        """Do a job now, or have it done once `after` has returned; what was given before is settled first."""
         self.settle()
+        if after is None:
+            job()
+            return
 
         def both() -> None:
             after()

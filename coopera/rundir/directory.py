@@ -246,16 +246,12 @@ class RunDir(Trace):
         The work may go on meanwhile: whatever reads the trace waits, and raises what went wrong.
         """
         self._stop.check()
-        self._behind.settle()
 
         def write() -> None:
             write_record(self.hour_file(record.day, record.hour), record)
             self._rows[record.day, record.hour] = metrics_lines(record)
 
-        if after is None:
-            write()
-        else:
-            self._behind.write(after, write)
+        self._behind.write(write, after)
 
     @contextmanager
     def settling(self) -> Iterator[None]:

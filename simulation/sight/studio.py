@@ -145,8 +145,8 @@ class _Process:
     def __init__(self) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
-            given = [sys.executable, "-I", "-c", _BEGIN, str(theirs.fileno()), json.dumps(sys.path)]
             pipe = theirs.fileno()
+            given = [sys.executable, "-I", "-c", _BEGIN, str(pipe), json.dumps(sys.path)]
             self._process = subprocess.Popen(
                 given, pass_fds=[pipe], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
             )
@@ -218,10 +218,10 @@ class _Process:
         self._pipe.close()
 
     def _give_up(self) -> None:
-        """Tell all who still wait."""
-        while self._awaited:
-            _, awaited = self._awaited.popitem()
-            awaited.set_exception(SimulationError("The process that draws pictures ended before these were drawn."))
+        """Tell all who still wait, each once, whichever thread does so."""
+        for number in list(self._awaited):
+            if (awaited := self._awaited.pop(number, None)) is not None:
+                awaited.set_exception(SimulationError("The process that draws pictures ended before these were drawn."))
 
 
 _numbers = count()
