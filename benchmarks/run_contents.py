@@ -29,7 +29,7 @@ from coopera.rundir.directory import RunDir
 from coopera.studies.standing import THREAD, open_checkpoints
 
 Contents: TypeAlias = dict[str, dict[str, str]]
-"""By kind, and in it by file or by memory stream: a SHA-256, or a word."""
+"""By kind, and in it by file, by memory stream or by what was spent: a SHA-256, a word or a number."""
 _SEALED_IN_PART = ("config.yaml", "run.json")
 _ONE_RUNS_OWN = ("pid", "pid_start", "host", "started", "ended", "seconds")
 
@@ -52,6 +52,16 @@ class Kind:
 def _data(path: Path) -> str:
     """JSON without what differs between equal runs."""
     return json.dumps(_timeless(json.loads(path.read_text(encoding="utf-8"))), sort_keys=True)
+
+
+def _standing(path: Path) -> str:
+    """How a run stands: run.json, but for what was paid, which counts an hour twice that was done again."""
+    return json.dumps({key: value for key, value in _info(path).items() if key != "spent"}, sort_keys=True)
+
+
+def _info(path: Path) -> dict[str, Any]:
+    info: dict[str, Any] = _timeless(json.loads(path.read_text(encoding="utf-8")))
+    return info
 
 
 def _timeless(data: Any) -> Any:
@@ -88,7 +98,7 @@ KINDS = (
     _kind("frames", r"(frames|video)/.+"),
     _kind("adapters", r"adapters/.+"),
     _kind("configuration", r"config\.yaml|(people|scenes)/.+"),
-    _kind("state", r"run\.json", _data),
+    _kind("state", r"run\.json", _standing),
     _kind("seals", r"(trace/day-\d+/)?seal(-end)?\.json", _seal),
 )
 """More kinds may be added; the first whose pattern fits counts."""
@@ -106,6 +116,7 @@ def contents(run: Path, embeddings: Embeddings) -> Contents:
         kind = next((kind for kind in KINDS if kind.pattern.fullmatch(name)), None)
         what = _sha(kind.read(path)) if kind else "there"
         found.setdefault(kind.name if kind else "other files", {})[name] = what
+    found["spent"] = {name: str(count) for name, count in _info(run / "run.json").get("spent", {}).items()}
     resumable = RunDir.open(run).resumable
     found["memories"] = dict(_memories(run / "memory", embeddings)) if resumable else {}
     found["checkpoints"] = {"state": _state(run / "checkpoints.sqlite")} if resumable else {}
