@@ -311,9 +311,15 @@ def _carry_on(
 
 
 def _completed(run: RunDir) -> dict[str, Any]:
-    """Write what a finished run lacks: it was killed before the end, or its files were lost or altered."""
+    """Write what a finished run lacks, and remove checkpoints that are damaged.
+
+    It was killed before the end, or its files were lost or altered.
+    """
     seals.refuse_broken(run.root)
     claim.sweep(run.root)
+    if run.resumable:
+        plans = plan_days(run.config)
+        give_up_if_wrong(run.root / CHECKPOINTS, plans, steps_done(run, plans))
     odd = {one.file for one in seals.broken(run.root)}
     lost = {name for name in (*seals.FIGURES, seals.REPORT) if name in odd or not (run.root / name).is_file()}
     if seals.is_sealed(run.root) and not seals.sealed_sha(run.root, seals.REPORT):

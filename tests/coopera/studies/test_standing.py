@@ -13,6 +13,7 @@ import pytest
 
 from coopera import Config, resume_study, run_study
 from coopera.core.errors import RunError, StoppedError
+from coopera.studies.doctor import examine
 
 Harm = Callable[[Path], object]
 
@@ -147,3 +148,16 @@ def test_a_finished_run_is_given_what_it_lacks_and_nothing_else_is_touched(whole
     }
     assert (run / "report.html").is_file()
     resume_study(run)
+
+
+def test_damaged_checkpoints_of_a_finished_run_are_given_up(whole: Path, caplog: pytest.LogCaptureFixture) -> None:
+    run = copied(whole, "cut at the end")
+    file = run / "checkpoints.sqlite"
+    file.write_bytes(file.read_bytes()[:5000])
+    assert [one.part for one in examine(run)] == ["checkpoints"]
+    before = trace(run), (run / "summary.json").read_bytes(), (run / "report.html").read_bytes()
+    with caplog.at_level(logging.WARNING):
+        resume_study(run)
+    assert "the checkpoints are damaged" in caplog.text
+    assert not examine(run)
+    assert (trace(run), (run / "summary.json").read_bytes(), (run / "report.html").read_bytes()) == before
