@@ -11,20 +11,22 @@ from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
+    from coopera.memory.questions import Recollection, Relevances
     from coopera.memory.rebuild import Repaired, repair
     from coopera.memory.retriever import MemoryRetriever
     from coopera.memory.rows import Record
     from coopera.memory.search import Search
     from coopera.memory.store import streams
-    from coopera.memory.stream import MemoryStream, Recollection, extend_together
+    from coopera.memory.stream import MemoryStream, extend_together
     from coopera.memory.transfer import export_jsonl, import_jsonl
 
 _HOMES = {
     "CachedEmbeddings": "coopera.memory.embeddings",
     "MemoryRetriever": "coopera.memory.retriever",
     "MemoryStream": "coopera.memory.stream",
-    "Recollection": "coopera.memory.stream",
+    "Recollection": "coopera.memory.questions",
     "Record": "coopera.memory.rows",
+    "Relevances": "coopera.memory.questions",
     "Repaired": "coopera.memory.rebuild",
     "Search": "coopera.memory.search",
     "as_array": "coopera.memory.embeddings",
@@ -43,6 +45,7 @@ __all__ = [
     "MemoryStream",
     "Recollection",
     "Record",
+    "Relevances",
     "Repaired",
     "Search",
     "as_array",

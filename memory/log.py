@@ -13,6 +13,7 @@ import numpy.typing as npt
 from coopera.core.errors import MemoryStoreError
 from coopera.memory.client import translated
 from coopera.memory.folder import DamagedMemoryError
+from coopera.memory.lately import Lately
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.rows import Record, Row, restored, row, vector_sum
@@ -60,7 +61,7 @@ class Log:
         self._tail = _empty(0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
-        self._lately: OrderedDict[int, Record] = OrderedDict()
+        self._lately = Lately(_TEXTS_IN_RAM)
         self._waiting: list[Row] = []
         self._reload()
 
@@ -172,12 +173,22 @@ class Log:
         Raises:
             MemoryStoreError: If one is missing or is not what was written.
         """
-        found = {position: self._lately[position] for position in positions if position in self._lately}
+        found = self._lately.of(positions)
         missing = [position for position in positions if position not in found]
         for start in range(0, len(missing), _PER_CALL):
-            found |= self._read_records(missing[start : start + _PER_CALL])
-        self._keep(found)
+            read = self._read_records(missing[start : start + _PER_CALL])
+            self._lately.keep(read.items())
+            found |= read
         return [found[position] for position in positions]
+
+    def texts(self, start: int, stop: int) -> list[str]:
+        """Return the texts of the records from one position to before another.
+
+        Raises:
+            MemoryStoreError: If one is missing or is not what was written.
+        """
+        found = self._lately.texts(start, stop)
+        return [record.text for record in self.records(range(start, stop))] if found is None else found
 
     def _keep_block(self, number: int, block: Block) -> None:
         self._blocks[number] = block
@@ -211,14 +222,6 @@ class Log:
             found[position] = record
         return found
 
-    def _keep(self, records: Mapping[int, Record]) -> None:
-        """Keep records in RAM; where that is full, those go that nobody asked for the longest."""
-        for position, record in records.items():
-            self._lately[position] = record
-            self._lately.move_to_end(position)
-        while len(self._lately) > _TEXTS_IN_RAM:
-            self._lately.popitem(last=False)
-
     def _append(
         self, texts: Sequence[str], vectors: Vector, hours: Sequence[int], metadata: Sequence[Mapping[str, Any]]
     ) -> None:
@@ -229,7 +232,7 @@ class Log:
         self.keep(texts, vectors)
         self._waiting += rows
         added = enumerate(rows, self._length)
-        self._keep({at: record for at, one in added if (record := restored(one.text, one.entry)[0])})
+        self._lately.keep((at, record) for at, one in added if (record := restored(one.text, one.entry)[0]))
         self._extend(places, np.asarray(hours, np.int64))
 
     def _write(self, rows: Sequence[Row]) -> None:

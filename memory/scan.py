@@ -73,6 +73,20 @@ class Hits(NamedTuple):
     scanned: int
 
 
+class Compared(NamedTuple):
+    """Consecutive records, in order of time, and how alike each is to a query.
+
+    Attributes:
+        start: Position of the first.
+        hours: Shape (n,), non-decreasing.
+        cosines: Shape (n,), in float64.
+    """
+
+    start: int
+    hours: npt.NDArray[np.int64]
+    cosines: npt.NDArray[np.float64]
+
+
 class ArrayRows:
     """Rows held in arrays, for records that live in one process only.
 
@@ -129,6 +143,27 @@ def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int
     return Hits(window.best(), high - position)
 
 
+def every(rows: Rows, query: Vector, *, now: int, since: int | None = None) -> Compared:
+    """Compare all records with since <= hour <= now to a query; each cosine is the one that `top` gives.
+
+    Args:
+        rows: The records.
+        query: Unit vector, shape (d,), float32.
+        now: Last hour in question.
+        since: First hour in question; None for no limit.
+    """
+    low = 0 if since is None else rows.first_at(since)
+    high = max(low, rows.first_at(now + 1))
+    hours, cosines = [np.empty(0, np.int64)], [np.empty(0)]
+    for number in range(low // BLOCK, -(-high // BLOCK)):
+        block = rows.block(number)
+        part = slice(max(0, low - block.start), high - block.start)
+        unlike, of = _different(block.vectors[part])
+        hours.append(block.hours[part])
+        cosines.append(_cosines(unlike, query)[of])
+    return Compared(low, np.concatenate(hours), np.concatenate(cosines))
+
+
 class _Window:
     """The records read so far, newest first; only those that may still be among the k best are kept."""
 
@@ -163,14 +198,13 @@ class _Window:
 
         A float32 product depends on where in the matrix a row stands, so it only preselects.
         """
-        query = self._query.astype(np.float64)
         positions, hours, cosines = [], [], []
         for kept in self._kept:
             near = np.flatnonzero(kept.scores >= self._floor)
             positions.append(kept.positions[near])
             hours.append(kept.hours[near])
             unlike, of = np.unique(kept.of[near], return_inverse=True)
-            cosines.append((kept.unlike[unlike].astype(np.float64) * query).sum(1)[of])
+            cosines.append(_cosines(kept.unlike[unlike], self._query)[of])
         position, hour, cosine = (np.concatenate(column) for column in (positions, hours, cosines))
         asked, place = np.unique(hour, return_inverse=True)
         recency = np.array([self._decay ** (self._newest - one) for one in asked.tolist()])
@@ -188,6 +222,12 @@ class _Kept(NamedTuple):
     unlike: Vector
     of: npt.NDArray[np.int64]
     """Which of the `unlike` vectors each record has."""
+
+
+def _cosines(vectors: Vector, query: Vector) -> npt.NDArray[np.float64]:
+    """Return the cosine of each of n unit vectors with a query, row by row, so that none depends on the others."""
+    cosines: npt.NDArray[np.float64] = (vectors.astype(np.float64) * query.astype(np.float64)).sum(1)
+    return cosines
 
 
 def _different(vectors: Vector | Held) -> tuple[Vector, npt.NDArray[np.int64]]:

@@ -16,8 +16,9 @@ from pydantic import Field, StrictInt, ValidationError
 
 from coopera.core.errors import ConfigError
 from coopera.core.people import Frozen
+from coopera.memory.questions import MAX_TEXT
 from coopera.memory.rows import Record
-from coopera.memory.stream import MAX_TEXT, MemoryStream
+from coopera.memory.stream import MemoryStream
 
 _KIND = "coopera memory stream"
 _VERSION = 1

@@ -11,7 +11,7 @@ from coopera.core.hour import CandidateKind, Recalled
 from coopera.core.time_use import day_type
 from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.robot_view import Memories, Readable, ReadMemories, RobotView
-from coopera.memory import MemoryStream, Recollection
+from coopera.memory import MemoryStream
 
 DAYS = 60
 """How many days back a robot recalls what it was told."""
@@ -19,7 +19,6 @@ FADING = 0.99  # per day: half after ten weeks; what was told before a turn fade
 OTHER_KIND = 0.7  # an hour of a working day counts so much on a free one, and the reverse
 NARROW, WIDE = 1.5, 3.0  # hours of day: for what is wanted, and for what is used for it
 _AT_ANY_HOUR = {NARROW: 0.15, WIDE: 0.4}  # what an hour counts that is at quite another time of day
-_ALL = 10**6
 
 Source: TypeAlias = Literal["told", "seen", "guessed"]
 
@@ -74,26 +73,22 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
 
 
 def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: int) -> list[Recalled]:
-    found = stream.recall(query, now.day * 24 - 1, _ALL, (now.day - DAYS) * 24) if now.day else []
-    recency = {hour: weight(now, hour) for hour in {one.hour for one in found}}
-    best: dict[str, tuple[float, int, str, Recollection]] = {}
-    for one in found:  # thousands, most of them said before
-        rank = (-one.relevance * recency[one.hour], -one.hour, one.text, one)
-        known = best.get(one.text)
-        if known is None or rank[:2] < known[:2]:
-            best[one.text] = rank
-    chosen = [one for *_, one in sorted(best.values(), key=lambda rank: rank[:3])[:most]]
+    if not now.day:
+        return []
+    found = stream.relevances(query, now.day * 24 - 1, (now.day - DAYS) * 24)
+    recency = {hour: weight(now, hour) for hour in set(found.hours)}
+    best: dict[str, tuple[float, int, float]] = {}
+    for text, hour, relevance in zip(*found, strict=True):  # thousands, oldest first, most of them said before
+        score = relevance * recency[hour]
+        known = best.get(text)
+        if known is None or score >= known[0]:
+            best[text] = (score, hour, relevance)
+    chosen = sorted(best.items(), key=lambda one: (-one[1][0], -one[1][1], one[0]))[:most]
     return [
         Recalled(
-            kind=kind,
-            text=one.text,
-            hour=one.hour,
-            relevance=one.relevance,
-            recency=recency[one.hour],
-            score=one.relevance * recency[one.hour],
-            source="told",
+            kind=kind, text=text, hour=hour, relevance=relevance, recency=recency[hour], score=score, source="told"
         )
-        for one in chosen
+        for text, (score, hour, relevance) in chosen
     ]
 
 

@@ -19,7 +19,7 @@ from coopera.core.household import Act, AgentId, Collab, ObjectMap, SceneId
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Ask, Home, Reply
 from coopera.core.randomness import Address
-from coopera.memory import MemoryStream, Recollection, Record, extend_together
+from coopera.memory import MemoryStream, Recollection, Record, Relevances, extend_together
 
 
 class RobotAsk(Protocol):
@@ -97,6 +97,14 @@ class Recall(Protocol):
         ...
 
 
+class Compare(Protocol):
+    """How alike all of a memory stream is to a text; see `coopera.memory.MemoryStream.relevances`."""
+
+    def __call__(self, query: str, now: int, since: int | None = None) -> Relevances:
+        """The records until the global hour `now`, oldest first, each with its likeness."""
+        ...
+
+
 class Records(Protocol):
     """How a memory stream is read through; see `coopera.memory.MemoryStream.records`."""
 
@@ -111,6 +119,7 @@ class Readable:
 
     recall: Recall
     records: Records
+    relevances: Compare
 
     @classmethod
     def of(cls, stream: MemoryStream) -> Readable:
@@ -122,7 +131,10 @@ class Readable:
         def records(since: int | None = None) -> list[Record]:
             return list(stream.records(since=since))
 
-        return cls(recall, records)
+        def relevances(query: str, now: int, since: int | None = None) -> Relevances:
+            return stream.relevances(query, now, since=since)
+
+        return cls(recall, records, relevances)
 
 
 class ReadMemories(NamedTuple):

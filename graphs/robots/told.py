@@ -93,8 +93,8 @@ def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[
     """How like an intention is to that of each told hour, by meaning, in [0, 1]; the same words give 1."""
     if not told:
         return []
-    found = view.history.intentions.recall(intention, view.clock.now, len(told), told[0].now)
-    cosine = {one.hour: one.relevance for one in found}
+    found = view.history.intentions.relevances(intention, view.clock.now, told[0].now)
+    cosine = dict(zip(found.hours, found.relevances, strict=True))
     return [min(1.0, max(0.0, (cosine.get(hour.now, 0.0) - UNLIKE) / (ALIKE - UNLIKE))) for hour in told]
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from coopera.memory import CachedEmbeddings, MemoryStream
 from coopera.memory.embeddings import unit
 from coopera.memory.minilm import Vector
-from coopera.memory.scan import ArrayRows, top
+from coopera.memory.scan import ArrayRows, every, top
 
 QUERIES_EACH = 10
 
@@ -90,6 +90,8 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"{module}.BLOCK", 4)
     monkeypatch.setattr("coopera.memory.scan.STEP", 3)
     monkeypatch.setattr("coopera.memory.log._BLOCKS_IN_RAM", 2)
+    monkeypatch.setattr("coopera.memory.log._TEXTS_IN_RAM", 8)
+    monkeypatch.setattr("coopera.memory.lately.PIECE", 4)
     monkeypatch.setattr("coopera.memory.log._FAN", 2)
 
 
@@ -100,6 +102,14 @@ def check_arrays(case: Case) -> None:
         found = top(rows, query, k, now=now, decay=case.decay, since=since)
         expected = brute_force(vectors, case.hours, query, k, now, case.decay, since)
         assert [(hit.position, hit.relevance) for hit in found.hits] == expected
+        start, hours, cosines = every(rows, query, now=now, since=since)
+        compared = [(start + place, cosine) for place, cosine in enumerate(cosines.tolist())]
+        assert compared == all_of(vectors, case.hours, query, now, since)
+        assert hours.tolist() == [case.hours[place] for place, _ in compared]
+
+
+def all_of(vectors: Vector, hours: list[int], query: Vector, now: int, since: int | None) -> list[tuple[int, float]]:
+    return sorted(brute_force(vectors, hours, query, len(hours), now, 1.0, since))
 
 
 def check_stream(case: Case, folder: Path) -> None:
@@ -119,6 +129,10 @@ def check_stream(case: Case, folder: Path) -> None:
                 found = stream.recall(question, now, k, since)
                 expected = brute_force(vectors, seen, query, k, now, case.decay, since)
                 assert [(int(f.text.split()[1]), f.relevance) for f in found] == expected
+                texts, of, relevances = stream.relevances(question, now, since)
+                compared = [(int(text.split()[1]), one) for text, one in zip(texts, relevances, strict=True)]
+                assert compared == all_of(vectors, seen, query, now, since)
+                assert of == [case.hours[place] for place, _ in compared]
                 for item in found:
                     assert item.recency == case.decay ** (now - item.hour)
                     assert item.score == item.relevance * item.recency
