@@ -1,8 +1,8 @@
 """Where a run's processor time goes: by stage of the hour, and by kind of work, each moment counted once.
 
 Functions of coopera and LangGraph are wrapped for the time of a measurement; nothing of a run is changed by it. Time is
-the processor's, of the thread that works, so that other work on the machine counts little. Chroma works in threads of
-its own, while the one that asked waits: theirs is the time that the process takes besides.
+the processor's, of the thread that works, so that other work on the machine counts little. Chroma and the encoder of
+texts work in threads of their own, while the one that asked waits: theirs is the time that the process takes besides.
 """
 
 from __future__ import annotations
@@ -172,7 +172,8 @@ def _wraps(clock: Clock) -> Iterator[tuple[Any, str, Callable[..., Any]]]:
     yield StateGraph, "add_node", add_counted
     yield Pregel, "invoke", clock.wrapped(Pregel.invoke, None, "LangGraph")
     yield Backend, "ask", clock.wrapped(Backend.ask, None, "models")
-    yield CachedEmbeddings, "_made", clock.wrapped(CachedEmbeddings._made, None, "models")
+    encoded = clock.wrapped(CachedEmbeddings._made, None, "models")
+    yield CachedEmbeddings, "_made", clock.elsewhere(encoded, "models")
     yield Learner, "learn", clock.wrapped(Learner.learn, None, "training")
     together = "extend_together"
     yield robot_view, together, clock.wrapped(getattr(robot_view, together), None, "memory")

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import threading
@@ -13,7 +14,7 @@ from typing_extensions import override
 
 from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, by_identity, hugging_face
-from coopera.memory.minilm import Vector
+from coopera.memory.minilm import Vector, shared
 
 TEXTS = ["make a cup of tea", "read a novel on the sofa", "Übung macht den Meister — 茶", ""]
 
@@ -184,6 +185,35 @@ def test_any_langchain_embeddings_become_an_array() -> None:
     assert array.dtype == np.float32
     assert array.tolist() == [[1.0, 0.5], [3.0, 0.5]]
     assert as_array(Plain(), []).size == as_array(bundled(), []).size == 0
+
+
+class WhereItRuns:
+    """A fake model: its vectors tell the thread that encodes."""
+
+    def encode(self, text: str, **_: object) -> Vector:
+        return np.array([threading.get_native_id()], np.float32)
+
+
+def test_all_texts_are_encoded_on_one_thread_whoever_asks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each thread that encodes keeps megabytes for as long as it lives."""
+    monkeypatch.setattr(shared(), "_model", WhereItRuns())
+    begun = threading.Barrier(3)
+
+    def ask(text: str) -> float:
+        begun.wait()  # each in a thread of its own
+        return float(shared().encode(text)[0])
+
+    with ThreadPoolExecutor(3) as threads:
+        assert len(set(threads.map(ask, TEXTS[:3]))) == 1
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 12), reason="a process with threads is told not to fork")
+def test_a_forked_child_encodes_on_a_thread_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shared(), "_model", WhereItRuns())
+    parents = shared().encode("tea")[0]
+    if (child := os.fork()) == 0:
+        os._exit(int(shared().encode("tea")[0] == parents))
+    assert os.waitpid(child, 0)[1] == 0
 
 
 def test_torch_is_loaded_only_for_a_text_that_is_in_no_cache(tmp_path: Path) -> None:
