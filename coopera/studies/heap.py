@@ -26,12 +26,13 @@ def rare_collections() -> None:
 
 
 def steady_heap() -> bool:
-    """Keep the memory of a long run from growing by holes; return whether this system's C library can.
+    """Keep the memory of a long run from growing by holes, and look for garbage rarely; return if the system can.
 
     All threads that begin from now on share one heap: with glibc's default of eight heaps a core, holes were half of
     all growth. Large arrays lie outside the heap: by default glibc takes them into it, up to 32 MB each, after the
     first of such a size was freed.
     """
+    rare_collections()
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
     settings = ((_ARENA_MAX, 1), (_MMAP_THRESHOLD, _LARGE), (_TRIM_THRESHOLD, 8 * _LARGE))
     return mallopt is not None and all(mallopt(name, value) for name, value in settings)

@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.heap import clear_up, give_back, lasting, rare_collections, steady_heap
+from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
 from coopera.studies.standing import (
@@ -171,7 +171,6 @@ def new_run(config: Config, stop: Stop | None = None, resumable: bool = True) ->
         ModelCallError: If no server listens where a model should be; a run that has no hour yet is taken back.
     """
     steady_heap()
-    rare_collections()
     config = resolve(config)
     prompts = PromptLibrary(config.prompts)
     people = [find_person(config, person) for person in config.humans or []]
@@ -222,7 +221,6 @@ def old_run(
     """
     found = RunDir.open(path)
     steady_heap()
-    rare_collections()
     check_money(budget or found.config.budget, found.prices, model_specs(found.config).values())
     with refusals_told(), only_mine(found.config.private), RunDir.resume(path, budget) as run:
         run.config = _with_models(run.config, models)

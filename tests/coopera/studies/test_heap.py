@@ -94,6 +94,26 @@ def test_what_is_free_within_the_heap_is_given_back() -> None:
     give_back()
 
 
+def test_a_run_looks_for_garbage_once_in_ten_thousand_new_objects_and_not_each_moment() -> None:
+    before, looked = gc.get_threshold(), []
+
+    def note(phase: str, about: dict[str, int]) -> None:
+        looked.append(phase)
+
+    try:
+        gc.set_threshold(700, 10, 10)
+        steady_heap()
+        gc.collect()
+        gc.callbacks.append(note)
+        held: list[list[int]] = [[] for _ in range(5_000)]
+        assert looked == []
+        held += [[] for _ in range(20_000)]
+        assert "start" in looked
+    finally:
+        gc.callbacks.remove(note)
+        gc.set_threshold(*before)
+
+
 def test_garbage_goes_with_the_evening_and_the_end_of_a_run_looks_through_everything_again() -> None:
     class Ring:
         pass
