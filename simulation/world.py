@@ -101,7 +101,7 @@ class World:
         self.looks = {one.id: one.looks for one in agents if isinstance(one, PersonAgent) and one.looks is not None}
         """How people look in pictures, and no more; who is not in it looks as the id has it."""
         self._watcher: Watcher | None = None
-        self._films = Films(self._ground, renderer, self.looks)
+        self._films = Films(self._ground, renderer, self.looks, self._watching)
         self._recording: Recording | None = None
         self._planned: dict[AgentId, tuple[HomeState, Act, Plan]] = {}
 
@@ -312,10 +312,7 @@ class World:
         """
         stems: dict[Viewpoint, str] = {"robot": "robot", "human": "human"} if name is None else {"human": name}
         order = Order(count, self.frame_size, Path(folder), stems, self.labels)
-        beside = None if wait else self._films.beside()
-        self._films.add((beside or self._watching()).take(self.recording, order))
-        if wait and (due := self.frames_due()):
-            due()
+        self._films.take(self.recording, order, wait=wait)
         return order.files(self.recording)
 
     def frame_views(self, count: int) -> dict[str, View]:
@@ -356,10 +353,7 @@ class World:
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         """Draw a person of the home as somebody from now on; nothing but pictures changes."""
-        looks = appearance_of(person.profile, person.id, person.appearance)
-        if self._watcher is not None and self.looks.get(agent) != looks:
-            self._watcher.rest()  # those who are being drawn
-        self.looks[agent] = looks
+        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""

@@ -76,14 +76,14 @@ def fitted(run: RunDir) -> str:
     packs = pack_days(run.hours(), run.evenings())
     if sum(map(len, packs.values())) > most // 3:
         packs = {}
-    bare = gather_pictures(run, 0)
-    html = render(run, bare, packs)
+    bare, homes = gather_pictures(run, 0), Homes(home_folders(run))
+    html = render(run, bare, packs, homes)
     if not bare.taken:
         return html
     album = gather_pictures(run, max(most - len(html.encode()), 0))
-    html = render(run, album, packs)
+    html = render(run, album, packs, homes)
     if (over := len(html.encode()) - most) > 0:
-        html = render(run, gather_pictures(run, max(album.size - over, 0)), packs)
+        html = render(run, gather_pictures(run, max(album.size - over, 0)), packs, homes)
     return html
 
 
@@ -98,16 +98,17 @@ def gather_pictures(run: RunDir, budget: int) -> Album:
     return embed(run.root, frames, budget)
 
 
-def render(run: RunDir, album: Album, packs: Mapping[str, str] | None = None) -> str:
+def render(run: RunDir, album: Album, packs: Mapping[str, str] | None = None, homes: Homes | None = None) -> str:
     """The page as text; a run that is not finished is shown as far as it got.
 
     Args:
         run: The run.
         album: Its pictures.
         packs: Its prompts and replies, as of `pack_days`; without them the page says where to see them.
+        homes: Its homes, which keep what they have drawn for the next page of the same run.
     """
     evenings = run.evenings()
-    homes = Homes(home_folders(run))
+    homes = homes or Homes(home_folders(run))
     with predicate_of(run) as helps:
         book = gather(run, run.hours(), evenings, album, helps=helps, homes=homes)
     style = style_with("style.css")

@@ -6,6 +6,8 @@ import base64
 import io
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import chain
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
@@ -94,13 +96,13 @@ def is_of_the_run(path: Path, root: Path) -> bool:
 def _encoded(
     hours: Mapping[tuple[int, int], Mapping[str, Sequence[Path]]], kept: int, *, small: bool
 ) -> dict[tuple[int, int], dict[str, list[str]]]:
+    chosen = {key: {view: thin(files, kept) for view, files in views.items()} for key, views in hours.items()}
+    paths = [path for views in chosen.values() for files in views.values() for path in files]
+    with ThreadPoolExecutor() as pool:  # Pillow does not hold the interpreter
+        uris = dict(zip(paths, pool.map(partial(_data_uri, small=small), paths), strict=True))
     return {
-        key: {
-            view: uris
-            for view, files in views.items()
-            if (uris := [uri for path in thin(files, kept) if (uri := _data_uri(path, small=small))])
-        }
-        for key, views in hours.items()
+        key: {view: found for view, files in views.items() if (found := [uris[path] for path in files if uris[path]])}
+        for key, views in chosen.items()
     }
 
 
@@ -108,13 +110,15 @@ def _data_uri(path: Path, *, small: bool) -> str:
     """A frame as text; empty where it should be made smaller and is no picture."""
     data, kind = path.read_bytes(), TYPES[path.suffix]
     if small:
-        from coopera.core.foreign.pictures import open_picture  # noqa: PLC0415  (most reports never need it)
+        from PIL.Image import Resampling  # noqa: PLC0415  (most reports never need it)
+
+        from coopera.core.foreign.pictures import open_picture  # noqa: PLC0415
 
         out = io.BytesIO()
         try:
             with open_picture(data) as image:
-                image.thumbnail(SMALL)
-                image.save(out, "WEBP", quality=40)
+                image.thumbnail(SMALL, Resampling.HAMMING)
+                image.save(out, "WEBP", quality=40, method=2)  # half the time of the defaults, for 6 % more bytes
         except ValueError:
             return ""
         data, kind = out.getvalue(), "image/webp"

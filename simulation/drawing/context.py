@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Literal, TypeVar
 
 from coopera.core.errors import ConfigError
@@ -85,12 +85,7 @@ def on_context(work: Callable[[Any], _T]) -> _T:
     Raises:
         ConfigError: If there is none.
     """
-    return soon_on_context(work).result()
-
-
-def soon_on_context(work: Callable[[Any], _T]) -> Future[_T]:
-    """Have something done with the context, after all that was asked for before; errors as of `on_context`."""
     drawer = _drawer()
     if drawer.context is None:
         raise ConfigError(f"renderer: gl is not to be had on this machine: {drawer.problem}.")
-    return drawer.pool.submit(work, drawer.context)
+    return drawer.pool.submit(work, drawer.context).result()

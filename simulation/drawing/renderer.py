@@ -6,7 +6,6 @@ Nothing but the state decides a picture: the same scenery and camera give the sa
 from __future__ import annotations
 
 from collections.abc import Mapping
-from concurrent.futures import Future
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
@@ -15,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coopera.simulation.drawing.context import on_context, soon_on_context
+from coopera.simulation.drawing.context import on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
 from coopera.simulation.drawing.light import contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
@@ -241,15 +240,13 @@ class Renderer:
             frame.release()
 
     def draw(self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False) -> Drawn:
-        """Draw a picture, with what else is asked for."""
-        return self.draw_soon(camera, size, tags=tags, depth=depth).result()
+        """Draw a picture of the scenery as it is now, with what else is asked for."""
 
-    def draw_soon(
-        self, camera: Camera, size: tuple[int, int], *, tags: bool = False, depth: bool = False
-    ) -> Future[Drawn]:
-        """Have a picture drawn of the scenery as it is now, while it goes on to change."""
-        on_context(self._update)
-        return soon_on_context(lambda context: self._draw(context, camera, size, tags, depth))
+        def drawn(context: Any) -> Drawn:
+            self._update(context)
+            return self._draw(context, camera, size, tags, depth)
+
+        return on_context(drawn)
 
     def view(self, camera: Camera, size: tuple[int, int], names: Mapping[int, str]) -> View:
         """Draw a picture with all that is known of it; `names` are those of the bodies, by number."""

@@ -16,7 +16,7 @@ from coopera.simulation.homes.scene import Room, Scene
 from coopera.simulation.shapes.rotations import Array, about_z
 from coopera.simulation.sight.hiding import Body, angle_from_front, behind_balls, behind_boxes, boxes_of
 from coopera.simulation.sight.stage import Camera, Stage
-from coopera.simulation.sight.turning import eye_level
+from coopera.simulation.sight.stances import eye_level
 from coopera.simulation.ways.navigation import RADIUS, Disc, Navigator, to_segment
 
 ROBOT_FOV = 60.0

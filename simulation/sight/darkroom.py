@@ -1,13 +1,14 @@
-"""The process in which pictures are taken: it is told of homes and of acts, and films them; see `studio`."""
+"""The processes in which pictures are taken: they are told of homes and of acts, and film them; see `studio`."""
 
 from __future__ import annotations
 
+import gc
+import os
 import signal
-from concurrent.futures import Future
 from contextlib import suppress
-from functools import partial
 from multiprocessing.connection import Connection
-from threading import Lock
+from queue import SimpleQueue
+from threading import Thread
 
 from coopera.core.errors import CooperaError
 from coopera.core.household import AgentId
@@ -19,70 +20,95 @@ from coopera.simulation.sight.studio import Closed, Filmed, Opened
 from coopera.simulation.sight.watching import Watcher
 from coopera.simulation.ways.navigation import Navigator
 
+_NEW_OBJECTS = 10_000
+"""After so many garbage is looked for; Python's 700 are few where a picture makes thousands."""
 
-def serve(pipe: int) -> None:
-    """Do what is asked through a pipe, by its number, until the last message (None) or until its other end is gone."""
+
+def serve(pipes: list[int]) -> None:
+    """Do what is asked through pipes, by their numbers: a process for each, this one and forks of it.
+
+    A process ends with its pipe's last message (None) or when the other end is gone; this one, when all have.
+    """
+    gc.set_threshold(_NEW_OBJECTS)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks for pictures says when it is over
-    with Connection(pipe) as asked:
-        darkroom = _Darkroom(asked)
-        with suppress(EOFError, OSError):
-            while (message := asked.recv()) is not None:
-                darkroom.do(message)
-        darkroom.close()
+    mine, *others = pipes
+    for pipe in others:
+        if os.fork() == 0:
+            for other in {*pipes} - {pipe}:
+                os.close(other)
+            mine, others = pipe, []
+            break
+    for other in others:
+        os.close(other)
+    # Mesa's own threads would only take cores from the other processes; where there are many, some are left to it.
+    os.environ.setdefault("LP_NUM_THREADS", str(max(0, (os.cpu_count() or 1) // 2 - 1)))
+    with Connection(mine) as asked:
+        _Darkroom(asked).work()
+    with suppress(ChildProcessError):
+        while others:
+            os.wait()
 
 
 class _Darkroom:
     """The homes of which pictures are taken."""
 
-    def __init__(self, answers: Connection) -> None:
-        self._answers, self._answering = answers, Lock()
+    def __init__(self, asked: Connection) -> None:
+        self._asked = asked
         self._homes: dict[int, tuple[Watcher, dict[AgentId, Appearance]]] = {}
+        self._waiting: SimpleQueue[Opened | Filmed | Closed | None] = SimpleQueue()
+        self._left: set[int] = set()
+        """Homes of which no more pictures are taken."""
+        self._over = False
 
-    def do(self, message: Opened | Filmed | Closed) -> None:
-        if isinstance(message, Opened):
-            scene, looks = message.scene, dict[AgentId, Appearance]()
-            room = Elbowroom(scene)
-            ground = Ground(scene, Navigator(scene), message.motions, message.people, message.robots, room)
-            watcher = Watcher(ground, message.renderer, looks)
-            self._homes[message.home] = watcher, looks
-            watcher.get_ready()
-        elif isinstance(message, Filmed):
-            self._film(message)
-        else:
-            self._homes.pop(message.home)[0].close()
-            self._answer(message.number, None)
-
-    def close(self) -> None:
-        """Leave what is not begun."""
+    def work(self) -> None:
+        """Do what is asked for, one after another, until it is over."""
+        Thread(target=self._hear, daemon=True).start()
+        while (message := self._waiting.get()) is not None and not self._over:
+            if isinstance(message, Opened):
+                self._open(message)
+            elif isinstance(message, Filmed):
+                self._answer(message.number, "" if message.home in self._left else self._film(message))
+            else:
+                self._homes.pop(message.home)[0].close()
+                self._answer(message.number, None)
         for watcher, _ in self._homes.values():
             watcher.close()
 
-    def _film(self, act: Filmed) -> None:
-        watcher, looks = self._homes[act.home]
-        if looks != act.looks:
-            watcher.rest()  # those who are being drawn
-            looks.clear()
-            looks.update(act.looks)
-        try:
-            recording = Filming(watcher.ground, act.state, act.robot, act.person).film(act.steps, act.actor)
-            film = watcher.take(recording, act.order)
-        except Exception as err:  # noqa: BLE001 - who asked is told
-            self._answer(act.number, _sentence(err))
-            return
-        film.add_done_callback(partial(self._done, act.number))
+    def _hear(self) -> None:
+        """Take what is asked for at once, so that nobody waits to ask, and what is left is known before its turn."""
+        with suppress(EOFError, OSError):
+            while (message := self._asked.recv()) is not None:
+                if isinstance(message, Closed):
+                    self._left.add(message.home)
+                self._waiting.put(message)
+        self._over = True
+        self._waiting.put(None)
 
-    def _done(self, number: int, film: Future[None]) -> None:
-        if film.cancelled():
-            self._answer(number, "")
-        else:
-            err = film.exception()
-            self._answer(number, None if err is None else _sentence(err))
+    def _open(self, message: Opened) -> None:
+        scene, looks = message.scene, dict[AgentId, Appearance]()
+        room = Elbowroom(scene)
+        ground = Ground(scene, Navigator(scene), message.motions, message.people, message.robots, room)
+        watcher = Watcher(ground, message.renderer, looks)
+        self._homes[message.home] = watcher, looks
+        with suppress(CooperaError):  # who asks for pictures is told
+            _ = watcher.drawn
+        gc.freeze()  # what stays as long as the home does is not looked through again for garbage
+
+    def _film(self, act: Filmed) -> str | None:
+        """What is wrong with the pictures of an act; None where they are there."""
+        watcher, looks = self._homes[act.home]
+        looks.clear()
+        looks.update(act.looks)
+        try:
+            filming = Filming(watcher.ground, act.state, act.robot, act.person, act.before)
+            watcher.take(filming.film(act.steps, act.actor), act.order)
+        except CooperaError as err:
+            return str(err)
+        except Exception as err:  # noqa: BLE001 - who asked is told
+            return f"The pictures cannot be drawn ({type(err).__name__}: {err})."
+        return None
 
     def _answer(self, number: int, wrong: str | None) -> None:
         """Say that something is done (None), left ("") or what is wrong with it."""
-        with self._answering, suppress(OSError):  # nobody asks any more
-            self._answers.send((number, wrong))
-
-
-def _sentence(err: BaseException) -> str:
-    return str(err) if isinstance(err, CooperaError) else f"The pictures cannot be drawn ({type(err).__name__}: {err})."
+        with suppress(OSError):  # nobody asks any more
+            self._asked.send((number, wrong))

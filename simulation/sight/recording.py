@@ -18,12 +18,12 @@ from coopera.simulation.acts.plans import Dress, Give, Ground, Handle, Open, Pla
 from coopera.simulation.acts.workplace import kept_from_sight, reaching_in, surface_at_work, thing_of, working
 from coopera.simulation.bodies.humanoid import blend
 from coopera.simulation.bodies.humanoid_reach import carrying, standing
-from coopera.simulation.motions.aids import Used, aids, now
-from coopera.simulation.motions.holding import CARRIED, Grip
+from coopera.simulation.motions.aids import aids, now
 from coopera.simulation.motions.poses import pose_at
-from coopera.simulation.motions.props import Shown, shown
+from coopera.simulation.motions.props import shown
 from coopera.simulation.people.appearance import Outfit, outfit_for
 from coopera.simulation.shapes.rotations import Array
+from coopera.simulation.sight.stances import Held, Stances, receiving, stances, watching
 from coopera.simulation.sight.timing import (
     BACK,
     HOLD,
@@ -36,21 +36,8 @@ from coopera.simulation.sight.timing import (
     TICKS,
     TURN,
 )
-from coopera.simulation.sight.turning import receiving, watching
 from coopera.simulation.sight.walks import Track, between_bodies, mixed, walking
-from coopera.simulation.state.home_state import HomeState, PersonState, RobotState, ThingState
-
-
-class Held(NamedTuple):
-    """What someone holds, by its name or its text, and how; `aids` is what else belongs to what they do with it.
-
-    `drawn` is how pictures show it; nothing else knows of it.
-    """
-
-    name: str
-    grip: Grip = CARRIED
-    aids: tuple[Used, ...] = ()
-    drawn: Shown | None = None
+from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
 
 
 class Moment(NamedTuple):
@@ -90,7 +77,7 @@ class Recording:
     """A recorded act: the home before it, the shots, and what a percept may tell of it; not which motion is done.
 
     `actor` is who acts, by `steps`, `robot` who sees it, `person` who is looked at. `states` is {object: its states in
-    words} of what could be seen after the act not to be as at first.
+    words} of what could be seen after the act not to be as at first. `before` is how agents stood, and what they held.
     """
 
     state: HomeState
@@ -102,6 +89,7 @@ class Recording:
     in_hand: str | None = None
     states: dict[str, str] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
+    before: Stances = Stances({}, {})
 
     @property
     def ticks(self) -> int:
@@ -117,29 +105,23 @@ class Recording:
         raise IndexError("the recording is shorter than that")
 
 
-def still(ground: Ground, state: HomeState, agent: AgentId) -> Placed:
-    """An agent between two acts."""
-    body = state.agents[agent]
-    if isinstance(body, PersonState):
-        motion = ground.motions[body.motion]
-        setting, _ = working(ground.scene, state, body, motion)
-        return Placed(*body.place, body.yaw, pose_at(motion, 0.0, setting))
-    robot = ground.robots[agent]
-    return Placed(*body.spot, body.yaw, robot.tucked if body.thing is None else robot.carrying)
-
-
 class Filming:
     """Turns the steps of a plan into shots."""
 
-    def __init__(self, ground: Ground, start: HomeState, robot: AgentId, person: AgentId) -> None:
-        """Begin with everybody as they are; `robot` will see it, and `person` is looked at."""
+    def __init__(
+        self, ground: Ground, start: HomeState, robot: AgentId, person: AgentId, before: Stances | None = None
+    ) -> None:
+        """Begin with everybody as they are, which is worked out where it is not known.
+
+        `robot` will see it, and `person` is looked at.
+        """
         self.ground, self.robots = ground, ground.robots
-        self.bodies = {agent: still(ground, start, agent) for agent in start.agents}
-        self.held = {agent: _holds(ground, start, body) for agent, body in start.agents.items() if body.thing}
+        before = before or stances(ground, start)
+        self.bodies, self.held = dict(before.bodies), dict(before.held)
         self.moved: Mapping[str, ThingState] = {}
         self.worn = {agent: body.worn for agent, body in start.agents.items() if body.worn}
         self.opened = frozenset(name for name, said in start.conditions.items() if said.get("open"))
-        self.recording = Recording(start, robot, person, person)
+        self.recording = Recording(start, robot, person, person, before=before)
         self._outfits = {agent: _outfit(body) for agent, body in start.agents.items() if isinstance(body, PersonState)}
         self._walk: Walk | None = None
         self._actor = person
@@ -381,13 +363,6 @@ class Filming:
 def _outfit(body: PersonState) -> Outfit:
     """How a person is dressed for what they do."""
     return outfit_for(body.motion, body.at)
-
-
-def _holds(ground: Ground, state: HomeState, body: PersonState | RobotState) -> Held:
-    """What an agent has in hand between two acts, and how."""
-    if not isinstance(body, PersonState):
-        return Held(body.thing or "")
-    return Held(body.thing or "", working(ground.scene, state, body, ground.motions[body.motion])[1])
 
 
 def _with(held: Mapping[AgentId, Held], agent: AgentId, thing: Held | None) -> dict[AgentId, Held]:

@@ -6,7 +6,7 @@ Nothing here is truth: poses go in and are never read back. One stage is one pyb
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -36,7 +36,8 @@ from coopera.simulation.shapes.rotations import Array, about_z, matrix, quaterni
 from coopera.simulation.sight.build import build, staged  # after the engine: who imports pybullet first makes it print
 from coopera.simulation.sight.doors import OPEN, Doors
 from coopera.simulation.sight.figures import Balls, Person, Robot
-from coopera.simulation.sight.recording import Held, Moment
+from coopera.simulation.sight.recording import Moment
+from coopera.simulation.sight.stances import Held
 from coopera.simulation.state.home_state import HomeState, ThingState
 
 BODIES = Path(__file__).parents[1] / "bodies"
@@ -277,15 +278,7 @@ class Stage:
 
     def colours(self, camera: Camera, size: tuple[int, int]) -> Image:
         """The colours of a picture alone, (height, width, 3)."""
-        return self.colours_soon(camera, size)()
-
-    def colours_soon(self, camera: Camera, size: tuple[int, int]) -> Callable[[], Image]:
-        """What waits for the colours of a picture of what is shown now; the stage may show something else meanwhile."""
-        if self.drawer is None:
-            picture = self.picture(camera, size)[0]
-            return lambda: picture
-        drawn = self.drawer.draw_soon(camera, size)
-        return lambda: drawn.result().colour
+        return self.picture(camera, size)[0] if self.drawer is None else self.drawer.draw(camera, size).colour
 
     def view(self, camera: Camera, size: tuple[int, int]) -> View:
         """All that a camera sees, as data.

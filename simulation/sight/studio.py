@@ -1,20 +1,23 @@
-"""Pictures that are taken in a process of their own, while the home goes on.
+"""Pictures that are taken in processes of their own, while the home goes on.
 
 Python does one thing at a time in a process, and half of what a picture costs is Python: beside the work of an hour it
-would take turns with it. All homes of a process share one such process; it ends with the last of them.
+would take turns with it. A picture costs more than what an hour does meanwhile, so there are two. The second is a fork
+of the first, which has imported what they need: they share its memory. All homes of a process share the two; they end
+with the last of them.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from itertools import count
 from multiprocessing.connection import Connection
@@ -29,13 +32,17 @@ from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.recording import Recording
-from coopera.simulation.sight.watching import Order
+from coopera.simulation.sight.stances import Stances
+from coopera.simulation.sight.watching import Order, Watcher
 from coopera.simulation.state.home_state import HomeState
 
 _BEGIN = (
     "import json, sys; sys.path[:] = json.loads(sys.argv[2]); "
-    "from coopera.simulation.sight.darkroom import serve; serve(int(sys.argv[1]))"
+    "from coopera.simulation.sight.darkroom import serve; serve(json.loads(sys.argv[1]))"
 )
+_AT_ONCE = 2 if (os.cpu_count() or 1) > 1 else 1
+"""How many processes take pictures."""
+_ENDED = "The process that draws pictures ended before these were drawn."
 _PATIENCE = 5.0
 """Seconds that the process may take to end; then it is ended."""
 
@@ -58,6 +65,7 @@ class Filmed(NamedTuple):
     number: int
     """By which the answer names it."""
     state: HomeState
+    before: Stances
     steps: list[Step]
     robot: AgentId
     person: AgentId
@@ -77,49 +85,55 @@ class Studio:
     """Takes pictures of one home; `close` it after use."""
 
     def __init__(self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance]) -> None:
-        """Have the process get ready; `looks` says how people look, and may change."""
+        """Have the processes get ready; `looks` says how people look, and may change."""
         self._home, self._looks = next(_numbers), looks
-        self._process = _started(self._home)
-        self._process.send(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
+        self._processes = _started(self._home)
+        self._processes.open(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
 
     def take(self, recording: Recording, order: Order) -> Future[None]:
         """Have the pictures of a recording taken; see `Watcher.take`.
 
-        Its error is a `SimulationError`, too, where the process has ended.
+        Its error is a `SimulationError`, too, where a process has ended.
         """
-        told = recording.state, recording.steps, recording.robot, recording.person, recording.actor
-        return self._process.ask(lambda number: Filmed(self._home, number, *told, dict(self._looks), order))
+        told = recording.state, recording.before, recording.steps, recording.robot, recording.person, recording.actor
+        looks, pictures = dict(self._looks), order.moments * len(order.stems)
+        return self._processes.film(lambda number: Filmed(self._home, number, *told, looks, order), pictures)
 
     def close(self) -> None:
         """Leave what is not begun, and wait for what is; a second time does nothing."""
-        if self._home in self._process.homes:
-            self._process.leave(self._home)
+        if self._home in self._processes.homes:
+            self._processes.leave(self._home)
 
 
 class Films:
     """Pictures of a home that are being taken, and that nobody has waited for yet; `close` it after use."""
 
-    def __init__(self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance]) -> None:
-        """Begin with none; for the arguments see `Studio`."""
-        self._ground, self._renderer, self._looks = ground, renderer, looks
+    def __init__(
+        self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance], watcher: Callable[[], Watcher]
+    ) -> None:
+        """Begin with none; `watcher` is what takes pictures in this process, for the others see `Studio`."""
+        self._ground, self._renderer, self._looks, self._watcher = ground, renderer, looks, watcher
         self._studio: Studio | None = None
         self._films: dict[Future[None], None] = {}
 
-    def beside(self) -> Studio | None:
-        """What takes pictures while the home goes on; None where only the home itself can."""
-        if self._studio is None and possible(self._renderer):
+    def take(self, recording: Recording, order: Order, *, wait: bool) -> None:
+        """Have the pictures of a recording taken: now, or while the home goes on, where that can be.
+
+        Raises:
+            SimulationError: If they are to be there now, and cannot be taken.
+        """
+        if not wait and self._studio is None and possible(self._renderer):
             self._studio = Studio(self._ground, self._renderer, self._looks)
-        return self._studio
+        if not wait and self._studio is not None:
+            self._films[self._studio.take(recording, order)] = None
+        else:
+            self._watcher().take(recording, order)
 
     def close(self) -> None:
         """Leave what is not begun."""
         if self._studio is not None:
             self._studio.close()
             self._studio = None
-
-    def add(self, film: Future[None]) -> None:
-        """Count pictures in."""
-        self._films[film] = None
 
     def due(self) -> Callable[[], None] | None:
         """What waits for all that were counted in so far; None where all are there.
@@ -139,29 +153,95 @@ class Films:
                 self._films.pop(film, None)
 
 
-class _Process:
-    """The process, and who waits for what of it."""
+class _Processes:
+    """The processes, and who waits for what of them; if one of them ends, all are at an end."""
 
     def __init__(self) -> None:
-        ours, theirs = socket.socketpair()
-        with theirs:
-            pipe = theirs.fileno()
-            given = [sys.executable, "-I", "-c", _BEGIN, str(pipe), json.dumps(sys.path)]
-            self._process = subprocess.Popen(
-                given, pass_fds=[pipe], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
-            )
-        self._pipe = Connection(ours.detach())
-        self._awaited: dict[int, Future[None]] = {}
+        pairs = [socket.socketpair() for _ in range(_AT_ONCE)]
+        theirs = [pair[1].fileno() for pair in pairs]
+        given = [sys.executable, "-I", "-c", _BEGIN, json.dumps(theirs), json.dumps(sys.path)]
+        self._first = subprocess.Popen(
+            given,
+            pass_fds=theirs,
+            process_group=0,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # a fork is to be made of one thread
+        )
+        for _, one in pairs:
+            one.close()
+        self._pipes = [_Pipe(Connection(ours.detach()), self._end) for ours, _ in pairs]
+        self.homes: set[int] = set()
+
+    @property
+    def ended(self) -> bool:
+        """Whether no more can be asked of them."""
+        return any(pipe.ended for pipe in self._pipes)
+
+    def open(self, home: Opened) -> None:
+        """Have all get a home ready."""
+        for pipe in self._pipes:
+            pipe.send(home)
+
+    def film(self, message: Callable[[int], Filmed], pictures: int) -> Future[None]:
+        """Have the one film an act that has the fewest pictures to take."""
+        pipe = min(self._pipes, key=lambda one: one.left)
+        return pipe.ask(message, pictures)
+
+    def leave(self, home: int) -> None:
+        """Have a home closed, and the processes ended where it was the last one."""
+        closed = [pipe.ask(partial(Closed, home)) for pipe in self._pipes]
+        try:
+            for one in closed:
+                one.result(_PATIENCE)
+        except (TimeoutError, SimulationError):
+            self._end()
+        with _one_at_a_time:
+            self.homes.discard(home)
+            self.end_if_idle()
+
+    def end_if_idle(self) -> None:
+        """End the processes where they have no home."""
+        if self.homes:
+            return
+        for pipe in self._pipes:
+            pipe.ended = True  # before it hears that the other end is gone
+            pipe.send(None)
+        try:
+            self._first.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._end()
+            self._first.wait()
+        for pipe in self._pipes:
+            pipe.hearing.join()
+
+    def _end(self) -> None:
+        """End them at once."""
+        with suppress(ProcessLookupError):
+            os.killpg(self._first.pid, signal.SIGKILL)
+
+
+class _Pipe:
+    """What is asked of one process, and who waits for it."""
+
+    def __init__(self, pipe: Connection, broken: Callable[[], None]) -> None:
+        """`broken` is called when the process has ended by itself, once or more often."""
+        self._pipe, self._broken = pipe, broken
+        self._awaited: dict[int, tuple[Future[None], int]] = {}
         self._sending = threading.Lock()
         self.ended = False
-        self.homes: set[int] = set()
-        self._hearing = threading.Thread(target=self._hear, name="pictures", daemon=True)
-        self._hearing.start()
+        self.hearing = threading.Thread(target=self._hear, name="pictures", daemon=True)
+        self.hearing.start()
 
-    def ask(self, message: Callable[[int], Filmed | Closed]) -> Future[None]:
-        """Send what is answered."""
+    @property
+    def left(self) -> int:
+        """How many pictures are asked for and not there."""
+        return sum(pictures for _, pictures in [*self._awaited.values()])
+
+    def ask(self, message: Callable[[int], Filmed | Closed], pictures: int = 0) -> Future[None]:
+        """Send what is answered, and how many pictures that is."""
         number, awaited = next(_numbers), Future[None]()
-        self._awaited[number] = awaited
+        self._awaited[number] = awaited, pictures
         self.send(message(number))
         if self.ended:
             self._give_up()
@@ -173,31 +253,8 @@ class _Process:
             try:
                 self._pipe.send(message)
             except OSError:
+                self._broken()
                 self.ended = True
-
-    def leave(self, home: int) -> None:
-        """Have a home closed, and the process ended where it was the last one."""
-        closed = self.ask(partial(Closed, home))
-        try:
-            closed.result(_PATIENCE)
-        except (TimeoutError, SimulationError):
-            self._process.kill()
-        with _one_at_a_time:
-            self.homes.discard(home)
-            self.end_if_idle()
-
-    def end_if_idle(self) -> None:
-        """End the process where it has no home."""
-        if self.homes:
-            return
-        self.send(None)
-        self.ended = True
-        try:
-            self._process.wait(_PATIENCE)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        self._hearing.join()
 
     def _hear(self) -> None:
         """Take the answers, until the process ends."""
@@ -206,13 +263,15 @@ class _Process:
                 number, wrong = self._pipe.recv()
             except (EOFError, OSError):
                 break  # it has ended
-            awaited = self._awaited.pop(number, Future())
+            awaited, _ = self._awaited.pop(number, (Future(), 0))
             if wrong is None:
                 awaited.set_result(None)
             elif wrong:
                 awaited.set_exception(SimulationError(wrong))
             else:
                 awaited.cancel()
+        if not self.ended:
+            self._broken()
         self.ended = True
         self._give_up()
         self._pipe.close()
@@ -220,13 +279,13 @@ class _Process:
     def _give_up(self) -> None:
         """Tell all who still wait, each once, whichever thread does so."""
         for number in list(self._awaited):
-            if (awaited := self._awaited.pop(number, None)) is not None:
-                awaited.set_exception(SimulationError("The process that draws pictures ended before these were drawn."))
+            if (waits := self._awaited.pop(number, None)) is not None:
+                waits[0].set_exception(SimulationError(_ENDED))
 
 
 _numbers = count()
 _one_at_a_time = threading.Lock()
-_processes: list[_Process] = []
+_processes: list[_Processes] = []
 
 
 def possible(renderer: Renderer) -> bool:
@@ -236,7 +295,10 @@ def possible(renderer: Renderer) -> bool:
 
 @contextmanager
 def ready(renderer: Renderer) -> Iterator[None]:
-    """Begin the process, if there can be one, before there is a home: that takes a second. It ends if there is none."""
+    """Begin the processes, if there can be any, before there is a home: that takes a second.
+
+    They end if there is none.
+    """
     if possible(renderer):
         _started()
     try:
@@ -247,11 +309,11 @@ def ready(renderer: Renderer) -> Iterator[None]:
                 _processes[0].end_if_idle()
 
 
-def _started(home: int | None = None) -> _Process:
-    """The process of this one that takes pictures, begun where there is none; a home keeps it from ending."""
+def _started(home: int | None = None) -> _Processes:
+    """The processes of this one that take pictures, begun where there are none; a home keeps them from ending."""
     with _one_at_a_time:
         if not _processes or _processes[0].ended:
-            _processes[:] = [_Process()]
+            _processes[:] = [_Processes()]
         if home is not None:
             _processes[0].homes.add(home)
         return _processes[0]

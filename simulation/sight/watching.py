@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, NamedTuple, TypeAlias
@@ -17,7 +15,7 @@ from coopera.core.household import Act, AgentId, HandOver, plain
 from coopera.simulation.acts.plans import Ground, Placed, Plan, Turn, UnableError, taken_by_others
 from coopera.simulation.acts.walking import walk
 from coopera.simulation.acts.workplace import thing_of
-from coopera.simulation.drawing.context import Renderer, chosen
+from coopera.simulation.drawing.context import Renderer
 from coopera.simulation.drawing.view import View
 from coopera.simulation.homes.floorplan import Point
 from coopera.simulation.homes.magic_box import shape_of
@@ -28,9 +26,10 @@ from coopera.simulation.shapes.rotations import Array
 from coopera.simulation.sight.cameras import Eyes, Focus, around, robot_camera, view_camera, watching_place, within
 from coopera.simulation.sight.hiding import at_work, corners_of, framed_of, person_body, robot_body, tops_of
 from coopera.simulation.sight.labels import Name, labelled
-from coopera.simulation.sight.recording import Filming, Held, Moment, Recording, Shot, still
+from coopera.simulation.sight.recording import Filming, Moment, Recording, Shot
 from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.sight.stage import Camera, Image, Stage
+from coopera.simulation.sight.stances import Held, still
 from coopera.simulation.sight.video import frame_file, write_frame
 from coopera.simulation.state.home_state import HomeState
 from coopera.simulation.state.looks import states_in_sight
@@ -79,47 +78,21 @@ class Watcher:
         self.ground, self._looks = ground, looks
         self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
         self._renderer = renderer
-        self._sought: Stage | None = None
         self._drawn: Stage | None = None
-        self._choosing, self._drawing, self._writing = self._rooms = [_darkroom() for _ in range(3)]
-        self._films: set[Future[None]] = set()
 
     def close(self) -> None:
-        """Give pybullet back; pictures that nobody waited for may be missing."""
-        for room in self._rooms:  # each gives work to the next
-            room.shutdown(cancel_futures=True)
-        for film in list(self._films):
-            film.cancel()
-        for stage in (self.stage, self._sought, self._drawn):
+        """Give pybullet back."""
+        for stage in (self.stage, self._drawn):
             if stage is not None:
                 stage.close()
 
     @property
     def drawn(self) -> Stage:
-        """The stage that pictures are taken of, once the darkrooms have done with it."""
-        self.rest()
-        return self._set()
-
-    def rest(self) -> None:
-        """Wait until nothing is done in the darkrooms."""
-        for room in self._rooms:
-            room.submit(_nothing).result()
-
-    def get_ready(self) -> None:
-        """Have the stage set that pictures will be taken of, in the darkroom that will use it."""
-        self._drawing.submit(self._set)
-
-    def _set(self) -> Stage:
+        """The stage that pictures are taken of."""
         if self._drawn is None:
             ground = self.ground
             self._drawn = Stage(ground.scene, ground.people, ground.robots, self._renderer, self._looks)
         return self._drawn
-
-    def _seeking(self) -> Stage:
-        """The stage in which a darkroom looks for cameras, while the other one shows the home as it goes on."""
-        if self._sought is None:
-            self._sought = Stage(self.ground.scene, self.ground.people, self.ground.robots, renderer=None)
-        return self._sought
 
     def watch(self, plan: Plan, robot: AgentId, who: AgentId, deeds: Sequence[Placed], spot: Point) -> None:
         """Add to a plan: a robot drives to where it will see an act of a person, out of their way.
@@ -158,43 +131,19 @@ class Watcher:
         plan.steps.append(Turn(robot, yaw))
         plan.state = plan.state.with_agent(robot, yaw=yaw)
 
-    def take(self, recording: Recording, order: Order) -> Future[None]:
-        """Choose the moments that tell a recording and where they are seen from, and have them drawn and written.
+    def take(self, recording: Recording, order: Order) -> None:
+        """Choose the moments that tell a recording and where they are seen from, draw them and write the pictures.
 
-        With our own renderer that is done in darkrooms, one for each step, while the home goes on. Pybullet's renderers
-        belong to a thread and hold up all others: with them it is done at once.
-
-        Returns:
-            What is done once the files are there; its error is a `SimulationError` where they cannot be written. It is
-            cancelled where the watcher is closed before.
+        Raises:
+            SimulationError: If they cannot be written.
         """
-        aside = chosen(self._renderer) == "gl"
-        film: Future[None] = Future()
-
-        def then(room: ThreadPoolExecutor, job: Callable[[], None]) -> None:
-            step = partial(_step, film, job)
-            if aside:
-                room.submit(step)
-            else:
-                step()
-
-        def choose() -> None:
-            ticks = telling_ticks(recording, self.ground.robots, order.moments)
-            takes = list(self._takes(recording, ticks, tuple(order.stems)))
-            then(self._drawing, lambda: draw(takes))
-
-        def draw(takes: list[Take]) -> None:
-            for stem, number, picture in self._developed(recording, takes, order):
-                then(self._writing, partial(write, frame_file(order.folder, stem, number), picture))
-            then(self._writing, lambda: film.set_result(None))
-
-        def write(path: Path, picture: Callable[[], Image]) -> None:
-            write_frame(path, picture())
-
-        self._films.add(film)
-        film.add_done_callback(self._films.discard)
-        then(self._choosing, choose)
-        return film
+        ticks = telling_ticks(recording, self.ground.robots, order.moments)
+        for number, (moment, cameras) in enumerate(self._takes(recording, ticks, tuple(order.stems))):
+            self.drawn.show(recording.state, moment)
+            names = self._names(recording, moment, self.drawn) if order.labels else []
+            for view, camera in cameras.items():
+                picture = _labelled(self.drawn, names, camera, order.size)
+                write_frame(frame_file(order.folder, order.stems[view], number), picture)
 
     def views(self, recording: Recording, count: int, size: tuple[int, int]) -> dict[str, View]:
         """All that is seen at the moments, and through the cameras, of a recording's pictures: robot-0 … and human-0 ….
@@ -227,18 +176,6 @@ class Watcher:
             moment = shot.at(within)
             yield Take(moment, {v: self._eyes(recording, moment) if v == "robot" else across[index] for v in views})
 
-    def _developed(
-        self, recording: Recording, takes: Sequence[Take], order: Order
-    ) -> Iterator[tuple[str, int, Callable[[], Image]]]:
-        """What waits for the pictures, with stem and number."""
-        stage = self._set()
-        for number, (moment, cameras) in enumerate(takes):
-            stage.show(recording.state, moment)
-            names = self._names(recording, moment, stage) if order.labels else []
-            for view, camera in cameras.items():
-                soon = stage.colours_soon if not names else partial(_labelled_soon, stage, names)
-                yield order.stems[view], number, soon(camera, order.size)
-
     def _eyes(self, recording: Recording, moment: Moment) -> Camera:
         return robot_camera(self.ground.robots[recording.robot], moment.bodies[recording.robot])
 
@@ -248,7 +185,7 @@ class Watcher:
         moment = shot.at(shot.deed)
         body = moment.bodies[who]
         away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
-        stage = self._seeking()
+        stage = self.stage
         stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
         moments = [moment, *(shot.at(round(shot.came + share * (shot.ticks - shot.came))) for share in _MOMENTS)]
         focus = self._focus(stage, moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
@@ -312,27 +249,8 @@ class Watcher:
         return known.text if known is not None else thing.cls if thing is not None else name
 
 
-def _labelled_soon(stage: Stage, names: list[Name], camera: Camera, size: tuple[int, int]) -> Callable[[], Image]:
-    return partial(labelled, *stage.picture(camera, size), names)
-
-
-def _darkroom() -> ThreadPoolExecutor:
-    """Where jobs are done one after another, in their order, on a thread that starts with the first."""
-    return ThreadPoolExecutor(1, thread_name_prefix="pictures")
-
-
-def _nothing() -> None:
-    """Be a job that tells, once it is done, that those before it are."""
-
-
-def _step(film: Future[None], job: Callable[[], None]) -> None:
-    """Do a job of a film, of which nothing more is done once a job has failed."""
-    if film.done():
-        return
-    try:
-        job()
-    except BaseException as err:  # noqa: BLE001 - who waits for the film is told
-        film.set_exception(err)
+def _labelled(stage: Stage, names: list[Name], camera: Camera, size: tuple[int, int]) -> Image:
+    return labelled(*stage.picture(camera, size), names) if names else stage.colours(camera, size)
 
 
 @dataclass(frozen=True, slots=True)

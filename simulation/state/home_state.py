@@ -326,7 +326,12 @@ def from_box(name: str, known: BoxThing) -> SceneObject:
 
 def at_first(initial: SceneObject) -> ThingState:
     """Where a thing of the scene is as long as nobody has moved it."""
-    return ThingState(position=initial.position, yaw=initial.yaw, on=initial.on)
+    return _standing(initial.position, initial.yaw, initial.on)
+
+
+@lru_cache(maxsize=4096)
+def _standing(position: tuple[float, float, float], yaw: float, on: str | None) -> ThingState:
+    return ThingState(position=position, yaw=yaw, on=on)
 
 
 def room_of_thing(scene: Scene, state: HomeState, initial: SceneObject) -> str:

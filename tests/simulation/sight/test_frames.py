@@ -17,7 +17,7 @@ from coopera.simulation.sight.hiding import behind_balls, behind_boxes, boxes_of
 from coopera.simulation.sight.labels import Name, labelled
 from coopera.simulation.sight.recording import Recording, Shot
 from coopera.simulation.sight.sampling import telling_ticks
-from coopera.simulation.sight.turning import watching
+from coopera.simulation.sight.stances import watching
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
 

@@ -6,12 +6,8 @@ from pathlib import Path
 import pytest
 
 from coopera.core.errors import SimulationError
-from coopera.core.household import HUMAN, ROBOT, AgentId
-from coopera.simulation.bodies.robot import RobotBody
+from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation.drawing.context import problem
-from coopera.simulation.sight import watching
-from coopera.simulation.sight.recording import Recording
-from coopera.simulation.sight.sampling import telling_ticks
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move
 
@@ -76,22 +72,3 @@ def test_a_home_that_is_closed_leaves_no_picture_half_written(tmp_path: Path) ->
     written = pictures_of(tmp_path / "left") if (tmp_path / "left").exists() else {}
     assert written == {name: whole[name] for name in written}
     assert not [thread for thread in threading.enumerate() if thread.name.startswith("pictures")]
-
-
-@needs_gl
-def test_cameras_are_chosen_beside_the_home_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    on: list[threading.Thread] = []
-
-    def choose(recording: Recording, robots: dict[AgentId, RobotBody], count: int) -> list[int]:
-        on.append(threading.current_thread())
-        return telling_ticks(recording, robots, count)
-
-    monkeypatch.setattr(watching, "telling_ticks", choose)
-    with World(flat(), frame_size=(96, 72), renderer="gl") as world:
-        assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
-        for count in (1, 3):
-            folder = tmp_path / str(count)
-            files = world.frames(count, folder)
-            assert sorted(folder.iterdir()) == sorted(files)
-    assert len(on) == 2
-    assert threading.current_thread() not in on

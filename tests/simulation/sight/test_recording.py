@@ -6,7 +6,8 @@ import pytest
 
 from coopera.simulation.acts.plans import Open, Play
 from coopera.simulation.bodies.humanoid_reach import standing
-from coopera.simulation.sight.recording import Filming, still
+from coopera.simulation.sight.recording import Filming
+from coopera.simulation.sight.stances import still
 from coopera.simulation.state.home_state import HomeState, PersonState
 from coopera.simulation.ways.navigation import Stand
 from coopera.simulation.world import World

@@ -14,8 +14,9 @@ from coopera.simulation.bodies.humanoid_reach import standing
 from coopera.simulation.homes.opened import opened
 from coopera.simulation.homes.scene import load_scene
 from coopera.simulation.sight.engine import pybullet
-from coopera.simulation.sight.recording import Held, Moment
+from coopera.simulation.sight.recording import Moment
 from coopera.simulation.sight.stage import Stage
+from coopera.simulation.sight.stances import Held
 from coopera.simulation.state.home_state import HomeState, PersonState, ThingState
 
 AT = (1.0, 1.0)

@@ -30,7 +30,7 @@ world = World(flat(), frame_size=(96, 72), renderer="gl")
 world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True)
 world.frames(2, Path(sys.argv[1]), wait=False)
 world.frames_due()()
-print(studio._processes[0]._process.pid, flush=True)
+print(studio._processes[0]._first.pid, flush=True)
 if sys.argv[2] == "dies":
     os.kill(os.getpid(), 9)
 world.close()
@@ -46,9 +46,8 @@ def filmed(folder: Path) -> World:
 
 
 def wait_for(world: World) -> None:
-    due = world.frames_due()
-    assert due is not None
-    due()
+    if due := world.frames_due():
+        due()
 
 
 def ends(pid: int) -> bool:
@@ -63,9 +62,9 @@ def ends(pid: int) -> bool:
         os.close(watched)
 
 
-def test_the_homes_of_a_process_share_one_that_ends_with_the_last_of_them(tmp_path: Path) -> None:
+def test_the_homes_of_a_process_share_those_that_take_pictures_which_end_with_the_last_of_them(tmp_path: Path) -> None:
     first, second = filmed(tmp_path / "first"), filmed(tmp_path / "second")
-    process = studio._processes[0]._process
+    process = studio._processes[0]._first
     first.close()
     wait_for(second)
     assert len(list((tmp_path / "second").iterdir())) == 4
@@ -74,12 +73,25 @@ def test_the_homes_of_a_process_share_one_that_ends_with_the_last_of_them(tmp_pa
     assert process.poll() == 0
 
 
-def test_where_the_process_is_killed_who_waits_is_told_and_the_next_home_has_another(tmp_path: Path) -> None:
+def forks(pid: int) -> list[int]:
+    """The children of a process."""
+    return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+@pytest.mark.parametrize("which", ["the first", "its fork"])
+def test_where_a_process_is_killed_who_waits_is_told_and_the_next_home_has_others(tmp_path: Path, which: str) -> None:
     world = filmed(tmp_path / "lost")
-    studio._processes[0]._process.send_signal(signal.SIGKILL)
+    world.frames(2, tmp_path / "lost", wait=False)
+    wait_for(world)  # by now there is a fork
+    for _ in range(20):
+        world.frames(4, tmp_path / "lost", wait=False)
+    first = studio._processes[0]._first.pid
+    all_of_them = [first, *forks(first)]
+    os.kill(all_of_them[0 if which == "the first" else -1], signal.SIGKILL)
     with pytest.raises(SimulationError, match="process that draws pictures ended"):
         wait_for(world)
     world.close()
+    assert all(ends(pid) for pid in all_of_them)
     with filmed(tmp_path / "again") as again:
         wait_for(again)
     assert len(list((tmp_path / "again").iterdir())) == 4
