@@ -8,16 +8,18 @@ NO_PYTHON = "Python 3.11, 3.12 or 3.13 is needed, with venv (Debian: python3-ven
 PIP_ARGS ?=
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
+# With what tests and measurements need besides.
+ALL_READY := $(VENV)/ready-to-test
 
 .PHONY: run test check bench bench-learning audit clean
 
 run: $(READY)
 	$(BIN)/coopera run $(ARGS)
 
-test: $(READY)
+test: $(ALL_READY)
 	$(BIN)/pytest -n 2 --dist worksteal $(ARGS)
 
-check: $(READY)
+check: $(ALL_READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
@@ -25,11 +27,11 @@ check: $(READY)
 	$(BIN)/python -m tests.house
 	$(BIN)/pytest -n 2 --dist worksteal $(ARGS)
 
-bench: $(READY)
+bench: $(ALL_READY)
 	$(BIN)/python -m benchmarks.speed --out docs/performance.md $(ARGS)
 
 # What is learned by whom, and what a robot does of what it is told: hours, of which speed is the least.
-bench-learning: $(READY)
+bench-learning: $(ALL_READY)
 	$(BIN)/python -m benchmarks.home
 	$(BIN)/python -m benchmarks.learning
 	$(BIN)/python -m benchmarks.classifier
@@ -50,8 +52,12 @@ $(READY): pyproject.toml constraints.txt
 	@$(BIN)/python $(WILL_DO) || $(or $(PYTHON),false) $(WILL_DO) || { echo $(NO_PYTHON) >&2; exit 1; }
 	$(BIN)/python $(WILL_DO) || $(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt torch
-	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e '.[dev]'
+	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e .
 	touch $(READY)
+
+$(ALL_READY): $(READY)
+	$(BIN)/python -m pip install -q --disable-pip-version-check $(PIP_ARGS) -c constraints.txt -e '.[dev]'
+	touch $(ALL_READY)
 
 clean:
 	rm -rf $(VENV) $(VENV)-audit
