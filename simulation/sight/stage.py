@@ -80,7 +80,7 @@ class Stage:
         self._balls: dict[AgentId, Balls] = {}
         self._figures: dict[AgentId, Robot] = {}
         self._looks = {} if looks is None else looks
-        self._draws = name is not None
+        self._can_draw = self._draws = name is not None
         if drawn:
             self._balls = {agent: Balls(self.bodies[agent], self.client) for agent in people}
         if name == "gl":
@@ -113,20 +113,17 @@ class Stage:
         known = {pybullet.getJointInfo(body, i, physicsClientId=self.client)[1].decode(): i for i in range(count)}
         return [known[name] for name in names]
 
-    def show(self, state: HomeState, moment: Moment) -> None:
-        """Put everything where it is at a moment."""
+    def show(self, state: HomeState, moment: Moment, *, for_rays: bool = False) -> None:
+        """Put everything where it is at a moment, or where pictures show it, if this stage draws and not for rays."""
+        self._draws = self._can_draw and not for_rays
         bodies = {**moment.bodies, **(moment.drawn if self._draws else {})}
         for agent, placed in bodies.items():
             if agent in self.robots:
                 self._put_robot(agent, placed)
             else:
                 self._put_person(agent, placed)
-            if agent in self._people:
-                self._people[agent].put(placed, *self._dressed(moment, agent))
-            elif agent in self._balls:
-                self._balls[agent].put(*self._dressed(moment, agent))
-            elif agent in self._figures:
-                self._figures[agent].put(placed)
+            if self._draws:
+                self._show_body(moment, agent, placed)
         self._unused, self._carried = self._carried, set()
         held = {held.name for held in moment.held.values()}
         self._things(state, moment, held.union(*moment.worn.values()))
@@ -137,7 +134,17 @@ class Stage:
                 self._wear(state, name, placed)
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
-        self._doors.show(moment.opened, bodies)
+        if self._draws:
+            self._doors.show(moment.opened, bodies)
+
+    def _show_body(self, moment: Moment, agent: AgentId, placed: Placed) -> None:
+        """Draw a person or a robot where they have been put."""
+        if agent in self._people:
+            self._people[agent].put(placed, *self._dressed(moment, agent))
+        elif agent in self._balls:
+            self._balls[agent].put(*self._dressed(moment, agent))
+        elif agent in self._figures:
+            self._figures[agent].put(placed)
 
     def _dressed(self, moment: Moment, agent: AgentId) -> tuple[Appearance, Outfit]:
         """How a person looks, and what they wear."""

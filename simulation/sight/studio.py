@@ -43,6 +43,8 @@ _BEGIN = (
 _AT_ONCE = 2 if (os.cpu_count() or 1) > 1 else 1
 """How many processes take pictures."""
 _ENDED = "The process that draws pictures ended before these were drawn."
+_WITH = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
+"""A fork is to be made of one thread; a second heap, for the thread that draws, would be 8 MB more."""
 _PATIENCE = 5.0
 """Seconds that the process may take to end; then it is ended."""
 
@@ -166,7 +168,7 @@ class _Processes:
             process_group=0,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
-            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # a fork is to be made of one thread
+            env={**os.environ, **_WITH},
         )
         for _, one in pairs:
             one.close()

@@ -74,17 +74,24 @@ class Watcher:
     def __init__(
         self, ground: Ground, renderer: Renderer = "auto", looks: Mapping[AgentId, Appearance] | None = None
     ) -> None:
-        """Start pybullet and build the home in it, for rays; what it looks like waits for the first picture."""
+        """Begin without a stage: each has 30 MB, and waits for who needs it."""
         self.ground, self._looks = ground, looks
-        self.stage = Stage(ground.scene, ground.people, ground.robots, renderer=None)
         self._renderer = renderer
+        self._plain: Stage | None = None
         self._drawn: Stage | None = None
 
     def close(self) -> None:
         """Give pybullet back."""
-        for stage in (self.stage, self._drawn):
+        for stage in (self._plain, self._drawn):
             if stage is not None:
                 stage.close()
+
+    @property
+    def stage(self) -> Stage:
+        """The stage in which an onlooker's rays are cast; it looks like nothing."""
+        if self._plain is None:
+            self._plain = Stage(self.ground.scene, self.ground.people, self.ground.robots, renderer=None)
+        return self._plain
 
     @property
     def drawn(self) -> Stage:
@@ -185,8 +192,8 @@ class Watcher:
         moment = shot.at(shot.deed)
         body = moment.bodies[who]
         away = body._replace(x=_AWAY, y=_AWAY) if who in self.ground.robots else body  # rays must not end at its hull
-        stage = self.stage
-        stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}))
+        stage = self.drawn
+        stage.show(recording.state, moment._replace(bodies={**moment.bodies, who: away}), for_rays=True)
         moments = [moment, *(shot.at(round(shot.came + share * (shot.ticks - shot.came))) for share in _MOMENTS)]
         focus = self._focus(stage, moment.bodies, who, moment.held, [one.bodies[who] for one in moments[1:]])
         if who not in self.ground.robots:
