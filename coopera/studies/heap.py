@@ -7,6 +7,7 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
+from threading import Event
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8  # of glibc's malloc.h
 _LARGE = 2**20
@@ -14,6 +15,8 @@ _LARGE = 2**20
 _NEW_OBJECTS = 10_000
 _RUNS = 5
 """After so many runs of a process what they left is looked for, which takes a third of a second."""
+_settled = Event()
+"""Whether what is there after a first evening is no longer looked through; Python would count it, which takes 50 ms."""
 _ended = count(1)
 
 
@@ -44,10 +47,11 @@ def give_back() -> None:
     Left to Python, such garbage gathers for days, among what stays, since a run holds so much. What is there after the
     first evening (libraries, weights, homes) is therefore no longer looked through, until the run ends (`lasting`).
     """
-    if gc.get_freeze_count():
+    if _settled.is_set():
         gc.collect()
     else:
         gc.freeze()
+        _settled.set()
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
     if trim is not None:
         trim(0)
@@ -60,6 +64,7 @@ def lasting() -> Iterator[None]:
         yield
     finally:
         gc.unfreeze()
+        _settled.clear()
 
 
 def clear_up() -> None:

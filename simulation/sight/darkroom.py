@@ -16,7 +16,7 @@ from coopera.simulation.acts.plans import Ground
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.sight.recording import Filming
-from coopera.simulation.sight.studio import Closed, Filmed, Opened
+from coopera.simulation.sight.studio import Closed, Filmed, Opened, cores
 from coopera.simulation.sight.watching import Watcher
 from coopera.simulation.ways.navigation import Navigator
 
@@ -41,7 +41,7 @@ def serve(pipes: list[int]) -> None:
     for other in others:
         os.close(other)
     # Mesa's own threads would only take cores from the other processes; where there are many, some are left to it.
-    os.environ.setdefault("LP_NUM_THREADS", str(max(0, (os.cpu_count() or 1) // 2 - 1)))
+    os.environ.setdefault("LP_NUM_THREADS", str(max(0, cores() // 2 - 1)))
     with Connection(mine) as asked:
         _Darkroom(asked).work()
     with suppress(ChildProcessError):

@@ -40,8 +40,8 @@ _BEGIN = (
     "import json, sys; sys.path[:] = json.loads(sys.argv[2]); "
     "from coopera.simulation.sight.darkroom import serve; serve(json.loads(sys.argv[1]))"
 )
-_AT_ONCE = 2 if (os.cpu_count() or 1) > 1 else 1
-"""How many processes take pictures."""
+_AT_ONCE = 2
+"""How many processes take pictures, where there are so many cores."""
 _ENDED = "The process that draws pictures ended before these were drawn."
 _WITH = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
 """A fork is to be made of one thread; a second heap, for the thread that draws, would be 8 MB more."""
@@ -159,7 +159,7 @@ class _Processes:
     """The processes, and who waits for what of them; if one of them ends, all are at an end."""
 
     def __init__(self) -> None:
-        pairs = [socket.socketpair() for _ in range(_AT_ONCE)]
+        pairs = [socket.socketpair() for _ in range(min(_AT_ONCE, cores()))]
         theirs = [pair[1].fileno() for pair in pairs]
         given = [sys.executable, "-I", "-c", _BEGIN, json.dumps(theirs), json.dumps(sys.path)]
         self._first = subprocess.Popen(
@@ -288,6 +288,11 @@ class _Pipe:
 _numbers = count()
 _one_at_a_time = threading.Lock()
 _processes: list[_Processes] = []
+
+
+def cores() -> int:
+    """How many cores this process may use: a benchmark's worker keeps to its own."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def possible(renderer: Renderer) -> bool:

@@ -91,7 +91,6 @@ def test_what_is_free_within_the_heap_is_given_back() -> None:
         pytest.skip("this C library has no such setting")
     told = subprocess.run([sys.executable, "-c", HOLES], check=True, capture_output=True, text=True)
     assert told.stdout == "True\n"
-    give_back()
 
 
 def test_a_run_looks_for_garbage_once_in_ten_thousand_new_objects_and_not_each_moment() -> None:
