@@ -18,6 +18,8 @@ from coopera.cli import main as coopera
 
 _PATIENCE = 600.0
 """Seconds after which a life that was not killed counts as one that hangs."""
+_LOST = 255
+"""What Python says where its server of processes told it no exit code: now and then, where two threads ask it."""
 _processes = multiprocessing.get_context("forkserver")
 _processes.set_forkserver_preload(["benchmarks.warm", __name__])
 
@@ -39,7 +41,11 @@ def live(arguments: Sequence[str], folder: Path, moment: Moment | None = None) -
     Returns:
         Its exit code, -9 where it was killed.
     """
-    return in_a_process(_live, arguments, folder, moment, patience=moment.seconds if moment else None)
+    (folder / "ended").unlink(missing_ok=True)
+    code = in_a_process(_live, arguments, folder, moment, patience=moment.seconds if moment else None)
+    if code == _LOST and (folder / "ended").exists():
+        return int((folder / "ended").read_text())
+    return code
 
 
 def in_a_process(work: Any, *arguments: Any, patience: float | None = None) -> int:
@@ -64,6 +70,7 @@ def _live(arguments: Sequence[str], folder: Path, moment: Moment | None) -> None
     code = coopera(arguments)
     if moment is None:
         Path("steps").write_text("\n".join(watched.steps))
+    Path("ended").write_text(str(code))
     sys.exit(code)
 
 
