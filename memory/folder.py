@@ -59,6 +59,11 @@ def check_folder(folder: Path, create: bool) -> None:
         raise ConfigError(f"{folder}: the memory store cannot be created: {err}") from err
 
 
+def begun(folder: Path) -> bool:
+    """Whether there is anything of a store; the process that made the folder may have died right then."""
+    return folder.exists() and any(entry.name not in (_LOCK, _SEAL) for entry in folder.iterdir())
+
+
 def repaired(folder: Path) -> Path:
     """Return where a store is rebuilt before it takes the place of the damaged one."""
     return folder.with_name(f"{folder.name}.repaired")

@@ -23,7 +23,7 @@ from langchain_core.embeddings import Embeddings
 from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.damage import damage
 from coopera.memory.embeddings import as_array, by_identity, identity, unit
-from coopera.memory.folder import CHROMA, DamagedMemoryError, locked, repaired
+from coopera.memory.folder import CHROMA, DamagedMemoryError, begun, locked, repaired
 from coopera.memory.log import Log
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.rows import Record, restored
@@ -128,11 +128,11 @@ def rewrite(folder: Path, streams: Mapping[str, Sequence[Record]], embeddings: E
     """
     if not folder.exists():
         folder.mkdir(parents=True)
-    found = any(folder.iterdir())
+    found = begun(folder)
     salvages = [_Salvage(name, identity(embeddings), list(records), 0, 0) for name, records in streams.items()]
     kept = _exchange(folder, salvages, {identity(embeddings): embeddings})
     if not found:
-        kept.rmdir()
+        shutil.rmtree(kept)
     return kept if found else None
 
 
@@ -173,6 +173,8 @@ def _salvage(folder: Path) -> list[_Salvage]:
     try:
         with closing(sqlite3.connect(f"file:{folder / CHROMA}?mode=rw", uri=True)) as database:
             about: dict[str, dict[str, Any]] = {}
+            if not database.execute("SELECT 1 FROM sqlite_master WHERE name = 'collection_metadata'").fetchone():
+                return []  # its process died before Chroma had made its tables
             rows = database.execute(
                 "SELECT collection_id, key, coalesce(str_value, int_value) FROM collection_metadata"
             )

@@ -18,7 +18,7 @@ from coopera.graphs.recorded import remember_day, remember_guess, remember_lived
 from coopera.graphs.robots.robot_view import Memories
 from coopera.memory import MemoryStream, Record
 from coopera.memory.damage import damage
-from coopera.memory.folder import locked
+from coopera.memory.folder import begun, locked
 from coopera.memory.ram import RamClient
 from coopera.memory.rebuild import rewrite, texts
 from coopera.rundir.directory import RunDir
@@ -66,7 +66,7 @@ def difference(folder: Path, wanted: Texts, *, at_least: Texts | None = None) ->
         at_least: What that of a run which is not finished must have. It may lack the rest, and may be ahead, by what a
             step remembered that did not come to its end.
     """
-    if not folder.exists():
+    if not begun(folder):
         return "it is missing" if wanted else ""
     try:
         found = texts(folder)
@@ -84,7 +84,7 @@ def difference(folder: Path, wanted: Texts, *, at_least: Texts | None = None) ->
 
 def index_damage(folder: Path) -> str:
     """What is wrong with a store besides its texts; empty where nothing is."""
-    if not folder.exists():
+    if not begun(folder):
         return ""
     try:
         with locked(folder):
@@ -115,7 +115,7 @@ def bring_to_the_trace(run: RunDir, plans: Sequence[DayPlan], embeddings: Embedd
 
 def _add_what_is_missing(folder: Path, wanted: Texts, embeddings: Embeddings) -> None:
     """Give a store the newest records, where all that it has are those of the trace."""
-    found = texts(folder) if folder.exists() else {}
+    found = texts(folder) if begun(folder) else {}
     for name, records in wanted.items():
         if missing := records[len(found.get(name, [])) :]:
             with MemoryStream.open(folder, name, embeddings) as stream:

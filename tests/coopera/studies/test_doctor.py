@@ -213,6 +213,19 @@ def test_a_memory_that_was_lost_is_rebuilt_when_the_run_goes_on(
     assert "the memory was rebuilt from the trace" in caplog.text
 
 
+@pytest.mark.parametrize("made", ["", "writer.lock", "chroma.sqlite3"])
+def test_a_memory_that_a_process_died_making_goes_on_with_nothing_set_aside(stopped: Path, made: str) -> None:
+    run, other = copied(stopped, f"made-{made}"), copied(stopped, f"whole-{made}")
+    shutil.rmtree(run / "memory")
+    (run / "memory").mkdir()
+    if made:
+        (run / "memory" / made).touch()
+    for one in (run, other):
+        resume_study(one)
+    assert content(run)["memory"] == content(other)["memory"]
+    assert {path.name for path in run.iterdir()} == {path.name for path in other.iterdir()}
+
+
 @pytest.mark.parametrize(("until", "found"), [(24, []), (0, ["memory"])], ids=["a day broken off", "an older copy"])
 def test_a_memory_that_is_behind_the_trace_is_given_what_it_lacks_when_the_run_goes_on(
     stopped: Path, caplog: pytest.LogCaptureFixture, until: int, found: list[str]
