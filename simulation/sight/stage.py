@@ -134,7 +134,7 @@ class Stage:
                 self._wear(state, name, placed)
         for name in sorted(self._unused - self._carried):
             self.home.move(name, _AWAY, 0.0)
-        if self._draws:
+        if not for_rays:
             self._doors.show(moment.opened, bodies)
 
     def _show_body(self, moment: Moment, agent: AgentId, placed: Placed) -> None:

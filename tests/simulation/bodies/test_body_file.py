@@ -376,3 +376,4 @@ def test_shapes_that_the_engine_cannot_load_are_refused(mine: Path) -> None:
         pytest.raises(ConfigError, match=r"mine.urdf: pybullet cannot load this URDF"),
     ):
         world.perform("robot", bring("mug"), record=True)
+        world.percept(np.random.default_rng(0))
