@@ -371,9 +371,7 @@ def test_a_body_without_shapes_and_one_that_is_not_there_are_refused(mine: Path)
 
 def test_shapes_that_the_engine_cannot_load_are_refused(mine: Path) -> None:
     rewrite(mine.with_suffix(".urdf"), 'cylinder radius="0.28" length="0.36"', 'blob size="1"')
-    with (
-        World(flat(), robot=str(mine)) as world,
-        pytest.raises(ConfigError, match=r"mine.urdf: pybullet cannot load this URDF"),
-    ):
+    with World(flat(), robot=str(mine)) as world:
         world.perform("robot", bring("mug"), record=True)
-        world.percept(np.random.default_rng(0))
+        with pytest.raises(ConfigError, match=r"mine.urdf: pybullet cannot load this URDF"):
+            world.percept(np.random.default_rng(0))
