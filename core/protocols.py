@@ -215,7 +215,7 @@ class Recorder(Protocol):
     def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
         """Write trace/day-DD/hour-HH.json; with `after`, once that has returned, while the work goes on.
 
-        Whatever is written or read later waits for it, but for an hour that is asked for by its number alone.
+        Whatever is written later waits for it.
         """
         ...
 
@@ -224,7 +224,7 @@ class Recorder(Protocol):
         ...
 
     def read_day(self, day: int) -> list[HourRecord]:
-        """The hours of a day, in order."""
+        """The hours of a day, in order, also those that wait to be written."""
         ...
 
     def read_evening(self, day: int) -> Evening | None:
@@ -232,7 +232,7 @@ class Recorder(Protocol):
         ...
 
     def write_evening(self, evening: Evening) -> None:
-        """Write trace/day-DD/evening.json."""
+        """Write trace/day-DD/evening.json, once all hours before it are written."""
         ...
 
     def adapters_folder(self, day: int) -> Path:

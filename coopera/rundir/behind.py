@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import Generic, TypeVar
 
+T = TypeVar("T")
 _AHEAD = 3
 """So many hours may wait to be written. What takes pictures then has something to do when an hour asks for few; a run
 that is killed lives so many hours again, which were short ones if their pictures took longer."""
 
 
-class Behind:
+class Behind(Generic[T]):
     """Has one thing after another written on a thread of its own; `close` it after use."""
 
     def __init__(self) -> None:
         """Begin with nothing to write; the thread starts with the first."""
         self._pool = ThreadPoolExecutor(1, thread_name_prefix="trace")
-        self._writing: deque[Future[None]] = deque()
+        self._writing: deque[tuple[Future[None], T]] = deque()
+        self._popping = threading.Lock()
 
-    def write(self, job: Callable[[], None], after: Callable[[], None] | None) -> None:
-        """Do a job now, or have it done once `after` has returned; what was given before is done first.
+    def write(self, what: T, job: Callable[[], None], after: Callable[[], None] | None) -> None:
+        """Do a job, which writes `what`, now or once `after` has returned; what was given before is written first.
 
         It waits where too much is to be written. What went wrong with something given before is raised, and this job
         left.
@@ -30,14 +34,19 @@ class Behind:
             job()
             return
 
-        before = self._writing[-1] if self._writing else None
+        before = self._writing[-1][0] if self._writing else None
 
         def both() -> None:
             if before is None or before.exception() is None:  # nothing stands after what is missing
                 after()
                 job()
 
-        self._writing.append(self._pool.submit(both))
+        self._writing.append((self._pool.submit(both), what))
+
+    def waiting(self) -> list[T]:
+        """What may not be written yet, in order; what went wrong with something before it is raised, once."""
+        self._settle(len(self._writing))
+        return [what for _, what in self._writing]
 
     def settle(self) -> None:
         """Wait for what is being written; what went wrong there, or in what it waited for, is raised here, once."""
@@ -48,9 +57,18 @@ class Behind:
         self._pool.shutdown()
 
     def _settle(self, left: int) -> None:
-        """Wait until no more than so much is being written."""
-        while len(self._writing) > left or (self._writing and self._writing[0].done()):
-            wait([self._writing[0]])
-            if err := self._writing.popleft().exception():
-                self._writing.clear()
-                raise err
+        """Wait until no more than so much is being written; several threads may."""
+        while first := self._to_settle(left):
+            wait([first[0]])
+            with self._popping:
+                if self._writing and self._writing[0] is first:
+                    self._writing.popleft()
+                    if err := first[0].exception():
+                        self._writing.clear()
+                        raise err
+
+    def _to_settle(self, left: int) -> tuple[Future[None], T] | None:
+        """The first thing, where it is done or where more than so much is being written."""
+        with self._popping:
+            first = self._writing[0] if self._writing else None
+            return first if first and (len(self._writing) > left or first[0].done()) else None

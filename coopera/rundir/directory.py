@@ -53,7 +53,7 @@ class RunDir(Trace):
         self._rows: dict[tuple[int, int], str] = {}
         self._stop = Stop(stop)
         self._made: list[Path] = []
-        self._behind = Behind()
+        self._behind = Behind[HourRecord]()
 
     @classmethod
     def create(
@@ -243,7 +243,7 @@ class RunDir(Trace):
     def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
         """Write trace/day-DD/hour-HH.json, the hour before it first; with `after`, once that has returned.
 
-        The work may go on meanwhile: whatever reads the trace waits, and raises what went wrong.
+        The work may go on meanwhile, and reads the hour by its day; an evening is written when its hours are.
         """
         self._stop.check()
 
@@ -251,7 +251,7 @@ class RunDir(Trace):
             write_record(self.hour_file(record.day, record.hour), record)
             self._rows[record.day, record.hour] = metrics_lines(record)
 
-        self._behind.write(write, after)
+        self._behind.write(record, write, after)
 
     @contextmanager
     def settling(self) -> Iterator[None]:
@@ -265,14 +265,16 @@ class RunDir(Trace):
             raise
 
     def read_day(self, day: int) -> list[HourRecord]:
-        """The hours of a day, in order."""
+        """The hours of a day, in order, also those that wait to be written; what went wrong with one is raised."""
         self._stop.check()
-        self._behind.settle()
-        return super().read_day(day)
+        waiting = {record.hour: record for record in self._behind.waiting() if record.day == day}
+        written = {record.hour: record for record in super().read_day(day)}
+        return [record for _, record in sorted((written | waiting).items())]
 
     def write_evening(self, evening: Evening) -> None:
-        """Write trace/day-DD/evening.json, and bring metrics.csv up to date."""
+        """Write trace/day-DD/evening.json after the day's hours, and bring metrics.csv up to date."""
         self._stop.check()
+        self._behind.settle()
         write_record(self.evening_file(evening.day), evening)
         for record in told_in_the_evening(self.read_day(evening.day), [evening]):
             self._rows[record.day, record.hour] = metrics_lines(record)
