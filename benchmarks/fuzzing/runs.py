@@ -10,7 +10,8 @@ from benchmarks.fuzzing import mutations as change
 from benchmarks.fuzzing.kit import ROOT, Reader, Target, of_file
 from coopera.evaluation.results import from_csv
 from coopera.models.recorded import Past
-from coopera.report.page import gather_pictures, render
+from coopera.report.page import fill, frames_of, texts
+from coopera.report.pictures import embed
 from coopera.rundir.directory import RunDir
 from coopera.rundir.export import export
 from tests.coopera.fake_run import fake_run
@@ -44,7 +45,7 @@ def _export(root: Path) -> object:
 
 def _report(root: Path) -> object:
     run = RunDir.open(root)
-    return render(run, gather_pictures(run, 100_000))
+    return fill(texts(run), embed(frames_of(run), 100_000))
 
 
 def _run_json(root: Path) -> object:

@@ -21,7 +21,6 @@ from coopera.core.hour import (
 from coopera.core.household import Outcome
 from coopera.evaluation.robot.error_budget import FAILED, FALSE, LOST, Fates, Helps, hour_fates, meant
 from coopera.report.changes import Change, changes_of
-from coopera.report.pictures import Album
 from coopera.report.plan import Plan
 from coopera.rundir.trace_files import human_outcomes, intention_verdicts
 
@@ -97,15 +96,15 @@ class ActView:
 
 @dataclass(frozen=True, slots=True)
 class HourView:
-    """One hour as the page shows it; `flags` are what the filters ask for."""
+    """One hour as the page shows it; `flags` are what the filters ask for, `views` its pictures by view."""
 
     record: HourRecord
     anchor: str
     label: str
     candidates: list[CandidateView]
     flags: list[str]
-    views: dict[str, list[str]]
     f1: float | None
+    views: dict[str, list[str]] = field(default_factory=dict)
     tasks: list[OwnTask] = field(default_factory=list)
     acts: list[ActView] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
@@ -128,7 +127,6 @@ class HourView:
 def hour_view(
     record: HourRecord,
     evening: Evening | None,
-    album: Album,
     *,
     helps: Callable[[HourRecord], Helps] | None = None,
     imagines: bool = True,
@@ -139,7 +137,6 @@ def hour_view(
     Args:
         record: The hour.
         evening: Of its day, if the day has ended.
-        album: The pictures.
         helps: The predicate, which says which tasks were helped; without it that stays open.
         imagines: Whether the robot imagines intentions.
         plan: The hour on the floor plan.
@@ -152,7 +149,6 @@ def hour_view(
         label=hour_label(record.hour),
         candidates=candidates,
         flags=_flags(record, candidates),
-        views=album.views.get((record.day, record.hour), {}),
         f1=record.success.predicate.f1 if record.success else None,
         tasks=_own_tasks(record, fates),
         acts=_acts(record.robot, fates) if record.robot else [],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from coopera.report.environment import environment
 from coopera.report.hours import HourView, hour_view, mark_slow, poses_before
 from coopera.report.look import TEMPLATES, style_with
 from coopera.report.packs import pack_days
-from coopera.report.pictures import Album, embed, pictures_of
+from coopera.report.pictures import Album, Frames, embed, frames_by_view, pictures_of
 from coopera.report.plan import Homes
 from coopera.report.policy import content_policy
 from coopera.rundir import seals
@@ -76,14 +76,14 @@ def fitted(run: RunDir) -> str:
     packs = pack_days(run.hours(), run.evenings())
     if sum(map(len, packs.values())) > most // 3:
         packs = {}
-    bare, homes = gather_pictures(run, 0), Homes(home_folders(run))
-    html = render(run, bare, packs, homes)
+    text, frames = texts(run, packs), frames_of(run)
+    html = fill(text, bare := embed(frames, 0))
     if not bare.taken:
         return html
-    album = gather_pictures(run, max(most - len(html.encode()), 0))
-    html = render(run, album, packs, homes)
+    album = embed(frames, max(most - len(html.encode()), 0))
+    html = fill(text, album)
     if (over := len(html.encode()) - most) > 0:
-        html = render(run, gather_pictures(run, max(album.size - over, 0)), packs, homes)
+        html = fill(text, embed(frames, max(album.size - over, 0)))
     return html
 
 
@@ -92,50 +92,51 @@ def _most_bytes(hours: int) -> int:
     return min(max(SMALL_BYTES, hours * HOUR_BYTES), MAX_BYTES)
 
 
-def gather_pictures(run: RunDir, budget: int) -> Album:
-    """The run's sampled frames, in at most `budget` characters."""
-    frames = {(one.day, one.hour): pictures_of(run.root, one) for one in run.hours() if one.robot}
-    return embed(run.root, frames, budget)
+def frames_of(run: RunDir) -> Frames:
+    """The run's sampled frames."""
+    hours = {(one.day, one.hour): pictures_of(run.root, one) for one in run.hours() if one.robot}
+    return frames_by_view(run.root, hours)
 
 
-def render(run: RunDir, album: Album, packs: Mapping[str, str] | None = None, homes: Homes | None = None) -> str:
-    """The page as text; a run that is not finished is shown as far as it got.
+def texts(run: RunDir, packs: Mapping[str, str] | None = None) -> dict[str, Any]:
+    """What the page shows besides pictures; a run that is not finished is shown as far as it got.
 
     Args:
         run: The run.
-        album: Its pictures.
         packs: Its prompts and replies, as of `pack_days`; without them the page says where to see them.
-        homes: Its homes, which keep what they have drawn for the next page of the same run.
     """
-    evenings = run.evenings()
-    homes = homes or Homes(home_folders(run))
+    evenings, homes = run.evenings(), Homes(home_folders(run))
     with predicate_of(run) as helps:
-        book = gather(run, run.hours(), evenings, album, helps=helps, homes=homes)
+        book = gather(run, run.hours(), evenings, helps=helps, homes=homes)
     style = style_with("style.css")
     script = "".join((TEMPLATES / name).read_text(encoding="utf-8") for name in ("theme.js", "hours.js"))
     scenes = dict.fromkeys(hour.record.scene for day in book.days for hour in day.hours if hour.plan)
-    return (
-        environment()
-        .get_template("report.html.j2")
-        .render(
-            **analysis(run, book),
-            packed=packs is not None and bool(packs),
-            packs=packs or {},
-            homes=[homes.drawing(scene) for scene in scenes],
-            hour_at=lambda day, hour: f"#d{day}h{hour}",
-            album=album,
-            style=Markup(style),
-            script=Markup(script),
-            policy=content_policy(styles=[style], scripts=[script], coloured=True),
-        )
-    )
+    return {
+        **analysis(run, book),
+        "packed": packs is not None and bool(packs),
+        "packs": packs or {},
+        "homes": [homes.drawing(scene) for scene in scenes],
+        "hour_at": lambda day, hour: f"#d{day}h{hour}",
+        "style": Markup(style),
+        "script": Markup(script),
+        "policy": content_policy(styles=[style], scripts=[script], coloured=True),
+    }
+
+
+def fill(texts: Mapping[str, Any], album: Album) -> str:
+    """The page with its pictures."""
+    days = [replace(day, hours=[_pictured(hour, album) for hour in day.hours]) for day in texts["days"]]
+    return environment().get_template("report.html.j2").render(texts, days=days, album=album)
+
+
+def _pictured(hour: HourView, album: Album) -> HourView:
+    return replace(hour, views=album.views.get((hour.record.day, hour.record.hour), {}))
 
 
 def gather(
     run: RunDir,
     hours: Sequence[HourRecord],
     evenings: Sequence[Evening],
-    album: Album,
     *,
     helps: Callable[[HourRecord], Helps] | None = None,
     homes: Homes | None = None,
@@ -149,7 +150,7 @@ def gather(
     found: dict[int, list[HourView]] = {}
     for record in records:
         plan = homes.plan(record, before.get((record.day, record.hour))) if homes else None
-        view = hour_view(record, told.get(record.day), album, helps=helps, imagines=asks, plan=plan)
+        view = hour_view(record, told.get(record.day), helps=helps, imagines=asks, plan=plan)
         found.setdefault(record.day, []).append(view)
     mark_slow([view for views in found.values() for view in views])
     return Book(records, told, people, _days(found, told, people))

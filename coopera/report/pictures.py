@@ -36,17 +36,33 @@ class Album(NamedTuple):
         return sum(len(uri) for views in self.views.values() for files in views.values() for uri in files)
 
 
-def embed(root: Path, frames: Mapping[tuple[int, int], Sequence[str]], budget: int) -> Album:
-    """Embed the frames of all hours within `budget` characters, evenly thinned where there are too many.
+class Frames(NamedTuple):
+    """The pictures of hours by (day, hour) and view, in order of time, and how many bytes each has."""
+
+    hours: dict[tuple[int, int], dict[str, list[Path]]]
+    sizes: dict[Path, int]
+
+
+def frames_by_view(root: Path, frames: Mapping[tuple[int, int], Sequence[str]]) -> Frames:
+    """Sort pictures by view, and leave out what is no picture of the run.
 
     Args:
         root: The run directory, to which the frames' paths are relative.
         frames: Paths by (day, hour), in order of time; the file name but its number is the view ("robot-3.webp").
-        budget: Most characters that all data URIs together may take.
     """
     hours = {key: _by_view(root, paths) for key, paths in frames.items()}
+    return Frames(hours, {path: path.stat().st_size for views in hours.values() for path in chain(*views.values())})
+
+
+def embed(frames: Frames, budget: int) -> Album:
+    """Embed the frames of all hours within `budget` characters, evenly thinned where there are too many.
+
+    Args:
+        frames: The frames.
+        budget: Most characters that all data URIs together may take.
+    """
+    hours, sizes = frames
     taken = max((len(files) for views in hours.values() for files in views.values()), default=0)
-    sizes = {path: path.stat().st_size for views in hours.values() for files in views.values() for path in files}
     for kept in range(taken, 0, -1):
         chosen = [path for views in hours.values() for files in views.values() for path in thin(files, kept)]
         if sum(sizes[path] * 4 // 3 + 32 for path in chosen) <= budget:
@@ -98,8 +114,11 @@ def _encoded(
 ) -> dict[tuple[int, int], dict[str, list[str]]]:
     chosen = {key: {view: thin(files, kept) for view, files in views.items()} for key, views in hours.items()}
     paths = [path for views in chosen.values() for files in views.values() for path in files]
-    with ThreadPoolExecutor() as pool:  # Pillow does not hold the interpreter
-        uris = dict(zip(paths, pool.map(partial(_data_uri, small=small), paths), strict=True))
+    if small:
+        with ThreadPoolExecutor() as pool:  # Pillow does not hold the interpreter
+            uris = dict(zip(paths, pool.map(partial(_data_uri, small=True), paths), strict=True))
+    else:
+        uris = {path: _data_uri(path, small=False) for path in paths}
     return {
         key: {view: found for view, files in views.items() if (found := [uris[path] for path in files if uris[path]])}
         for key, views in chosen.items()

@@ -36,7 +36,7 @@ class Plan(NamedTuple):
 
 
 class Homes:
-    """The homes of a run as drawings, each read once, and its hours' ways, each drawn once.
+    """The homes of a run as drawings, each read once, and its hours' ways.
 
     Args:
         folders: Where homes lie besides the shipped ones.
@@ -45,7 +45,6 @@ class Homes:
     def __init__(self, folders: Sequence[Path]) -> None:
         self._folders = tuple(folders)
         self._known = lru_cache(maxsize=8)(self._look_up)
-        self._plans: dict[tuple[int, int], Plan | None] = {}
 
     def drawing(self, scene: str) -> Markup | None:
         """The home as an SVG symbol, to be put once into a page; None where it cannot be found any more."""
@@ -59,12 +58,6 @@ class Homes:
             record: The hour.
             before: `world.poses` of the hour before it, if there was one.
         """
-        hour = record.day, record.hour
-        if hour not in self._plans:
-            self._plans[hour] = self._plan(record, before)
-        return self._plans[hour]
-
-    def _plan(self, record: HourRecord, before: Mapping[str, Any] | None) -> Plan | None:
         found = self._known(record.scene)
         now = _spots(record.world.get("poses"))
         if found is None or not now:

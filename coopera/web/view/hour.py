@@ -16,7 +16,6 @@ from coopera.evaluation.measuring import told_in_the_evening
 from coopera.report.budget import home_folders, imagines, predicate_of
 from coopera.report.hours import HourView, hour_view
 from coopera.report.page import gather
-from coopera.report.pictures import Album
 from coopera.report.plan import Homes
 from coopera.rundir.directory import RunDir
 from coopera.web.view.desk import Desk
@@ -25,8 +24,6 @@ from coopera.web.view.links import Late, Links, evening_page, hour_page
 from coopera.web.view.reading import picture_views, poses_of, try_read
 from coopera.web.view.run import with_slow
 from coopera.web.view.shelf import Shelved
-
-_EMPTY = Album({}, 0, 0, False)
 
 
 def page(desk: Desk, entry: Shelved, day: int, hour: int) -> dict[str, Any] | None:
@@ -70,7 +67,7 @@ def read_hour(
             helps = stack.enter_context(predicate_of(run))
         except (CooperaError, OSError):
             helps = None
-        view = hour_view(record, evening, _EMPTY, helps=helps, imagines=imagines(run.config.method), plan=plan)
+        view = hour_view(record, evening, helps=helps, imagines=imagines(run.config.method), plan=plan)
     return view, homes.drawing(record.scene) if plan else None
 
 
@@ -94,7 +91,7 @@ def evening_page_of(desk: Desk, entry: Shelved, day: int) -> dict[str, Any] | No
         read = [one for one in hours if one is not None]
         if evening and read:
             before = evening_of(run, day - 1, []) if day else None
-            book = gather(run, read, [*([before] if before else []), evening], _EMPTY)
+            book = gather(run, read, [*([before] if before else []), evening])
             shown, truth = book.days[-1], book.people.get(evening.person)
     return {
         "entry": entry,

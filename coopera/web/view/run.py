@@ -14,7 +14,6 @@ from coopera.evaluation.measures.help import Need
 from coopera.report import charts
 from coopera.report.hours import slow_from
 from coopera.report.page import analysis, gather, offline_roles
-from coopera.report.pictures import Album
 from coopera.web.view.desk import Desk
 from coopera.web.view.lines import Line, f1_of, need_of
 from coopera.web.view.links import Late, hour_page
@@ -98,7 +97,7 @@ def over_all(desk: Desk, entry: Shelved) -> dict[str, Any]:
         return {"days": [], "problems": [problem]}
     read = read_all(run)
     try:
-        book = gather(run, read.hours, read.evenings, Album({}, 0, 0, False))
+        book = gather(run, read.hours, read.evenings)
         return {**analysis(run, book), "curve": None, "problems": read.problems}  # which stands above them already
     except CooperaError as err:
         return {"days": [], "problems": [*read.problems, plainly(err, entry.root)]}

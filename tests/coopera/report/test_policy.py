@@ -13,8 +13,8 @@ from coopera.benchmark.results_files import _page
 from coopera.evaluation.people.studies import Choice, DayShown, HourShown, Study, Trait
 from coopera.evaluation.results import Card
 from coopera.evaluation.tables import Table
-from coopera.report.page import gather_pictures, render
-from coopera.report.pictures import embed
+from coopera.report.page import fill, frames_of, texts
+from coopera.report.pictures import embed, frames_by_view
 from coopera.report.policy import content_policy
 from coopera.report.study_forms import render as render_study
 from coopera.rundir.directory import RunDir
@@ -66,7 +66,7 @@ def _benchmark() -> str:
 
 @pytest.fixture(scope="module")
 def pages(small_run: RunDir) -> dict[str, str]:
-    report = render(small_run, gather_pictures(small_run, 10**6))
+    report = fill(texts(small_run), embed(frames_of(small_run), 10**6))
     return {"report": report, "study": render_study(_study()), "benchmark": _benchmark()}
 
 
@@ -114,13 +114,13 @@ def test_a_frame_that_is_a_link_out_of_the_run_stays_out_of_the_page(tmp_path: P
         "x" * 300 + ".png",
         "\0.png",
     ]
-    found = embed(root, {(0, 9): [f"frames/{name}" for name in names]}, 10**6)
+    found = embed(frames_by_view(root, {(0, 9): [f"frames/{name}" for name in names]}), 10**6)
     own = f"data:image/png;base64,{base64.b64encode(b'own').decode()}"
     assert found.views == {(0, 9): {"robot": [own, own]}}  # a link within the run is no way out of it
 
 
 def test_a_frame_that_is_no_picture_is_left_out_where_it_should_be_made_smaller(tmp_path: Path) -> None:
     (tmp_path / "robot-0.png").write_bytes(b"no picture" * 1000)
-    found = embed(tmp_path, {(0, 9): ["robot-0.png"]}, 5000)
+    found = embed(frames_by_view(tmp_path, {(0, 9): ["robot-0.png"]}), 5000)
     assert found.small
     assert found.views == {(0, 9): {}}

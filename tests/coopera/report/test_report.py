@@ -12,8 +12,8 @@ from coopera.evaluation.robot.error_budget import LOST, by_day
 from coopera.report import charts
 from coopera.report.budget import read_budget
 from coopera.report.hours import hour_view
-from coopera.report.page import gather_pictures, render, write_report
-from coopera.report.pictures import embed, thin
+from coopera.report.page import fill, frames_of, texts, write_report
+from coopera.report.pictures import embed, frames_by_view, thin
 from coopera.rundir.directory import RunDir
 from tests.coopera.fake_run import fake_run
 
@@ -53,7 +53,7 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def html(small_run: RunDir) -> str:
-    return render(small_run, gather_pictures(small_run, 10**9))
+    return fill(texts(small_run), embed(frames_of(small_run), 10**9))
 
 
 @pytest.fixture(scope="module")
@@ -122,9 +122,8 @@ def test_text_from_models_is_never_markup(html: str) -> None:
 
 
 def test_flags_say_what_the_filters_ask_for(small_run: RunDir) -> None:
-    album = embed(small_run.root, {}, 0)
     for record in small_run.hours():
-        flags = hour_view(record, small_run.read_evening(record.day), album).flags
+        flags = hour_view(record, small_run.read_evening(record.day)).flags
         if record.status == "failed":
             assert flags == ["failed"]
             continue
@@ -143,12 +142,12 @@ def test_an_unfinished_run_and_an_empty_one_have_a_page_too(tmp_path: Path) -> N
 
 
 def test_pictures_are_thinned_evenly_until_they_fit(small_run: RunDir) -> None:
-    frames = {(one.day, one.hour): one.robot.observation.frames for one in small_run.hours() if one.robot}
-    everything = embed(small_run.root, frames, 10**9)
+    frames = frames_of(small_run)
+    everything = embed(frames, 10**9)
     assert (everything.kept, everything.taken, everything.small) == (2, 2, False)
-    fewer = embed(small_run.root, frames, everything.size * 2 // 3)
+    fewer = embed(frames, everything.size * 2 // 3)
     assert (fewer.kept, fewer.small) == (1, False)
-    assert embed(small_run.root, frames, 0).views == {}
+    assert embed(frames, 0).views == {}
     files = [Path(str(n)) for n in range(8)]
     assert [path.name for path in thin(files, 3)] == ["0", "4", "7"]
     assert [path.name for path in thin(files, 1)] == ["4"]
@@ -194,7 +193,7 @@ def test_curves_leave_out_what_has_no_figure() -> None:
 def test_a_trace_cannot_make_the_page_read_files_outside_the_run(small_run: RunDir, tmp_path: Path) -> None:
     (tmp_path / "secret.png").write_bytes(b"secret")
     frames = {(0, 9): [str(tmp_path / "secret.png"), "../" * 20 + f"{tmp_path}/secret.png", "run.json"]}
-    assert embed(small_run.root, frames, 10**9).views == {}
+    assert embed(frames_by_view(small_run.root, frames), 10**9).views == {}
 
 
 def test_it_shows_where_the_measures_differ_and_escapes_what_was_said(small_run: RunDir, page: Page) -> None:
@@ -205,6 +204,6 @@ def test_it_shows_where_the_measures_differ_and_escapes_what_was_said(small_run:
     shown = [one._replace(thought="<script>alert(1)</script>", said=said) for one in nasty]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("coopera.report.page.offers_of", lambda _: shown)
-        html = render(small_run, gather_pictures(small_run, 0))
+        html = fill(texts(small_run), embed(frames_of(small_run), 0))
     assert "<script>alert(1)" not in html
     assert "&lt;script&gt;alert(1)" in html

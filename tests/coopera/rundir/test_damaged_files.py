@@ -17,7 +17,7 @@ from coopera.config.schema import Config
 from coopera.core.errors import ConfigError, CooperaError, RunError
 from coopera.core.hour import Evening, HourRecord
 from coopera.evaluation.grid import Grid
-from coopera.report.page import render
+from coopera.report.page import fill, texts
 from coopera.report.pictures import Album
 from coopera.report.tree import print_trees
 from coopera.rundir.directory import RunDir
@@ -102,7 +102,7 @@ def test_a_spoilt_trace_is_shown_or_refused_and_nothing_else(run: RunDir) -> Non
                 print_trees(run, None, None, quiet)
                 run.summary()
                 if number % 10 == 0:
-                    render(run, Album({}, 0, 0, small=False))
+                    fill(texts(run), Album({}, 0, 0, small=False))
             except CooperaError as err:
                 refused.append(str(err))
         file.write_text(before)
