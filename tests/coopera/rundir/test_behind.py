@@ -1,18 +1,28 @@
 from __future__ import annotations
 
+import errno
 import threading
 from collections.abc import Iterator
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 
 from coopera.rundir import behind
 from coopera.rundir.behind import Behind
+from coopera.rundir.directory import RunDir
+from tests.coopera.fake_run import fake_run
 
 
 @pytest.fixture
 def writer() -> Iterator[Behind[int]]:
     with closing(Behind[int]()) as made:
+        yield made
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Iterator[RunDir]:
+    with RunDir.resume(fake_run(tmp_path / "run", lived=False, finished=False).root) as made:
         yield made
 
 
@@ -60,3 +70,28 @@ def test_nothing_is_written_after_what_could_not_be_and_that_is_told_once(writer
     writer.write(3, lambda: written.append(3), there.wait)
     writer.settle()
     assert written == [3]
+
+
+def test_an_hour_that_waits_for_its_pictures_is_read_with_its_day_and_written_before_the_evening(
+    run: RunDir, small_run: RunDir
+) -> None:
+    there = threading.Event()
+    first, *_ = hours = small_run.read_day(0)
+    run.write_hour(first)
+    for hour in hours[1:3]:
+        run.write_hour(hour, there.wait)
+    assert run.hours_done() == [(0, first.hour)]
+    assert run.read_day(0) == hours[:3]
+    threading.Timer(0.1, there.set).start()
+    run.write_evening(small_run.evenings()[0])
+    assert RunDir.open(run.root).read_day(0) == hours[:3]
+
+
+def test_pictures_that_fail_leave_the_day_without_an_evening(run: RunDir, small_run: RunDir) -> None:
+    def fails() -> None:
+        raise OSError(errno.ENOSPC, "no space")
+
+    run.write_hour(small_run.read_day(0)[0], fails)
+    with pytest.raises(OSError, match="no space"):
+        run.write_evening(small_run.evenings()[0])
+    assert (run.hours_done(), run.evenings()) == ([], [])

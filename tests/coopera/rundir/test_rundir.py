@@ -100,31 +100,6 @@ def test_an_hour_written_again_replaces_the_first(run: RunDir) -> None:
     assert [record.reason for record in run.read_day(0)] == ["again"]
 
 
-def test_an_hour_that_waits_for_its_pictures_is_read_with_its_day_and_written_before_the_evening(
-    run: RunDir, small_run: RunDir
-) -> None:
-    there = threading.Event()
-    first, *_ = hours = small_run.read_day(0)
-    run.write_hour(first)
-    for hour in hours[1:3]:
-        run.write_hour(hour, there.wait)
-    assert run.hours_done() == [(0, first.hour)]
-    assert run.read_day(0) == hours[:3]
-    threading.Timer(0.1, there.set).start()
-    run.write_evening(small_run.evenings()[0])
-    assert RunDir.open(run.root).read_day(0) == hours[:3]
-
-
-def test_pictures_that_fail_leave_the_day_without_an_evening(run: RunDir, small_run: RunDir) -> None:
-    def fails() -> None:
-        raise OSError(errno.ENOSPC, "no space")
-
-    run.write_hour(small_run.read_day(0)[0], fails)
-    with pytest.raises(OSError, match="no space"):
-        run.write_evening(small_run.evenings()[0])
-    assert (run.hours_done(), run.evenings()) == ([], [])
-
-
 def test_metrics_have_a_row_per_hour_and_measure(small_run: RunDir) -> None:
     rows = list(csv.DictReader((small_run.root / "metrics.csv").read_text().splitlines()))
     measures = measures_with_rows()
