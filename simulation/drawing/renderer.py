@@ -32,6 +32,8 @@ _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
 _SMALL = 400
 """In pictures of at most so many pixels a side the shadow's texels are about as large as they: fewer make its edge."""
+_FEW = 10_000
+"""Texels of the shadow map that are cast anew as soon as another rectangle of it is begun."""
 _GROUND = (1.0, 1.0, 1.0)
 
 
@@ -286,24 +288,26 @@ class Renderer:
 
     def _cast_moving(self, context: Any, stirred: list[tuple[Any, Any]] | None) -> None:
         """Cast the shadows of what moves anew, where something has."""
-        low, high = np.zeros(2, dtype=int), np.array(self._all.size)
+        whole = (0, 0, *self._all.size)
+        parts = [whole]
         if stirred is not None:
-            boxes = self._on_map(np.array([box[0] for box in stirred]), np.array([box[1] for box in stirred]))
-            low, high = np.maximum(boxes[0].min(axis=0), 0), np.minimum(boxes[1].max(axis=0), high)
-        if (low >= high).any():
-            return
-        self._all.use()
-        self._all.scissor = (*low.tolist(), *(high - low).tolist())
-        context.enable_only(context.DEPTH_TEST)
-        context.depth_func = "1"
-        self._still.depth_attachment.use(0)
-        render_picture(self._kit.copying)
-        context.depth_func = "<"
-        self._kit.shadow["lens"].write(_columns(self._sunlens))
+            low, high = self._on_map(np.array([box[0] for box in stirred]), np.array([box[1] for box in stirred]))
+            parts = apart(np.concatenate((low, high), axis=1).clip(whole[:2] * 2, whole[2:] * 2))
+        begin = end = np.zeros((0, 2), dtype=np.int64)
         if self._moving is not None and self._moving.pieces:
             begin, end = self._on_map(self._moving.low, self._moving.high)
-            near = (begin < high).all(axis=1) & (end > low).all(axis=1)
-            self._moving.draw(context, self._moving.cast, np.flatnonzero(near & self._moving.casts))
+        self._all.use()
+        for x0, y0, x1, y1 in parts:
+            self._all.scissor = (x0, y0, x1 - x0, y1 - y0)
+            context.enable_only(context.DEPTH_TEST)
+            context.depth_func = "1"
+            self._still.depth_attachment.use(0)
+            render_picture(self._kit.copying)
+            context.depth_func = "<"
+            self._kit.shadow["lens"].write(_columns(self._sunlens))
+            if self._moving is not None and len(begin):
+                near = (begin < (x1, y1)).all(axis=1) & (end > (x0, y0)).all(axis=1)
+                self._moving.draw(context, self._moving.cast, np.flatnonzero(near & self._moving.casts))
         self._all.scissor = None
 
     def _on_map(self, low: Array, high: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -368,6 +372,31 @@ class Renderer:
         if found.depth.size:
             depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
             found.depth[part] = metres_of(depth, reach)
+
+
+def apart(boxes: NDArray[np.int64]) -> list[tuple[int, int, int, int]]:
+    """Rectangles that cover some others, as few and small as serves: to cast shadows in one more costs a little, too.
+
+    Args:
+        boxes: Shape (n, 4), texels: x0, y0, x1, y1. Those without any are left out.
+    """
+    found: list[tuple[int, int, int, int]] = []
+    left = [(x0, y0, x1, y1) for x0, y0, x1, y1 in boxes.tolist() if x0 < x1 and y0 < y1]
+    while left:
+        one = left.pop()
+        for other in found:
+            both = (*map(min, one[:2], other[:2]), *map(max, one[2:], other[2:]))
+            if _texels(both) <= _texels(one) + _texels(other) + _FEW:
+                found.remove(other)
+                left.append(both)
+                break
+        else:
+            found.append(one)
+    return found
+
+
+def _texels(box: tuple[int, ...]) -> int:
+    return (box[2] - box[0]) * (box[3] - box[1])
 
 
 _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0, 0, 1.0)))
