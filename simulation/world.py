@@ -353,7 +353,10 @@ class World:
 
     def inhabit(self, agent: AgentId, person: Persona) -> None:
         """Draw a person of the home as somebody from now on; nothing but pictures changes."""
-        self.looks[agent] = appearance_of(person.profile, person.id, person.appearance)
+        looks = appearance_of(person.profile, person.id, person.appearance)
+        if self.looks.get(agent) != looks:
+            self.looks[agent] = looks
+            self._films.inhabited()
 
     def snapshot(self) -> dict[str, Any]:
         """The whole state as plain JSON data of a few kB; a recording is not part of it."""

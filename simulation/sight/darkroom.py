@@ -10,13 +10,17 @@ from multiprocessing.connection import Connection
 from queue import SimpleQueue
 from threading import Thread
 
+import scipy.interpolate  # noqa: F401 - people are made with it: a fork is to have it already
+from PIL import Image
+
 from coopera.core.errors import CooperaError
 from coopera.core.household import AgentId
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.skin import skinned
 from coopera.simulation.sight.recording import Filming
-from coopera.simulation.sight.studio import Closed, Filmed, Opened, cores
+from coopera.simulation.sight.studio import Closed, Filmed, Inhabited, Opened, cores
 from coopera.simulation.sight.watching import Watcher
 from coopera.simulation.ways.navigation import Navigator
 
@@ -31,6 +35,7 @@ def serve(pipes: list[int]) -> None:
     """
     gc.set_threshold(_NEW_OBJECTS)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks for pictures says when it is over
+    Image.init()
     mine, *others = pipes
     for pipe in others:
         if os.fork() == 0:
@@ -55,7 +60,7 @@ class _Darkroom:
     def __init__(self, asked: Connection) -> None:
         self._asked = asked
         self._homes: dict[int, tuple[Watcher, dict[AgentId, Appearance]]] = {}
-        self._waiting: SimpleQueue[Opened | Filmed | Closed | None] = SimpleQueue()
+        self._waiting: SimpleQueue[Opened | Inhabited | Filmed | Closed | None] = SimpleQueue()
         self._left: set[int] = set()
         """Homes of which no more pictures are taken."""
         self._over = False
@@ -66,6 +71,8 @@ class _Darkroom:
         while (message := self._waiting.get()) is not None and not self._over:
             if isinstance(message, Opened):
                 self._open(message)
+            elif isinstance(message, Inhabited):
+                self._get_ready(message)
             elif isinstance(message, Filmed):
                 self._answer(message.number, "" if message.home in self._left else self._film(message))
             else:
@@ -93,6 +100,12 @@ class _Darkroom:
         with suppress(CooperaError):  # who asks for pictures is told
             _ = watcher.drawn
         gc.freeze()  # what stays as long as the home does is not looked through again for garbage
+
+    def _get_ready(self, message: Inhabited) -> None:
+        """Make the people of a home as they are dressed by day: they will soon be wanted."""
+        for looks in message.looks.values():
+            with suppress(CooperaError):  # who asks for pictures is told
+                skinned(looks, "day")
 
     def _film(self, act: Filmed) -> str | None:
         """What is wrong with the pictures of an act; None where they are there."""

@@ -60,6 +60,13 @@ class Opened(NamedTuple):
     renderer: Renderer
 
 
+class Inhabited(NamedTuple):
+    """Who lives in a home from now on; they will be wanted in pictures."""
+
+    home: int
+    looks: dict[AgentId, Appearance]
+
+
 class Filmed(NamedTuple):
     """An act of which pictures are to be taken: all that it is filmed from."""
 
@@ -90,7 +97,7 @@ class Studio:
         """Have the processes get ready; `looks` says how people look, and may change."""
         self._home, self._looks = next(_numbers), looks
         self._processes = _started(self._home)
-        self._processes.open(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
+        self._processes.tell(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
 
     def take(self, recording: Recording, order: Order) -> Future[None]:
         """Have the pictures of a recording taken; see `Watcher.take`.
@@ -100,6 +107,10 @@ class Studio:
         told = recording.state, recording.before, recording.steps, recording.robot, recording.person, recording.actor
         looks, pictures = dict(self._looks), order.moments * len(order.stems)
         return self._processes.film(lambda number: Filmed(self._home, number, *told, looks, order), pictures)
+
+    def inhabited(self) -> None:
+        """Have people got ready as they look now."""
+        self._processes.tell(Inhabited(self._home, dict(self._looks)))
 
     def close(self) -> None:
         """Leave what is not begun, and wait for what is; a second time does nothing."""
@@ -113,10 +124,18 @@ class Films:
     def __init__(
         self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance], watcher: Callable[[], Watcher]
     ) -> None:
-        """Begin with none; `watcher` is what takes pictures in this process, for the others see `Studio`."""
+        """Begin with none; `watcher` is what takes pictures in this process, for the others see `Studio`.
+
+        Where others are `ready`, they are told of the home at once.
+        """
         self._ground, self._renderer, self._looks, self._watcher = ground, renderer, looks, watcher
-        self._studio: Studio | None = None
+        self._studio = Studio(ground, renderer, looks) if _are_ready() and possible(renderer) else None
         self._films: dict[Future[None], None] = {}
+
+    def inhabited(self) -> None:
+        """Have people got ready as they look now, where others take pictures."""
+        if self._studio is not None:
+            self._studio.inhabited()
 
     def take(self, recording: Recording, order: Order, *, wait: bool) -> None:
         """Have the pictures of a recording taken: now, or while the home goes on, where that can be.
@@ -180,10 +199,10 @@ class _Processes:
         """Whether no more can be asked of them."""
         return any(pipe.ended for pipe in self._pipes)
 
-    def open(self, home: Opened) -> None:
-        """Have all get a home ready."""
+    def tell(self, message: Opened | Inhabited) -> None:
+        """Have all get something ready."""
         for pipe in self._pipes:
-            pipe.send(home)
+            pipe.send(message)
 
     def film(self, message: Callable[[int], Filmed], pictures: int) -> Future[None]:
         """Have the one film an act that has the fewest pictures to take."""
@@ -249,7 +268,7 @@ class _Pipe:
             self._give_up()
         return awaited
 
-    def send(self, message: Opened | Filmed | Closed | None) -> None:
+    def send(self, message: Opened | Inhabited | Filmed | Closed | None) -> None:
         """Send something; whether it arrives is told by the answer."""
         with self._sending:
             try:
@@ -312,14 +331,19 @@ def ready(renderer: Renderer) -> Iterator[None]:
         yield
     finally:
         with _one_at_a_time:
-            if _processes and not _processes[0].ended:
+            if _are_ready():
                 _processes[0].end_if_idle()
+
+
+def _are_ready() -> bool:
+    """Whether there are processes that take pictures."""
+    return bool(_processes) and not _processes[0].ended
 
 
 def _started(home: int | None = None) -> _Processes:
     """The processes of this one that take pictures, begun where there are none; a home keeps them from ending."""
     with _one_at_a_time:
-        if not _processes or _processes[0].ended:
+        if not _are_ready():
             _processes[:] = [_Processes()]
         if home is not None:
             _processes[0].homes.add(home)
