@@ -63,9 +63,7 @@ def test_hostile_collada_is_refused_before_pycollada_reads_it(tmp_path: Path, ol
 
 
 def test_corners_count_at_each_node_that_shows_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    each = (
-        5 + 1 + 6 + 7 + 3
-    )  # threes of numbers of two sources, and the corners of triangles, of a polylist, and of a polygon
+    each = (15 + 4) // 3 + 6 + 7 + 3  # numbers by threes, and corners of triangles, of a polylist and of a polygon
     monkeypatch.setattr(collada, "MOST_CORNERS", 2 * each - 1)
     with pytest.raises(ConfigError, match=f"or {2 * each - 1} corners"):
         read_solid(dae(tmp_path))
