@@ -5,10 +5,14 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import select
 import socket
-from collections.abc import Callable, Iterable
+import subprocess
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 
 def prober() -> Callable[..., str | None]:
@@ -36,6 +40,44 @@ def prober() -> Callable[..., str | None]:
         return found
 
     return damage
+
+
+class Photographer:
+    """A stand-in for `subprocess.Popen` where `coopera.simulation.sight.studio` calls it, once: it gives a fork.
+
+    That is made now, while there are no threads, and need not import anything anew.
+    """
+
+    def __init__(self) -> None:
+        """Fork the process; it waits for its pipes."""
+        from coopera.simulation.sight.darkroom import serve  # noqa: PLC0415 - heavy
+
+        ours, theirs = socket.socketpair()
+        self.pid = os.fork()
+        if self.pid == 0:
+            ours.close()
+            os.setpgid(0, 0)
+            _, pipes, _, _ = socket.recv_fds(theirs, 1, 8)
+            with suppress(BaseException):
+                serve(pipes) if pipes else None
+            os._exit(0)
+        theirs.close()
+        self._talk = ours
+
+    def __call__(self, given: Sequence[str], *, pass_fds: Sequence[int], **options: Any) -> Photographer:
+        """Give the process its pipes."""
+        socket.send_fds(self._talk, [b" "], pass_fds)
+        return self
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Its exit code, once it has ended."""
+        handle = os.pidfd_open(self.pid)
+        try:
+            if not select.select([handle], [], [], timeout)[0]:
+                raise subprocess.TimeoutExpired("pictures", timeout or 0.0)
+        finally:
+            os.close(handle)
+        return os.waitstatus_to_exitcode(os.waitpid(self.pid, 0)[1])
 
 
 def _in_a_fork(look: Callable[[], str | None]) -> str | None:

@@ -30,9 +30,10 @@ import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
-from benchmarks.forks import import_all, prober, redirect
+from benchmarks.forks import Photographer, import_all, prober, redirect
 from benchmarks.run_contents import Contents, contents, differences
 from coopera.core.errors import CooperaError
 
@@ -44,7 +45,8 @@ _STATE = struct.Struct("4q")
 class Trial(NamedTuple):
     """What came of one refused write: `wrong` is empty where all went as it should.
 
-    `which`: its kind, and the how-manieth of that kind it was; the same in each run, unlike `place` and `name`.
+    `which`: its kind, and the how-manieth of that kind it was in the undisturbed run; the same in each, unlike `place`.
+    `name`: what was refused in truth, which may be its neighbour where several processes write at once.
     """
 
     place: int
@@ -138,11 +140,11 @@ class Survey:
         self._clean()
         self.disk.arm(place, mode)
         code, said = self._start()
-        refused = self.disk.refused
+        refused, name = self.disk.refused, self.disk.name(place)
         self.disk.arm(0, "once")
         last = said.strip().rpartition("\n")[2]
         which, wrong = self.which[place - 1], self._judge(code, said, refused)
-        return Trial(place, self.names[place - 1], which, mode, code, last, wrong)
+        return Trial(place, name, which, mode, code, last, wrong)
 
     def sample(self, each: int) -> list[int]:
         """Numbers of writes: of those with the same call to the same kind of file, the first and each `each`-th.
@@ -223,9 +225,11 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
     from coopera.cli import main  # noqa: PLC0415 - heavy
     from coopera.memory import rebuild, store  # noqa: PLC0415
     from coopera.memory.embeddings import bundled  # noqa: PLC0415
+    from coopera.simulation.sight import studio  # noqa: PLC0415
 
     code, base = 70, disk.base
     rebuild.damage = store.damage = prober()  # type: ignore[attr-defined]
+    studio.subprocess = SimpleNamespace(**vars(subprocess) | {"Popen": Photographer()})  # type: ignore[assignment]
     try:
         code = main(args)
         atexit._run_exitfuncs()

@@ -3,7 +3,7 @@
 A module for each kind of file names its readers in `READERS`; `kit` says what a reader is, `mutations` changes bytes.
 """
 
-from benchmarks.fuzzing import bodies, homes, models, people, runs, shapes, studies
+from benchmarks.fuzzing import bodies, homes, imports, models, people, runs, shapes, studies
 from benchmarks.fuzzing.kit import Reader
 
 READERS: dict[str, Reader] = {
@@ -12,6 +12,7 @@ READERS: dict[str, Reader] = {
     **homes.READERS,
     **bodies.READERS,
     **shapes.READERS,
+    **imports.READERS,
     **models.READERS,
     **runs.READERS,
 }

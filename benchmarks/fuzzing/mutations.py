@@ -1,4 +1,4 @@
-"""Change bytes at random, as chance, a broken disk or a bad will might: anywhere, or in the values of JSON and YAML."""
+"""Change bytes at random, as chance, a broken disk or a bad will might: anywhere, or in JSON, YAML and XML as such."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Callable, Sequence
 from random import Random
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import yaml
@@ -98,6 +99,41 @@ def in_json(rng: Random, data: bytes) -> bytes:
     if rng.random() < 0.3:
         return anywhere(rng, data)
     return json.dumps(_other(rng, json.loads(data))).encode()
+
+
+def in_xml(rng: Random, data: bytes) -> bytes:
+    """Some elements of an XML text lost, doubled or moved, or their texts and attributes changed for odd ones."""
+    if rng.random() < 0.3:
+        return anywhere(rng, data)
+    root = ElementTree.fromstring(data)
+    for _ in range(rng.choice((1, 1, 2, 3))):
+        every = [(one, inner) for one in root.iter() for inner in one]
+        if every:
+            _change_element(rng, *rng.choice(every), rng.choice(every)[1])
+    return ElementTree.tostring(root)
+
+
+def _change_element(
+    rng: Random, parent: ElementTree.Element, one: ElementTree.Element, other: ElementTree.Element
+) -> None:
+    odd = rng.choice([str(value)[:5000] for value in ODD if value != "\0"])
+    match rng.randrange(7):
+        case 0:
+            parent.remove(one)
+        case 1:
+            parent.extend([one] * rng.choice((1, 1, 2, 50)))
+        case 2 if one not in other.iter() and other not in one.iter():
+            other.append(one)
+        case 3 if one.attrib:
+            one.set(rng.choice(list(one.attrib)), rng.choice((odd, *other.attrib.values())))
+        case 4 if one.attrib:
+            del one.attrib[rng.choice(list(one.attrib))]
+        case 5:
+            one.text = rng.choice((odd, other.text))
+        case _:
+            words = (one.text or "").split() or [""]
+            words[rng.randrange(len(words))] = odd
+            one.text = " ".join(words)
 
 
 def in_lines(rng: Random, data: bytes) -> bytes:

@@ -16,7 +16,8 @@ from xml.etree import ElementTree
 import numpy as np
 
 from coopera.core.errors import ConfigError
-from coopera.core.foreign.files import exists, read_text
+from coopera.core.foreign.files import exists
+from coopera.core.foreign.xml_files import read_xml
 from coopera.core.registry import nearest
 from coopera.simulation.shapes.rotations import Array, about_x, about_y, about_z
 
@@ -159,12 +160,7 @@ def read_urdf(path: Path) -> Urdf:
     Raises:
         ConfigError: If it cannot be used; names the file, and the joint, link or mesh.
     """
-    text = read_text(path, "URDF", MOST_BYTES)
-    try:
-        root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as err:
-        raise ConfigError(f"{path}, line {err.position[0]}: this is not valid XML.") from err
-    _check_depth(path, root)
+    root = read_xml(path, "URDF", MOST_BYTES, DEEPEST)
     if root.tag != "robot":
         kind = _OTHERS.get(root.tag)
         said = f"this is {kind}; only URDF is read" if kind else f"a URDF begins with <robot>, not <{root.tag}>"
@@ -209,14 +205,6 @@ def known(of: str, name: str, names: Sequence[str] | frozenset[str]) -> str:
     """The end of a sentence about a name that a description does not have."""
     hint = nearest(name, sorted(names)).strip()
     return f"the URDF has no {of} {name!r}" + (f" ({hint})" if hint else "")
-
-
-def _check_depth(path: Path, root: Element) -> None:
-    level = [root]
-    for _ in range(DEEPEST):
-        level = [inner for one in level for inner in one]
-    if level:
-        raise ConfigError(f"{path}: its elements lie more than {DEEPEST} deep within each other.")
 
 
 def _refuse_twice(path: Path, what: str, names: Sequence[str]) -> None:

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import io
+import re
 from functools import lru_cache
-from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from coopera.core.errors import ConfigError
 from coopera.core.foreign.files import read_limited, read_text
+from coopera.simulation.drawing.collada import read_collada
 from coopera.simulation.drawing.geometry import Faces, Floats, Solid, flat_uv
+from coopera.simulation.homes.glb import FARTHEST
 
+MOST_BYTES = 64 * 2**20
+MOST = 1_000_000
+"""No file has more places, normals or triangles."""
+_LONGEST = 65_536  # characters of a line of an OBJ
+_VERTEX = re.compile(r"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
 _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("extra", "<u2")])
 
 
@@ -22,27 +28,34 @@ def read_solid(path: Path) -> Solid:
     """The shape in a file.
 
     Raises:
-        ConfigError: If it cannot be read, or is of another kind.
+        ConfigError: If it cannot be read, is too large, or of another kind.
     """
     readers = {".obj": _obj, ".stl": _stl, ".dae": _dae}
     if path.suffix.lower() not in readers:
         raise ConfigError(f"{path}: the renderer gl reads meshes as .obj, .stl or .dae.")
     try:
-        return readers[path.suffix.lower()](path)
+        solid = readers[path.suffix.lower()](path)
     except (OSError, ValueError, IndexError) as err:
         raise ConfigError(f"{path}: this mesh cannot be read: {err}.") from err
+    if not (np.abs(solid.at) < FARTHEST).all():
+        raise ConfigError(f"{path}: the mesh is out of all bounds, or has a number that is none.")
+    return solid
 
 
 def _stl(path: Path) -> Solid:
-    data = read_limited(path, what="mesh")
+    data = read_limited(path, MOST_BYTES, "mesh")
     count = int.from_bytes(data[80:84], "little")
-    if len(data) == 84 + count * _STL.itemsize:
-        corners = np.frombuffer(data, _STL, count, 84)["corners"]
-    else:
-        words = data.decode("ascii", "strict").split()
-        rows = [words[i + 1 : i + 4] for i, word in enumerate(words) if word == "vertex"]
-        corners = np.array(rows, dtype=np.float32).reshape(-1, 3, 3)
-    return _faceted(corners)
+    binary = len(data) == 84 + count * _STL.itemsize
+    _check_count(count if binary else data.count(b"vertex") // 3)
+    if binary:
+        return _faceted(np.frombuffer(data, _STL, count, 84)["corners"])
+    numbers = (float(word) for found in _VERTEX.finditer(data.decode("ascii")) for word in found.groups())
+    return _faceted(np.fromiter(numbers, np.float32).reshape(-1, 3, 3))
+
+
+def _check_count(*counts: int) -> None:
+    if max(counts) > MOST:
+        raise ValueError(f"it has more than {MOST} places, normals or triangles")
 
 
 def _faceted(corners: Floats) -> Solid:
@@ -56,15 +69,7 @@ def _faceted(corners: Floats) -> Solid:
 
 
 def _dae(path: Path) -> Solid:
-    if find_spec("collada") is None:
-        raise ConfigError(f"{path}: a mesh of this kind needs pycollada (pip install pycollada).")
-    import trimesh  # noqa: PLC0415 - heavy
-
-    data = read_limited(path, what="mesh")
-    try:
-        mesh: Any = trimesh.load(io.BytesIO(data), file_type="dae", force="mesh")
-    except Exception as err:  # whatever is wrong in it comes as an error of its own kind
-        raise ValueError(" ".join(str(err).split())[:200] or type(err).__name__) from err
+    mesh = read_collada(path)
     at, normal = mesh.vertices.astype(np.float32), mesh.vertex_normals.astype(np.float32)
     return Solid(at, normal, flat_uv(at, normal, 0), mesh.faces.astype(np.uint32))
 
@@ -73,7 +78,10 @@ def _obj(path: Path) -> Solid:
     points: list[list[float]] = []
     normals: list[list[float]] = []
     corners: list[tuple[int, int]] = []
-    for line in read_text(path, "mesh").splitlines():
+    for line in io.StringIO(read_text(path, "mesh", MOST_BYTES), newline=None):
+        _check_count(len(points), len(normals), len(corners) // 3)
+        if len(line) > _LONGEST:
+            raise ValueError(f"a line has more than {_LONGEST} characters")
         kind, _, rest = line.partition(" ")
         if kind == "v":
             points.append([float(word) for word in rest.split()[:3]])
@@ -83,6 +91,7 @@ def _obj(path: Path) -> Solid:
             face = [_corner(word, len(points), len(normals)) for word in rest.split()]
             for i in range(1, len(face) - 1):
                 corners += [face[0], face[i], face[i + 1]]
+    _check_count(len(points), len(normals), len(corners) // 3)
     at = np.array(points, dtype=np.float32).reshape(-1, 3)
     try:
         pairs = np.array(corners, dtype=np.int64).reshape(-1, 2)

@@ -16,7 +16,7 @@ from coopera.memory.store import Store
 from tests.memory.fakes import Letters
 
 Break = Callable[[Path], None]
-TELLS = "the memory is damaged: .*`coopera memory repair` rebuilds it"
+TELLS = "damaged: .*`coopera memory repair` rebuilds it from its texts, if .* whole, and `coopera doctor --repair` from"
 
 
 def text(number: int) -> str:

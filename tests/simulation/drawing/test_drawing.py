@@ -13,7 +13,6 @@ from coopera.core.errors import ConfigError
 from coopera.simulation import PersonAgent, RobotAgent, World
 from coopera.simulation.drawing import context
 from coopera.simulation.drawing.context import chosen, problem
-from coopera.simulation.drawing.files import read_solid
 from coopera.simulation.drawing.lens import Camera
 from coopera.simulation.drawing.view import NOTHING
 from coopera.simulation.people.appearance import Appearance
@@ -194,15 +193,3 @@ def test_a_machine_without_mesa_gives_a_sentence(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env=env)
     assert done.stdout.count("\n") == 1
     assert done.stdout == "\n" or "libegl1" in done.stdout or "moderngl" in done.stdout
-
-
-def test_a_collada_mesh_is_read_and_one_that_is_none_is_refused(tmp_path: Path) -> None:
-    pytest.importorskip("collada")
-    trimesh = pytest.importorskip("trimesh")
-    (tmp_path / "box.dae").write_bytes(trimesh.exchange.dae.export_collada(trimesh.creation.box((0.2, 0.4, 0.6))))
-    solid = read_solid(tmp_path / "box.dae")
-    assert np.allclose(np.ptp(solid.at, axis=0), (0.2, 0.4, 0.6))
-    assert len(solid.faces) == 12
-    (tmp_path / "none.dae").write_text("<COLLADA>")
-    with pytest.raises(ConfigError, match=r"none.dae: this mesh cannot be read"):
-        read_solid(tmp_path / "none.dae")
