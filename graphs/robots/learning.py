@@ -248,7 +248,7 @@ class Learner:
 
     def _weigh(self, examples: Sequence[Example], days: Sequence[int]) -> None:
         """Have each example, just read, count what its day still counts for its person."""
-        told: dict[PersonId, dict[int, frozenset[str]]] = {}
+        told: dict[PersonId, dict[int, tuple[str, ...]]] = {}
         for day in days:
             person, hours = _read_told(self.recorder.adapters_folder(day) / TOLD)
             told.setdefault(person, {}).update(hours)
@@ -290,15 +290,14 @@ def _write_told(path: Path, account: DayAccount) -> None:
         (Clock(day=account.day, hour=hour.hour).now, [use for act in hour.tasks if (use := use_of(act.describe()))])
         for hour in account.hours
     ]
-    things = {now: sorted(used) for now, used in things_of(hours)}
-    _save(path, [json.dumps({"person": account.person, "things": things})])
+    _save(path, [json.dumps({"person": account.person, "things": dict(things_of(hours))})])
 
 
-def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
+def _read_told(path: Path) -> tuple[PersonId, dict[int, tuple[str, ...]]]:
     try:
         said = json.loads(path.read_text(encoding="utf-8"))
         return said["person"], {
-            int(now): frozenset(sys.intern(str(thing)) for thing in used) for now, used in said["things"].items()
+            int(now): tuple(sorted({sys.intern(str(thing)) for thing in used})) for now, used in said["things"].items()
         }
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as err:
         raise RunError(f"{path}: what was told on this day cannot be read: {err}") from err
@@ -359,4 +358,6 @@ def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
         parts[name] = shared.setdefault(parts[name], parts[name])
     for name in ("intentions", "tasks"):
         parts[name] = shared.setdefault(tuple(parts[name]), parts[name])
+    given = read.__pydantic_fields_set__  # a third of what an example takes
+    object.__setattr__(read, "__pydantic_fields_set__", shared.setdefault(frozenset(given), given))
     return read
