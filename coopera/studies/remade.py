@@ -15,7 +15,7 @@ from langchain_core.embeddings import Embeddings
 from coopera.core.hour import DayPlan, HourRecord
 from coopera.evaluation import find_method
 from coopera.graphs.recorded import told
-from coopera.graphs.robots.learning import account_of
+from coopera.graphs.robots.learning import KEPT, KEPT_PLAIN, account_of, unpack_kept
 from coopera.rundir.directory import RunDir
 from coopera.rundir.earlier_life import open_earlier_life
 from coopera.simulation import World
@@ -57,6 +57,9 @@ def learn_again(run: RunDir, plans: Sequence[DayPlan], wrong: Collection[str], e
                 account = account_of(plan, hours, evening.feedback, evening.belief)
                 pupil.learn(plan.day, [one.day for one in before], account)
             before.append(plan)
+        for file in wrong:
+            if file.endswith(f"/{KEPT_PLAIN}") and (apart.root / file).with_name(KEPT).is_file():
+                unpack_kept((apart.root / file).parent)
         return _taken(apart.root, run.root, wrong)
 
 

@@ -5,9 +5,14 @@ from __future__ import annotations
 import json
 import logging
 import os
+import shutil
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from gzip import GzipFile
+from io import TextIOWrapper
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -34,7 +39,9 @@ from coopera.graphs.robots.turns import still_counts, things_of
 __all__ = ["EXAMPLES", "KEPT", "KINDS", "Known", "Learner", "Mode", "example", "labelled", "account_of"]
 
 KINDS: tuple[CandidateKind, CandidateKind] = ("intention", "task")
-EXAMPLES, KEPT, TOLD = "examples.jsonl", "kept.jsonl", "told.json"
+EXAMPLES, KEPT, TOLD = "examples.jsonl", "kept.jsonl.gz", "told.json"
+KEPT_PLAIN = "kept.jsonl"
+"""The same in runs of earlier versions, which did not pack it."""
 Mode: TypeAlias = Literal["warm", "fresh"]
 _LOG = logging.getLogger(__name__)
 
@@ -230,7 +237,7 @@ class Learner:
         """The earlier examples to learn from again: all of them, or those that were kept."""
         if self.mode == "warm" and earlier:
             try:
-                return _read(self._folder(earlier[-1], kind) / KEPT)
+                return _read(_kept_file(self._folder(earlier[-1], kind)))
             except RunError as err:
                 _LOG.warning("%s; they are chosen again", err)
         every: list[Example] = []
@@ -241,7 +248,7 @@ class Learner:
 
     def _weigh(self, examples: Sequence[Example], days: Sequence[int]) -> None:
         """Have each example, just read, count what its day still counts for its person."""
-        told: dict[PersonId, dict[int, frozenset[str]]] = {}
+        told: dict[PersonId, dict[int, tuple[str, ...]]] = {}
         for day in days:
             person, hours = _read_told(self.recorder.adapters_folder(day) / TOLD)
             told.setdefault(person, {}).update(hours)
@@ -283,15 +290,14 @@ def _write_told(path: Path, account: DayAccount) -> None:
         (Clock(day=account.day, hour=hour.hour).now, [use for act in hour.tasks if (use := use_of(act.describe()))])
         for hour in account.hours
     ]
-    things = {now: sorted(used) for now, used in things_of(hours)}
-    _save(path, [json.dumps({"person": account.person, "things": things})])
+    _save(path, [json.dumps({"person": account.person, "things": dict(things_of(hours))})])
 
 
-def _read_told(path: Path) -> tuple[PersonId, dict[int, frozenset[str]]]:
+def _read_told(path: Path) -> tuple[PersonId, dict[int, tuple[str, ...]]]:
     try:
         said = json.loads(path.read_text(encoding="utf-8"))
         return said["person"], {
-            int(now): frozenset(sys.intern(str(thing)) for thing in used) for now, used in said["things"].items()
+            int(now): tuple(sorted({sys.intern(str(thing)) for thing in used})) for now, used in said["things"].items()
         }
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as err:
         raise RunError(f"{path}: what was told on this day cannot be read: {err}") from err
@@ -305,7 +311,7 @@ def _save(path: Path, lines: Iterable[str]) -> None:
     part = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with part.open("w", encoding="utf-8") as file:
+        with _packed(part, "wb") if path.name == KEPT else part.open("w", encoding="utf-8") as file:
             file.writelines(lines)
         os.replace(part, path)
     except OSError as err:
@@ -315,10 +321,34 @@ def _save(path: Path, lines: Iterable[str]) -> None:
 def _read(path: Path) -> list[Example]:
     try:
         shared: dict[Any, Any] = {}
-        with path.open(encoding="utf-8", newline="\n") as lines:  # a text may hold other ends of lines
+        packed = path.name == KEPT
+        with _packed(path, "rb") if packed else path.open(encoding="utf-8", newline="\n") as lines:
             return [_sharing(Example.model_validate_json(line), shared) for line in lines]
-    except (OSError, ValueError) as err:
+    except (OSError, EOFError, zlib.error, ValueError) as err:
         raise RunError(f"{path}: the training examples of this day cannot be read: {err}") from err
+
+
+@contextmanager
+def _packed(path: Path, mode: Literal["rb", "wb"]) -> Iterator[TextIOWrapper]:
+    """Open a gzip file of lines; what is written depends on the lines alone, not on the time."""
+    with (
+        path.open(mode) as file,
+        GzipFile("", mode, 6, file, mtime=0) as bare,
+        TextIOWrapper(bare, encoding="utf-8", newline="\n") as text,  # a text may hold other ends of lines
+    ):
+        yield text
+
+
+def _kept_file(folder: Path) -> Path:
+    """The file of the examples kept; in a run of an earlier version it may be a plain one."""
+    plain = folder / KEPT_PLAIN
+    return plain if plain.is_file() and not (folder / KEPT).is_file() else folder / KEPT
+
+
+def unpack_kept(folder: Path) -> None:
+    """Write the examples kept as earlier versions did, for a run of one that has lost them."""
+    with _packed(folder / KEPT, "rb") as lines, (folder / KEPT_PLAIN).open("w", encoding="utf-8", newline="\n") as file:
+        shutil.copyfileobj(lines, file)
 
 
 def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
@@ -328,4 +358,6 @@ def _sharing(read: Example, shared: dict[Any, Any]) -> Example:
         parts[name] = shared.setdefault(parts[name], parts[name])
     for name in ("intentions", "tasks"):
         parts[name] = shared.setdefault(tuple(parts[name]), parts[name])
+    given = read.__pydantic_fields_set__  # a third of what an example takes
+    object.__setattr__(read, "__pydantic_fields_set__", shared.setdefault(frozenset(given), given))
     return read

@@ -32,6 +32,8 @@ _FADING = 0.7  # a recalled text counts so much of the one before it
 class Batch:
     """n examples over a table of the vectors of all their texts. An index of -1 points at no text."""
 
+    texts: Sequence[str]
+    """Length u, each once."""
     vectors: Floats
     """(u, d), unit norm."""
     candidate: Ints
@@ -54,12 +56,19 @@ class Batch:
 
     def take(self, rows: npt.NDArray[np.int64]) -> Batch:
         """Return some of the examples over the same table."""
-        columns = {name: column[rows] for name, column in self.arrays().items() if name != "vectors"}
-        return replace(self, **columns)
+        return replace(self, **{name: column[rows] for name, column in self.columns().items()})
 
-    def arrays(self) -> dict[str, npt.NDArray[Any]]:
-        """Return the fields by name."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+    def columns(self) -> dict[str, Any]:
+        """Return what there is of each example, by name."""
+        return {name: getattr(self, name) for name in COLUMNS}
+
+
+COLUMNS = tuple(field.name for field in fields(Batch) if field.name not in ("texts", "vectors"))
+
+
+def table_of(texts: Sequence[str], embeddings: Embeddings) -> Floats:
+    """Return the vectors of texts, shape (u, d)."""
+    return as_array(embeddings, texts).astype(np.float64)
 
 
 def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
@@ -80,8 +89,10 @@ def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
     intentions = column([tuple(e.intentions) for e in examples], list, _INTENTIONS)
     tasks = column([tuple(e.tasks) for e in examples], list, _TASKS)
     traits = [[getattr(e.big_five, trait) if e.big_five else 3.0 for trait in TRAITS] for e in examples]
+    texts = list(table)
     return Batch(
-        vectors=as_array(embeddings, list(table)).astype(np.float64),
+        texts=texts,
+        vectors=table_of(texts, embeddings),
         candidate=candidate,
         intention=intention,
         profile=profile,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import io
+import json
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from coopera.core.lazy import made_once
 from coopera.memory.embeddings import as_array
 from coopera.models.classifiers.blend import Blend, blend, read_blend
 from coopera.models.classifiers.calibration import Scale, scale
-from coopera.models.classifiers.features import Batch, Floats, Points, Similarity, centre_of, read
+from coopera.models.classifiers.features import COLUMNS, Batch, Floats, Points, Similarity, centre_of, read, table_of
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from coopera.models.classifiers.text import Inputs, Lesson, lesson
 
@@ -41,7 +42,7 @@ class _Fitted:
     """What was learned: score(x) = similarity(x, landmarks) @ weights."""
 
     landmarks: dict[str, npt.NDArray[Any]]
-    """As saved: a `Batch` whose vectors are float32, which is exact, since they came so."""
+    """As saved: the columns of a `Batch` and its texts. Versions before saved the vectors, a hundred times as much."""
     similarity: Similarity
     points: Points
     weights: Floats
@@ -134,7 +135,7 @@ class KernelClassifier:
         }
         solution = solve_triangular(lower, weights, lower=True, trans="T")
         chosen = chosen.within((features @ weights)[asked])
-        kept = {**landmarks.arrays(), "vectors": landmarks.vectors.astype(np.float32)}
+        kept = {**landmarks.columns(), "texts": np.frombuffer(json.dumps(landmarks.texts).encode(), np.uint8)}
         return _Fitted(kept, similarity, standing, solution, chosen, mixed), measured
 
     def _similarity(self, centre: Floats) -> Similarity:
@@ -182,17 +183,21 @@ class KernelClassifier:
     def _read_arrays(self, path: Path, chosen: Scale, mixed: Blend | None) -> _Fitted:
         try:
             with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
-                columns = {field.name: arrays[field.name] for field in fields(Batch)}
-                columns["vectors"] = columns["vectors"].astype(np.float32)
+                table = "texts" if "texts" in arrays else "vectors"
+                kept = {name: arrays[name] for name in (*COLUMNS, table)}
                 centre, weights = arrays["centre"], arrays["weights"]
+            texts = json.loads(kept[table].tobytes()) if table == "texts" else []
         except (OSError, KeyError, ValueError, EOFError, zipfile.BadZipFile) as err:
             raise CooperaError(f"{path}: the classifier is damaged ({err})") from err
-        rows = {len(column) for name, column in columns.items() if name != "vectors"}
-        if rows != {len(weights)} or centre.shape != (2, columns["vectors"].shape[1]):
+        if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
+            raise CooperaError(f"{path}: the classifier is damaged (its texts are none)")
+        columns = {name: kept[name] for name in COLUMNS}
+        vectors = table_of(texts, self._embeddings) if table == "texts" else kept[table].astype(np.float64)
+        if {len(column) for column in columns.values()} != {len(weights)} or centre.shape != (2, vectors.shape[1]):
             raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
         similarity = self._similarity(centre)
-        points = similarity.points(Batch(**{**columns, "vectors": columns["vectors"].astype(np.float64)}))
-        return _Fitted(columns, similarity, points, weights, chosen, mixed)
+        points = similarity.points(Batch(texts=texts, vectors=vectors, **columns))
+        return _Fitted(kept, similarity, points, weights, chosen, mixed)
 
     def _identity(self) -> dict[str, Any]:
         return {"classifier": "kernel", "kind": self._kind, "version": VERSION, "inputs": self._inputs.names}

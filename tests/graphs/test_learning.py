@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gzip
 import itertools
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from coopera.core.errors import CooperaError, LearningError, RunError
 from coopera.core.hour import DayAccount, Example, FeedbackItem, HourAccount, IntentionCandidate, Observation, RobotHour
 from coopera.core.people import Belief, PersonId
-from coopera.graphs.robots.learning import KINDS, Learner, Mode, labelled
+from coopera.graphs.robots.learning import KEPT, KEPT_PLAIN, KINDS, Learner, Mode, labelled, unpack_kept
 from coopera.graphs.robots.rehearsal import keep
 from tests.fakes import FolderRecorder, TableClassifier
 
@@ -158,7 +159,7 @@ def test_a_damaged_classifier_is_noticed_and_trained_again_with_the_same_result(
     before = saved.read_bytes()
     for day in damaged:
         (tmp_path / f"adapters/day-0{day}/intention/table.txt").write_text("")
-    (tmp_path / "adapters/day-01/intention/kept.jsonl").unlink(missing_ok=True)
+    (tmp_path / "adapters/day-01/intention/kept.jsonl.gz").unlink(missing_ok=True)
     again = learner(tmp_path, mode=mode)
     again.be_at([0, 1, 2])
     assert table(again) == table(whole)
@@ -238,7 +239,19 @@ def test_as_many_examples_of_a_kind_are_kept_as_the_method_says(tmp_path: Path, 
     one.replay = {"intention": most, "task": 1_000}
     for day in range(3):
         one.learn(day, list(range(day)), account(day))
-    assert len((tmp_path / "adapters/day-02/intention/kept.jsonl").read_text().splitlines()) == most
+    with gzip.open(tmp_path / "adapters/day-02/intention/kept.jsonl.gz") as lines:
+        assert len(list(lines)) == most
+
+
+def test_the_examples_kept_are_read_as_earlier_versions_wrote_them(tmp_path: Path) -> None:
+    one = learner(tmp_path, days=2)
+    folders = [tmp_path / f"adapters/day-01/{kind}" for kind in KINDS]
+    for folder in folders:
+        unpack_kept(folder)
+        assert (folder / KEPT_PLAIN).read_bytes() == gzip.decompress((folder / KEPT).read_bytes())
+        (folder / KEPT).unlink()
+    one.learn(2, [0, 1], account(2))
+    assert table(one) == table(learner(tmp_path / "other", days=3))
 
 
 def test_feedback_on_a_candidate_that_was_never_made_teaches_nothing(tmp_path: Path) -> None:

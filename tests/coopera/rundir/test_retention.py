@@ -12,8 +12,14 @@ from coopera.core.people import Belief, PersonId
 from coopera.rundir.retention import remove, superseded
 from coopera.rundir.seals import Seal
 
-FILES = ("intention/examples.jsonl", "intention/kept.jsonl", "intention/kernel.npz", "account.json", "robot/state.json")
-WEIGHTS = ["intention/kept.jsonl", "intention/kernel.npz", "robot/state.json"]
+FILES = (
+    "intention/examples.jsonl",
+    "intention/kept.jsonl.gz",
+    "intention/kernel.npz",
+    "account.json",
+    "robot/state.json",
+)
+WEIGHTS = ["intention/kept.jsonl.gz", "intention/kernel.npz", "robot/state.json"]
 
 
 def evening(day: int, episode: int = 0, episode_day: int | None = None) -> Evening:

@@ -11,6 +11,7 @@ import pytest
 
 from coopera import Config, resume_study, run_study
 from coopera.core.errors import RunError, StoppedError
+from coopera.graphs.robots.learning import KEPT, KEPT_PLAIN, unpack_kept
 from coopera.memory import MemoryStream
 from coopera.memory.rebuild import texts
 from coopera.rundir import seals
@@ -131,6 +132,22 @@ def test_a_damaged_index_is_found_and_the_memory_rebuilt_from_the_trace(
     assert (found.file, found.mended) == ("memory", True)
     assert "is kept in memory.damaged" in found.note
     assert content(run)["memory"] == content(whole)["memory"]
+
+
+def test_examples_kept_that_an_earlier_version_did_not_pack_are_made_again_as_it_had_them(whole: Path) -> None:
+    run = copied(whole, "earlier")
+    folder, seal = run / "adapters/day-01/task", run / "trace/day-01/seal.json"
+    unpack_kept(folder)
+    (folder / KEPT).unlink()
+    told = json.loads(seal.read_text())
+    told["files"].pop(f"adapters/day-01/task/{KEPT}")
+    told["files"][f"adapters/day-01/task/{KEPT_PLAIN}"] = seals.file_sha(folder / KEPT_PLAIN)
+    seal.write_text(json.dumps(told))
+    (run / "seal-end.json").unlink()
+    before = content(run)
+    (folder / KEPT_PLAIN).unlink()
+    assert all(one.mended for one in examine(run, repair=True))
+    assert {**content(run), "seal-end.json": b""} == {**before, "seal-end.json": b""}
 
 
 def test_files_that_come_out_otherwise_are_accounted_for(whole: Path) -> None:

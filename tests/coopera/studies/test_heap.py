@@ -1,11 +1,13 @@
 from __future__ import annotations
 
 import gc
+import os
 import subprocess
 import sys
 import weakref
 
 import pytest
+from threadpoolctl import threadpool_info
 
 from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 
@@ -91,6 +93,30 @@ def test_what_is_free_within_the_heap_is_given_back() -> None:
         pytest.skip("this C library has no such setting")
     told = subprocess.run([sys.executable, "-c", HOLES], check=True, capture_output=True, text=True)
     assert told.stdout == "True\n"
+
+
+SCRATCH = """
+from pathlib import Path
+import numpy as np
+from coopera.studies.heap import give_back
+held = lambda: next(int(l.split()[1]) for l in Path("/proc/self/status").read_text().splitlines() if "RssAnon" in l)
+small, large = np.ones((2, 2)), np.arange(1_440_000.0).reshape(1_200, 1_200)
+small @ small
+give_back()
+before = held()
+told = (large @ large).sum()
+after = held()
+give_back()
+print(after - before > 2_000, held() - before < 500, (large @ large).sum() == told)
+"""
+
+
+def test_the_room_in_which_matrices_are_multiplied_is_given_back_and_can_be_used_again() -> None:
+    if not sys.platform.startswith("linux") or all(one["internal_api"] != "openblas" for one in threadpool_info()):
+        pytest.skip("this is not how linear algebra is done here")
+    one = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}  # as many as an evening uses
+    told = subprocess.run([sys.executable, "-c", SCRATCH], check=True, capture_output=True, text=True, env=one)
+    assert told.stdout == "True True True\n"
 
 
 def test_a_run_looks_for_garbage_once_in_ten_thousand_new_objects_and_not_each_moment() -> None:

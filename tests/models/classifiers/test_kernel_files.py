@@ -8,7 +8,7 @@ import pytest
 
 from coopera.core.errors import CooperaError
 from coopera.models.classifiers import Inputs
-from tests.models.classifiers.feedback import WordEmbeddings, ask, days, kernel, tea_in_the_morning
+from tests.models.classifiers.feedback import WORDS, WordEmbeddings, ask, days, kernel, tea_in_the_morning
 
 
 def test_a_saved_classifier_answers_as_before(tmp_path: Path) -> None:
@@ -83,6 +83,34 @@ def test_arrays_that_do_not_fit_together_are_refused(tmp_path: Path) -> None:
     with np.load(tmp_path / "kernel.npz") as stored:
         arrays = dict(stored)
     np.savez(tmp_path / "kernel.npz", **(arrays | {"weights": arrays["weights"][:-1]}))
+    with pytest.raises(CooperaError, match="damaged"):
+        judge.load(tmp_path)
+
+
+def test_a_folder_of_an_earlier_version_with_vectors_in_place_of_texts_is_read(tmp_path: Path) -> None:
+    judge, again = kernel(), kernel()
+    taught = days(tea_in_the_morning, profile="A quiet writer.")
+    judge.train(taught, seed=0)
+    judge.save(tmp_path)
+    with np.load(tmp_path / "kernel.npz") as stored:
+        arrays = dict(stored)
+    texts = json.loads(arrays.pop("texts").tobytes())
+    vectors = np.array(WORDS.embed_documents(texts), np.float32)
+    np.savez(tmp_path / "kernel.npz", **arrays, vectors=vectors)
+    again.load(tmp_path)
+    again.save(tmp_path / "again")
+    again.load(tmp_path / "again")
+    assert again.probabilities(taught) == judge.probabilities(taught)
+
+
+@pytest.mark.parametrize("texts", [b"[]", b"{}", b"[1]", b"[", b"\xff"])
+def test_texts_that_are_none_are_refused(tmp_path: Path, texts: bytes) -> None:
+    judge = kernel()
+    judge.train(days(tea_in_the_morning), seed=0)
+    judge.save(tmp_path)
+    with np.load(tmp_path / "kernel.npz") as stored:
+        arrays = dict(stored)
+    np.savez(tmp_path / "kernel.npz", **(arrays | {"texts": np.frombuffer(texts, np.uint8)}))
     with pytest.raises(CooperaError, match="damaged"):
         judge.load(tmp_path)
 
