@@ -17,6 +17,8 @@ from coopera.simulation.shapes.rotations import Array
 _TEXEL = 0.011
 """Metres that a texel of the shadow map covers, as far as `_MOST` allows."""
 _MOST = 2048
+_FEW = 10_000
+"""Texels of the shadow map that are cast anew as soon as another rectangle of it is begun."""
 _WINDOWS = 3
 _CONTACT = 0.05
 
@@ -84,3 +86,28 @@ def sun_lens(scenery: Scenery) -> tuple[Array, float, tuple[int, int]]:
     scale[:3, 3] = -(high + low) / (high - low) * (1, 1, -1)
     size = tuple(min(_MOST, math.ceil(float(side) / _TEXEL / 64) * 64) for side in (high - low)[:2])
     return scale @ view, float(high[2] - low[2]), (size[0], size[1])
+
+
+def apart(boxes: NDArray[np.int64]) -> list[tuple[int, int, int, int]]:
+    """Rectangles that cover some others, as few and small as serves: to cast shadows in one more costs a little, too.
+
+    Args:
+        boxes: Shape (n, 4), texels: x0, y0, x1, y1. Those without any are left out.
+    """
+    found: list[tuple[int, int, int, int]] = []
+    left = [(x0, y0, x1, y1) for x0, y0, x1, y1 in boxes.tolist() if x0 < x1 and y0 < y1]
+    while left:
+        one = left.pop()
+        for other in found:
+            both = (*map(min, one[:2], other[:2]), *map(max, one[2:], other[2:]))
+            if _texels(both) <= _texels(one) + _texels(other) + _FEW:
+                found.remove(other)
+                left.append(both)
+                break
+        else:
+            found.append(one)
+    return found
+
+
+def _texels(box: tuple[int, ...]) -> int:
+    return (box[2] - box[0]) * (box[3] - box[1])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from coopera.simulation.drawing.context import on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
-from coopera.simulation.drawing.light import contact, gates, room_rows, sun_lens
+from coopera.simulation.drawing.light import apart, contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
 from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
 from coopera.simulation.drawing.sight import in_view, rooms_seen
@@ -32,8 +32,6 @@ _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
 _SMALL = 400
 """In pictures of at most so many pixels a side the shadow's texels are about as large as they: fewer make its edge."""
-_FEW = 10_000
-"""Texels of the shadow map that are cast anew as soon as another rectangle of it is begun."""
 _GROUND = (1.0, 1.0, 1.0)
 
 
@@ -372,31 +370,6 @@ class Renderer:
         if found.depth.size:
             depth = np.frombuffer(target.depth.read(alignment=1), dtype=np.float32).reshape(height, width)[::-1]
             found.depth[part] = metres_of(depth, reach)
-
-
-def apart(boxes: NDArray[np.int64]) -> list[tuple[int, int, int, int]]:
-    """Rectangles that cover some others, as few and small as serves: to cast shadows in one more costs a little, too.
-
-    Args:
-        boxes: Shape (n, 4), texels: x0, y0, x1, y1. Those without any are left out.
-    """
-    found: list[tuple[int, int, int, int]] = []
-    left = [(x0, y0, x1, y1) for x0, y0, x1, y1 in boxes.tolist() if x0 < x1 and y0 < y1]
-    while left:
-        one = left.pop()
-        for other in found:
-            both = (*map(min, one[:2], other[:2]), *map(max, one[2:], other[2:]))
-            if _texels(both) <= _texels(one) + _texels(other) + _FEW:
-                found.remove(other)
-                left.append(both)
-                break
-        else:
-            found.append(one)
-    return found
-
-
-def _texels(box: tuple[int, ...]) -> int:
-    return (box[2] - box[0]) * (box[3] - box[1])
 
 
 _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0, 0, 1.0)))
