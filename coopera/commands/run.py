@@ -64,25 +64,12 @@ def run(
         return
 
     def work(on_event: Callable[[Event], None]) -> dict[str, Any]:
-        with _pictures_begun(config):
-            from coopera.studies.study import run_study
+        from coopera.studies.study import run_study
 
-            with asked(config, host, port, name) as ask_person:
-                return run_study(config, on_event=on_event, ask_person=ask_person)
+        with asked(config, host, port, name) as ask_person:
+            return run_study(config, on_event=on_event, ask_person=ask_person)
 
     _carry_out(work, config.out, config, as_json=as_json)
-
-
-@contextmanager
-def _pictures_begun(config: Config) -> Iterator[None]:
-    """Begin what takes pictures while all else is imported; where the robot looks at them itself, nothing may do so."""
-    if config.pictures == "none" or config.models.robot != "offline":
-        yield
-        return
-    from coopera.simulation.sight.studio import ready
-
-    with ready(config.renderer):
-        yield
 
 
 def resume(
