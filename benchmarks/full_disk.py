@@ -229,7 +229,7 @@ def _work(args: Sequence[str], run: Path, disk: Disk) -> int:
 
     code, base = 70, disk.base
     rebuild.damage = store.damage = prober()  # type: ignore[attr-defined]
-    studio.subprocess = SimpleNamespace(**vars(subprocess) | {"Popen": Photographer()})  # type: ignore[assignment]
+    studio.subprocess = SimpleNamespace(**vars(subprocess) | {"Popen": Photographer()})  # type: ignore[attr-defined,assignment]
     try:
         code = main(args)
         atexit._run_exitfuncs()

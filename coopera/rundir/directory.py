@@ -26,7 +26,7 @@ from coopera.rundir.crash import how_it_ended
 from coopera.rundir.stopping import Stop
 from coopera.rundir.summary import metrics_csv, metrics_lines, summarise
 from coopera.rundir.trace import Trace
-from coopera.rundir.trace_files import write_record
+from coopera.rundir.trace_files import as_read, write_record
 
 _LOG = logging.getLogger(__name__)
 
@@ -267,7 +267,7 @@ class RunDir(Trace):
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order, also those that wait to be written; what went wrong with one is raised."""
         self._stop.check()
-        waiting = {record.hour: record for record in self._behind.waiting() if record.day == day}
+        waiting = {record.hour: as_read(record) for record in self._behind.waiting() if record.day == day}
         written = {record.hour: record for record in super().read_day(day)}
         return [record for _, record in sorted((written | waiting).items())]
 

@@ -40,6 +40,11 @@ def write_record(path: Path, record: HourRecord | Evening) -> None:
         raise RunError(f"{path}: the trace cannot be written ({reason(err)}).") from err
 
 
+def as_read(record: HourRecord) -> HourRecord:
+    """An hour that is still to be written as it will be read, to the order of its fields: what is made of it shows."""
+    return HourRecord.model_validate(json.loads(canonical_json(record.model_dump(), indent=None)))
+
+
 def read_record(path: Path, kind: type[Record]) -> Record:
     """Read what `write_record` wrote.
 
