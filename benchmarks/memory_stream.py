@@ -11,6 +11,7 @@ Baselines, each asked the same questions about the same records:
 - `brute force`: score every record in numpy, float32, vectors in RAM;
 - `LangChain`: TimeWeightedVectorStoreRetriever over Chroma (needs `pip install langchain-classic langchain-chroma`;
   skipped with a word if they are not there), up to `--langchain-most` records, each of which is a vector in its index.
+  A size to which its index has not grown after `--langchain-minutes` of processor is left out, and the run says so.
   What it rewrites in reading is put back before each question;
 - `encode everything`: encode the whole history at each question, as the paper's published code does. Measured on 60
   records; for other sizes that time is scaled, and marked so.
@@ -157,14 +158,14 @@ def brute_force(vectors: Vector, hours: np.ndarray, query: Vector, now: int) -> 
 
 
 def langchain_retriever(
-    folder: Path, size: int, embeddings: Prepared
-) -> tuple[Callable[[str], list[int]], Callable[[], None]] | None:
-    """Return two functions: one asks LangChain's retriever, one undoes what reading changed; None without it."""
+    folder: Path, size: int, embeddings: Prepared, minutes: float
+) -> tuple[Callable[[str], list[int]], Callable[[], None]] | str:
+    """Return two functions: one asks LangChain's retriever, one undoes what reading changed; or why there are none."""
     try:
         retrievers: Any = import_module("langchain_classic.retrievers")
         store: Any = import_module("langchain_chroma")
     except ModuleNotFoundError:
-        return None
+        return "not installed (langchain-classic, langchain-chroma)"
     chroma = store.Chroma(
         f"langchain-{size}",
         embeddings,
@@ -177,10 +178,17 @@ def langchain_retriever(
     for number, text in enumerate(said(size).tolist()):
         when = now - timedelta(hours=last - hour_of(number))
         documents.append(Document(f"record #{text}", metadata={"buffer_idx": number, "last_accessed_at": when}))
-    if chroma._collection.count() == 0:
-        for start in range(0, size, PAGE):
-            page = documents[start : start + PAGE]
-            chroma.add_texts([d.page_content for d in page], [{"buffer_idx": d.metadata["buffer_idx"]} for d in page])
+    began, there = time.process_time(), chroma._collection.count()
+    for start in range(there, size, PAGE):
+        if (spent_s := time.process_time() - began) > 60 * minutes:
+            return (
+                f"stopped at {start:,} records after {spent_s / 60:.1f} min of processor for {start - there:,} of them"
+            )
+        page = documents[start : start + PAGE]
+        chroma.add_texts([d.page_content for d in page], [{"buffer_idx": d.metadata["buffer_idx"]} for d in page])
+    if there < size:
+        filled = time.process_time() - began
+        print(f"LangChain's with {size:,} records: filled in {filled:.0f} s of processor", flush=True)
     retriever = retrievers.TimeWeightedVectorStoreRetriever(
         vectorstore=chroma, decay_rate=1 - DECAY, k=K, memory_stream=documents
     )
@@ -209,7 +217,7 @@ def encode_everything_ms() -> float:
 class Race:
     """Asks all contestants the same questions in turns."""
 
-    def __init__(self, folder: Path, sizes: list[int], langchain_most: int) -> None:
+    def __init__(self, folder: Path, sizes: list[int], langchain_most: int, langchain_minutes: float) -> None:
         """Build what is missing."""
         texts = [f"{activity} {detail}" for activity, detail in itertools.product(ACTIVITIES, DETAILS)]
         with bundled(folder / "embeddings.sqlite") as plain:
@@ -225,9 +233,11 @@ class Race:
         self.vectors = embeddings.vectors[said(max(sizes))]
         self.hours = np.array([hour_of(number) for number in range(max(sizes))], np.int64)
         some = [size for size in sizes if size <= langchain_most]
-        self.rivals = {size: langchain_retriever(folder, size, embeddings) for size in some}
-        if not any(self.rivals.values()):
-            print("LangChain's retriever is not installed (langchain-classic, langchain-chroma): skipped")
+        self.rivals = {size: langchain_retriever(folder, size, embeddings, langchain_minutes) for size in some}
+        self.without = dict.fromkeys({*sizes} - {*some}, f"more than {langchain_most:,} were not asked for")
+        self.without |= {size: rival for size, rival in self.rivals.items() if isinstance(rival, str)}
+        for size, reason in sorted(self.without.items()):
+            print(f"LangChain's with {size:,} records is skipped: {reason}", flush=True)
         self.times: dict[tuple[str, int], list[Spent]] = {}
         self.found: dict[tuple[str, int], list[float]] = {}
 
@@ -237,7 +247,7 @@ class Race:
             for number in range(rounds + WARM_UP):
                 for size in self.sizes[:: 1 if number % 2 else -1]:
                     ask(number, size)
-        result: dict[str, Any] = {"streams": dict(self.built), "rounds": rounds}
+        result: dict[str, Any] = {"streams": dict(self.built), "rounds": rounds, "without LangChain": self.without}
         for (name, size), values in sorted(self.times.items()):
             found = round(float(np.mean(self.found[name, size])), 3)
             result["streams"][size][name] = {**summary(values[WARM_UP:]), "recall_at_5": found}
@@ -282,7 +292,7 @@ class Race:
         vectors, hours = self.vectors[:end], self.hours[:end]
         self._turn("brute force", size, answer, lambda: brute_force(vectors, hours, query, now))
         rival = self.rivals.get(size)
-        if rival is not None:  # it knows no other time than the present
+        if rival is not None and not isinstance(rival, str):  # it knows no other time than the present
             ask, undo = rival
             present = exactly(self._rows(size), query, hour_of(size - 1) + 1)
             self._turn("LangChain", size, present, lambda: ask(question))
@@ -327,6 +337,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=200, help="questions per size")
     parser.add_argument("--sizes", type=int, nargs="+", help="numbers of records, the least first")
     parser.add_argument("--langchain-most", type=int, help="records [default: 100,000]")
+    parser.add_argument("--langchain-minutes", type=float, default=15, help="of processor, to fill its index at a size")
     parser.add_argument("--store", type=Path, help="folder that keeps the stores for another run")
     parser.add_argument("--out", type=Path, help="JSON file for the figures")
     given = parser.parse_args()
@@ -334,7 +345,7 @@ def main() -> None:
     most = given.langchain_most or (10_000 if given.quick else 100_000)
     folder = given.store or Path(tempfile.mkdtemp(prefix="memory-benchmark-"))
     try:
-        result = Race(folder, sizes, most).run(given.rounds)
+        result = Race(folder, sizes, most, given.langchain_minutes).run(given.rounds)
         result["ratios"] = report(result, sizes)
         if given.out:
             given.out.write_text(json.dumps(result, indent=1))
