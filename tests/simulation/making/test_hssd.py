@@ -237,6 +237,11 @@ def _hundred_megabytes(name: str) -> Any:
         (_broken_glb(lambda d: d["accessors"][0].update(count=-1)), _GLB, r"accessors\.0\.count"),
         (_broken_glb(lambda d: d.update(meshes=[])), _GLB, r"nodes\.0\.mesh"),
         (_broken_glb(lambda d: d.update(nodes=[], scenes=[])), _GLB, "shows nothing"),
+        (
+            lambda r: change(r, _INSTANCE, lambda d: d.update(object_instances=d["object_instances"][:1] * 1_501)),
+            _INSTANCE,
+            "object_instances: List should have at most 1500",
+        ),
         (_hundred_megabytes(_INSTANCE), _INSTANCE, "more than 64 MiB"),
         (_hundred_megabytes("semantics/objects.csv"), "objects.csv", "more than 64 MiB"),
     ],
