@@ -27,7 +27,21 @@ if TYPE_CHECKING:
     from coopera.memory.ram import RamClient
 
 _SPACE = "ip"
-_INDEX = {"hnsw": {"space": _SPACE, "ef_construction": 10, "max_neighbors": 4}}
+_QUEUE = 100
+"""Records of a collection of which Chroma keeps a log until it writes its index.
+
+Each write reads through the log of all collections, so that with Chroma's 1000 an evening's took twice as long after
+two months.
+"""
+_INDEX = {
+    "hnsw": {
+        "space": _SPACE,
+        "ef_construction": 10,
+        "max_neighbors": 4,
+        "batch_size": _QUEUE,
+        "sync_threshold": _QUEUE,
+    }
+}
 _FORMAT, _FORMATS = 2, (1, 2)
 """A stream of format 1 has its vectors in its own collection, as of now in that of all streams of its model."""
 MAX_NAME = 200

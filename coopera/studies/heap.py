@@ -19,6 +19,8 @@ _SCRATCH = 16 * _LARGE
 """What OpenBLAS may have used of the room that it keeps for itself; it keeps as much or more on every processor."""
 _DONTNEED = 4  # of Linux's mman.h
 _NEW_OBJECTS = 10_000
+_MANY = 100_000
+"""Objects, a fraction of what the encoder of texts brings, from which on they are no longer looked through either."""
 _RUNS = 5
 """After so many runs of a process what they left is looked for, which takes a third of a second."""
 _settled = Event()
@@ -51,11 +53,12 @@ def give_back() -> None:
     """After an evening: let go of what only refers to itself, and give the system the pages that are free.
 
     Left to Python, such garbage gathers for days, among what stays, since a run holds so much. What is there after the
-    first evening (libraries, weights, homes) is therefore no longer looked through, until the run ends (`lasting`).
+    first evening (libraries, weights, homes) is therefore no longer looked through, until the run ends (`lasting`). Nor
+    is what came later where it is much: a run whose first texts are known loads their encoder on another day.
     """
     if _settled.is_set():
         gc.collect()
-    else:
+    if not _settled.is_set() or len(gc.get_objects()) > _MANY:
         gc.freeze()
         _settled.set()
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)

@@ -1,9 +1,11 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 
 import chromadb
@@ -12,7 +14,8 @@ import pytest
 from chromadb.config import Settings
 
 from coopera.core.errors import ConfigError, MemoryStoreError
-from coopera.memory import MemoryStream, bundled
+from coopera.memory import MemoryStream, Record, bundled
+from coopera.memory.folder import CHROMA
 from coopera.memory.ram import RamClient, RamCollection
 from tests.memory.fakes import Letters
 
@@ -324,3 +327,12 @@ def test_a_closed_stream_says_so(stream: MemoryStream) -> None:
     stream.close()
     with pytest.raises(MemoryStoreError, match="closed"):
         stream.add(["a"], 0)
+
+
+def test_chromas_log_which_each_write_reads_through_stays_short(tmp_path: Path) -> None:
+    with MemoryStream.open(tmp_path, "life", Letters()) as stream:
+        for day in range(5):
+            stream.extend([Record("a" * (day * 60 + n + 1), day * 24, {}) for n in range(60)])
+        with closing(sqlite3.connect(tmp_path / CHROMA)) as database:
+            [waiting] = database.execute("SELECT count(*) FROM embeddings_queue").fetchone()
+    assert waiting < 300  # of 600: those of the stream, and the vectors of its texts

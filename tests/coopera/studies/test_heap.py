@@ -155,6 +155,14 @@ def test_garbage_goes_with_the_evening_and_the_end_of_a_run_looks_through_everyt
     assert not gc.get_freeze_count()
 
 
+def test_what_a_library_brings_after_the_first_evening_is_not_looked_through_each_evening() -> None:
+    with lasting():
+        give_back()
+        held: list[list[int]] = [[] for _ in range(120_000)]
+        give_back()
+        assert len(gc.get_objects()) < len(held)
+
+
 def test_what_some_runs_of_a_process_left_is_let_go_of_before_the_next_ones() -> None:
     class Run:
         pass
