@@ -11,7 +11,7 @@ from coopera.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from coopera.memory.embeddings import CachedEmbeddings, as_array, bundled, hugging_face
-    from coopera.memory.questions import Recollection, Relevances
+    from coopera.memory.questions import Recollection, Relevances, Texts
     from coopera.memory.rebuild import Repaired, repair
     from coopera.memory.retriever import MemoryRetriever
     from coopera.memory.rows import Record
@@ -29,6 +29,7 @@ _HOMES = {
     "Relevances": "coopera.memory.questions",
     "Repaired": "coopera.memory.rebuild",
     "Search": "coopera.memory.search",
+    "Texts": "coopera.memory.questions",
     "as_array": "coopera.memory.embeddings",
     "bundled": "coopera.memory.embeddings",
     "export_jsonl": "coopera.memory.transfer",
@@ -48,6 +49,7 @@ __all__ = [
     "Relevances",
     "Repaired",
     "Search",
+    "Texts",
     "as_array",
     "bundled",
     "export_jsonl",

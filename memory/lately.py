@@ -6,6 +6,7 @@ from collections import OrderedDict
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, cast
 
+from coopera.memory.questions import Texts
 from coopera.memory.rows import Record
 
 PIECE = 512
@@ -40,17 +41,20 @@ class Lately:
                 found[position] = Record(text, piece.hours[place], piece.own.get(place, {}))
         return found
 
-    def texts(self, start: int, stop: int) -> list[str] | None:
-        """Return the texts of consecutive records; None if one is not here."""
-        found: list[str | None] = []
+    def texts(self, start: int, stop: int) -> Texts | None:
+        """Return the texts and hours of consecutive records; None if one is not here."""
+        texts: list[str | None] = []
+        hours: list[int] = []
         while start < stop:
             number, place = divmod(start, PIECE)
             if (piece := self._asked(number)) is None:
                 return None
             end = min(stop, (number + 1) * PIECE)
-            found += piece.texts[place : place + end - start]
+            part = slice(place, place + end - start)
+            texts += piece.texts[part]
+            hours += piece.hours[part]
             start = end
-        return None if None in found else cast(list[str], found)
+        return None if None in texts else Texts(cast(list[str], texts), hours)
 
     def keep(self, records: Iterable[tuple[int, Record]]) -> None:
         """Keep records, by position."""

@@ -16,16 +16,16 @@ from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.lately import Lately
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
+from coopera.memory.questions import Texts
 from coopera.memory.rows import Record, Row, restored, row, vector_sum
-from coopera.memory.scan import BLOCK, Block
+from coopera.memory.scan import AT_ONCE, BLOCK, Block
 from coopera.memory.vectors import Held, Places, Table, Vectors
 
 if TYPE_CHECKING:
     from chromadb.api.models.Collection import Collection
 
 _PER_CALL = 1000  # ids per request; SQLite's limit on variables lies above 3000
-_BLOCKS_IN_RAM = 8  # 6 MB of MiniLM's, where no text is said twice
-_TEXTS_IN_RAM = _BLOCKS_IN_RAM * BLOCK  # what a robot reads every hour: five tasks of each of sixty days' hours
+_TEXTS_IN_RAM = AT_ONCE * BLOCK  # what a robot reads every hour: five tasks of each of sixty days' hours
 _FAN = 32  # positions looked at together when searching by hour
 
 
@@ -181,18 +181,20 @@ class Log:
             found |= read
         return [found[position] for position in positions]
 
-    def texts(self, start: int, stop: int) -> list[str]:
-        """Return the texts of the records from one position to before another.
+    def texts(self, start: int, stop: int) -> Texts:
+        """Return the texts and hours of the records from one position to before another.
 
         Raises:
             MemoryStoreError: If one is missing or is not what was written.
         """
-        found = self._lately.texts(start, stop)
-        return [record.text for record in self.records(range(start, stop))] if found is None else found
+        if (found := self._lately.texts(start, stop)) is not None:
+            return found
+        records = self.records(range(start, stop))
+        return Texts([record.text for record in records], [record.hour for record in records])
 
     def _keep_block(self, number: int, block: Block) -> None:
         self._blocks[number] = block
-        if len(self._blocks) > _BLOCKS_IN_RAM:
+        if len(self._blocks) > AT_ONCE:
             _, oldest = self._blocks.popitem(last=False)
             self._let_go_of(oldest)
 

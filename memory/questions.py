@@ -34,6 +34,18 @@ class Recollection(NamedTuple):
     metadata: Mapping[str, Any]
 
 
+class Texts(NamedTuple):
+    """All records of some hours, oldest first, as columns, without what else was added with them.
+
+    Attributes:
+        texts: As they were added.
+        hours: Global hour index of each.
+    """
+
+    texts: list[str]
+    hours: list[int]
+
+
 class Relevances(NamedTuple):
     """All records of some hours, oldest first, as columns: many are compared, and few of them are looked at.
 

@@ -8,6 +8,7 @@ k-th best score is not positive, the bound says nothing and all records are read
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -19,8 +20,14 @@ from coopera.memory.vectors import Held
 BLOCK = 512
 """Records per block: what is read at once."""
 
+AT_ONCE = 8
+"""Full blocks that stay in RAM while others are read: 6 MB of MiniLM's vectors, where no text is said twice."""
+
 STEP = 192
 """Records scored at once: about as many as decide a recall, so that where blocks begin matters little."""
+
+_ROWS = 128
+"""Vectors compared at once: of more, the products would be asked of the system and given back to it each time."""
 
 _MARGIN = 1e-4
 """More than float32 arithmetic can err in a score; what is that near to the k-th best is computed in float64."""
@@ -78,12 +85,10 @@ class Compared(NamedTuple):
 
     Attributes:
         start: Position of the first.
-        hours: Shape (n,), non-decreasing.
         cosines: Shape (n,), in float64.
     """
 
     start: int
-    hours: npt.NDArray[np.int64]
     cosines: npt.NDArray[np.float64]
 
 
@@ -154,14 +159,14 @@ def every(rows: Rows, query: Vector, *, now: int, since: int | None = None) -> C
     """
     low = 0 if since is None else rows.first_at(since)
     high = max(low, rows.first_at(now + 1))
-    hours, cosines = [np.empty(0, np.int64)], [np.empty(0)]
-    for number in range(low // BLOCK, -(-high // BLOCK)):
-        block = rows.block(number)
-        part = slice(max(0, low - block.start), high - block.start)
-        unlike, of = _different(block.vectors[part])
-        hours.append(block.hours[part])
+    cosines = [np.empty(0)]
+    numbers = range(low // BLOCK, -(-high // BLOCK))
+    for first in range(0, len(numbers), AT_ONCE):
+        blocks = [rows.block(number) for number in numbers[first : first + AT_ONCE]]
+        parts = [block.vectors[max(0, low - block.start) : high - block.start] for block in blocks]
+        unlike, of = _different(_joined(parts))
         cosines.append(_cosines(unlike, query)[of])
-    return Compared(low, np.concatenate(hours), np.concatenate(cosines))
+    return Compared(low, np.concatenate(cosines))
 
 
 class _Window:
@@ -226,8 +231,20 @@ class _Kept(NamedTuple):
 
 def _cosines(vectors: Vector, query: Vector) -> npt.NDArray[np.float64]:
     """Return the cosine of each of n unit vectors with a query, row by row, so that none depends on the others."""
-    cosines: npt.NDArray[np.float64] = (vectors.astype(np.float64) * query.astype(np.float64)).sum(1)
+    cosines, query = np.empty(len(vectors)), query.astype(np.float64)
+    for start in range(0, len(vectors), _ROWS):
+        part = vectors[start : start + _ROWS].astype(np.float64)
+        part *= query
+        cosines[start : start + _ROWS] = part.sum(1)
     return cosines
+
+
+def _joined(parts: Sequence[Vector | Held]) -> Vector | Held:
+    """Return the vectors of several blocks as those of one: what was said in more than one is then compared once."""
+    held = [part for part in parts if isinstance(part, Held)]
+    if len(held) == len(parts):
+        return Held(held[0].table, np.concatenate([part.places for part in held]))
+    return np.concatenate([part.array() if isinstance(part, Held) else part for part in parts])
 
 
 def _different(vectors: Vector | Held) -> tuple[Vector, npt.NDArray[np.int64]]:

@@ -22,7 +22,7 @@ from coopera.memory.embeddings import as_array, identity, unit
 from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.log import Log
 from coopera.memory.minilm import Vector
-from coopera.memory.questions import Recollection, Relevances, check_text, whole
+from coopera.memory.questions import Recollection, Relevances, Texts, check_text, whole
 from coopera.memory.rebuild import heal
 from coopera.memory.rows import Record
 from coopera.memory.scan import every, top
@@ -225,9 +225,19 @@ class MemoryStream:
             return Relevances([], [], [])
         [vector] = self._vectors([query])
         with log.lock:
-            start, hours, cosines = every(log, vector, now=now, since=since)
-            texts = log.texts(start, start + len(hours))
-        return Relevances(texts, hours.tolist(), cosines.tolist())
+            start, cosines = every(log, vector, now=now, since=since)
+            texts, hours = log.texts(start, start + len(cosines))
+        return Relevances(texts, hours, cosines.tolist())
+
+    def texts(self, since: int | None = None) -> Texts:
+        """Return what `records` yields, without its metadata, in a tenth of the time.
+
+        Raises:
+            MemoryStoreError: If the store fails or is damaged.
+        """
+        log = self._open_log
+        with log.lock:
+            return log.texts(0 if since is None else log.first_at(since), len(log))
 
     def latest(self, n: int) -> list[Record]:
         """Return the n newest records, newest first."""

@@ -19,7 +19,7 @@ from coopera.core.household import Act, AgentId, Collab, ObjectMap, SceneId
 from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Ask, Home, Reply
 from coopera.core.randomness import Address
-from coopera.memory import MemoryStream, Recollection, Record, Relevances, extend_together
+from coopera.memory import MemoryStream, Recollection, Record, Relevances, Texts, extend_together
 
 
 class RobotAsk(Protocol):
@@ -113,12 +113,21 @@ class Records(Protocol):
         ...
 
 
+class Words(Protocol):
+    """How the words of a memory stream are read through; see `coopera.memory.MemoryStream.texts`."""
+
+    def __call__(self, since: int | None = None) -> Texts:
+        """The records in order of time, as columns."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class Readable:
     """A memory stream that can be read and not written."""
 
     recall: Recall
     records: Records
+    texts: Words
     relevances: Compare
 
     @classmethod
@@ -131,10 +140,13 @@ class Readable:
         def records(since: int | None = None) -> list[Record]:
             return list(stream.records(since=since))
 
+        def texts(since: int | None = None) -> Texts:
+            return stream.texts(since)
+
         def relevances(query: str, now: int, since: int | None = None) -> Relevances:
             return stream.relevances(query, now, since=since)
 
-        return cls(recall, records, relevances)
+        return cls(recall, records, texts, relevances)
 
 
 class ReadMemories(NamedTuple):

@@ -68,9 +68,9 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     clock = view.clock
     dawn, since = clock.day * 24, (clock.day - DAYS) * 24
     tasks: dict[int, list[str]] = defaultdict(list)
-    for record in view.history.tasks.records(since=since):
-        tasks[record.hour].append(record.text)
-    said = {record.hour: record.text for record in view.history.intentions.records(since=since)}
+    for text, now in zip(*view.history.tasks.texts(since), strict=True):
+        tasks[now].append(text)
+    said = {now: text for text, now in zip(*view.history.intentions.texts(since), strict=True)}
     hours = [(now, text, tuple(tasks[now])) for now, text in said.items() if now < dawn]
     uses = [tuple(use for text in done if (use := use_of(text)) is not None) for _, _, done in hours]
     used = [(now, done) for (now, _, _), done in zip(hours, uses, strict=True)]

@@ -26,7 +26,8 @@ def test_as_many_consecutive_records_as_there_is_room_for_stay_wherever_they_beg
     stop = start + 3 * PIECE
     lately.keep(records(0, stop).items())
     for _ in range(2):
-        assert lately.texts(start, stop) == [f"record {at}" for at in range(start, stop)]
+        told = range(start, stop)
+        assert lately.texts(start, stop) == ([f"record {at}" for at in told], [at // 5 for at in told])
         assert lately.of(range(start, stop)) == records(start, stop)
 
 
@@ -41,7 +42,7 @@ def test_where_it_is_full_those_go_that_nobody_asked_for_the_longest() -> None:
 def test_texts_are_told_only_if_all_are_here() -> None:
     lately = Lately(PIECE)
     lately.keep(records(3, 9).items())
-    assert lately.texts(4, 6) == ["record 4", "record 5"]
+    assert lately.texts(4, 6) == (["record 4", "record 5"], [0, 1])
     assert lately.texts(2, 6) is None
     assert lately.texts(4, PIECE + 1) is None
-    assert lately.texts(7, 7) == []
+    assert lately.texts(7, 7) == ([], [])

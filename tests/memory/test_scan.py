@@ -88,8 +88,8 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a few records fill many blocks, and little of it stay in RAM."""
     for module in ("coopera.memory.scan", "coopera.memory.log"):
         monkeypatch.setattr(f"{module}.BLOCK", 4)
+        monkeypatch.setattr(f"{module}.AT_ONCE", 2)
     monkeypatch.setattr("coopera.memory.scan.STEP", 3)
-    monkeypatch.setattr("coopera.memory.log._BLOCKS_IN_RAM", 2)
     monkeypatch.setattr("coopera.memory.log._TEXTS_IN_RAM", 8)
     monkeypatch.setattr("coopera.memory.lately.PIECE", 4)
     monkeypatch.setattr("coopera.memory.log._FAN", 2)
@@ -102,10 +102,9 @@ def check_arrays(case: Case) -> None:
         found = top(rows, query, k, now=now, decay=case.decay, since=since)
         expected = brute_force(vectors, case.hours, query, k, now, case.decay, since)
         assert [(hit.position, hit.relevance) for hit in found.hits] == expected
-        start, hours, cosines = every(rows, query, now=now, since=since)
+        start, cosines = every(rows, query, now=now, since=since)
         compared = [(start + place, cosine) for place, cosine in enumerate(cosines.tolist())]
         assert compared == all_of(vectors, case.hours, query, now, since)
-        assert hours.tolist() == [case.hours[place] for place, _ in compared]
 
 
 def all_of(vectors: Vector, hours: list[int], query: Vector, now: int, since: int | None) -> list[tuple[int, float]]:
@@ -123,6 +122,7 @@ def check_stream(case: Case, folder: Path) -> None:
             for hour in sorted({case.hours[place] for place in part}):
                 stream.add([f"record {place}" for place in part if case.hours[place] == hour], hour)
             seen = case.hours[: len(stream)]
+            assert stream.texts() == ([record.text for record in stream.records()], seen)
             for number, (query, k, now, since) in enumerate(questions(case, rng)):
                 question = f"question {part.start} {number}"
                 asked[question] = query
@@ -133,6 +133,9 @@ def check_stream(case: Case, folder: Path) -> None:
                 compared = [(int(text.split()[1]), one) for text, one in zip(texts, relevances, strict=True)]
                 assert compared == all_of(vectors, seen, query, now, since)
                 assert of == [case.hours[place] for place, _ in compared]
+                if since is not None:
+                    after = [place for place, hour in enumerate(seen) if hour >= since]
+                    assert stream.texts(since) == ([f"record {n}" for n in after], [seen[n] for n in after])
                 for item in found:
                     assert item.recency == case.decay ** (now - item.hour)
                     assert item.score == item.relevance * item.recency
@@ -213,4 +216,6 @@ def test_what_has_left_ram_while_the_rest_is_read_is_scored_by_its_own_vector(tm
         for hour in range(80):
             stream.add([f"record {hour}"], hour)
         found = [(int(one.text.split()[1]), one.relevance) for one in stream.recall("question", 80, 80)]
+        compared = stream.relevances("question", 80).relevances
+    assert list(enumerate(compared)) == sorted(found)
     assert found == brute_force(vectors, list(range(80)), vectors[7], 80, 80, 1.0, None)
