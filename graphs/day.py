@@ -32,6 +32,7 @@ from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
 from coopera.core.people import Belief, PersonId
 from coopera.core.randomness import Address
+from coopera.graphs.events import say
 from coopera.graphs.hour import HourInput, build_hour_graph, scored_at
 from coopera.graphs.inside import with_inside
 from coopera.graphs.players.evening import Lived
@@ -96,7 +97,7 @@ def build_day_graph(
 def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
     """Begin at the first hour, knowing nothing of what is yet to come. Writes `position`."""
     forget_ahead(runtime.context, state["plan"], sorted(runtime.context.people))
-    runtime.stream_writer({"day": state["plan"].day, "hour": None, "node": "start_day", "success": None})
+    say("start_day", state["plan"].day)
     return {"position": 0}
 
 
@@ -113,7 +114,7 @@ def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
     services.home(plan.scene).inhabit(services.human_agent, services.people[plan.person])
     services.ask.take_calls()
-    runtime.stream_writer({"day": plan.day, "hour": plan.hours[position], "node": "hour", "success": None})
+    say("hour", plan.day, plan.hours[position])
     belief = state["beliefs"].get(plan.person, Belief())
     given = HourInput(plan=plan, position=position, belief=belief, beliefs=state["beliefs"])
     done = _hour_graph().invoke(given, context=services.here())
@@ -223,7 +224,7 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             calls=[*state.get("calls", []), *services.ask.take_calls()],
         )
     )
-    runtime.stream_writer({"day": plan.day, "hour": None, "node": "end_day", "success": None})
+    say("end_day", plan.day)
     return {}
 
 

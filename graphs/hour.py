@@ -25,6 +25,7 @@ from coopera.core.people import Belief, PersonId
 from coopera.core.protocols import Home
 from coopera.core.randomness import Address
 from coopera.core.success import Success
+from coopera.graphs.events import say
 from coopera.graphs.human import build_human_graph
 from coopera.graphs.inside import with_inside
 from coopera.graphs.recorded import remember_guess
@@ -187,9 +188,7 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         ),
         after=home.frames_due(),  # an hour that stands has all its pictures
     )
-    runtime.stream_writer(
-        {"day": plan.day, "hour": clock.hour, "node": "record", "success": success.model_dump() if success else None}
-    )
+    say("record", plan.day, clock.hour, success.model_dump() if success else None)
     return {"world": world}
 
 

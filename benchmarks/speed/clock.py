@@ -138,8 +138,8 @@ def lived(config: Config) -> Lived:
             watch.append(Lived(clock))
             return inner(*args, **kwargs)
 
-        inner = study._stream
-        stack.enter_context(patch.object(study, "_stream", begin))
+        inner = study._run_on
+        stack.enter_context(patch.object(study, "_run_on", begin))
         study.run_study(config, on_event=lambda event: watch[0].note(event))
     return watch[0]
 

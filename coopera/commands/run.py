@@ -30,7 +30,7 @@ from coopera.core.naming import printable
 if TYPE_CHECKING:
     from coopera.config.schema import Config
     from coopera.graphs.players.real_person import Interview
-    from coopera.studies.study import Event
+    from coopera.studies.events import Event
 
 STOPPED = 130  # what shells give a program that Ctrl-C ended
 

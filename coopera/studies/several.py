@@ -23,8 +23,9 @@ from coopera.models.given import GivenModel
 from coopera.models.transport import share_pace
 from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
+from coopera.studies.events import Event
 from coopera.studies.heap import rare_collections
-from coopera.studies.study import Event, run_study
+from coopera.studies.study import run_study
 from coopera.studies.workers import die_with_parent, share_cores
 
 Ended: TypeAlias = dict[str, Any] | CooperaError

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from langchain_core.callbacks import BaseCallbackHandler
 from langchain_core.embeddings import Embeddings
@@ -49,6 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
+from coopera.studies.events import Event, Listener, listened_to
 from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
@@ -62,8 +63,6 @@ from coopera.studies.standing import (
     steps_done,
 )
 
-Event = Mapping[str, Any]
-"""That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
 QUESTION = "question.json"
 """File of a run that waits for a person: the question (`coopera.core.interview.Question`)."""
 
@@ -291,7 +290,6 @@ def _carry_on(
     callbacks: Sequence[BaseCallbackHandler],
 ) -> dict[str, Any]:
     plans = plan_days(run.config)
-    thread: RunnableConfig = {**THREAD, "callbacks": list(callbacks)}
     with _checkpoints(run, plans, services.embeddings) as saver:
         graph = build_study_graph(saver)
         given: Any = None if graph.get_state(THREAD).values else {"schedule": plans}
@@ -300,10 +298,10 @@ def _carry_on(
         if isinstance(asker, Attended):
             asker.attend(Sitting(run.root, run.config, partial(_checked, services), run.check))
         if (question := waiting(graph, THREAD)) is None:
-            question = _stream(run, graph, services, given, scored, on_event, thread)
+            question = _run_on(run, graph, services, given, scored, on_event, callbacks)
         while question is not None:
             given = question.answered(_ask(run, question.question, ask_person))
-            question = _stream(run, graph, services, given, scored, on_event, thread)
+            question = _run_on(run, graph, services, given, scored, on_event, callbacks)
     summary = run.finish()
     if run.resumable:
         write_report(run)
@@ -360,40 +358,34 @@ def _ask(run: RunDir, question: Question, ask_person: Interview) -> Answer:
     return answer
 
 
-def _stream(
+def _run_on(
     run: RunDir,
     graph: CompiledStateGraph[Any, Services, Any, Any],
     services: Services,
     given: Any,
     scored: list[Counts],
     on_event: Callable[[Event], None] | None,
-    thread: RunnableConfig,
+    callbacks: Sequence[BaseCallbackHandler],
 ) -> Waiting | None:
     """Let the study go on until its end, or until a question to a real person, which is then returned.
 
     Where the one who is told of events fails, the work is stopped before its services are closed.
     """
-    stream = graph.stream(
-        given, thread, context=services, stream_mode=["updates", "custom"], subgraphs=True, durability="async"
-    )
+
+    def work(listener: Listener) -> None:
+        thread: RunnableConfig = {**THREAD, "callbacks": [*callbacks, listener]}
+        graph.invoke(given, thread, context=services, durability="async")
+
     now: dict[str, Any] = {"day": 0, "hour": None, "success": pool(scored).f1}
-    with (
-        lasting(),
-        closing(cast(Generator[tuple[Any, str, dict[str, Any]]], stream)) as events,
-        run.stopped_by_failure(),
-    ):
-        for _, mode, data in events:
-            if mode == "updates" and "__interrupt__" in data:
-                continue
-            if mode == "updates" and "day" in data:
+    with lasting(), closing(listened_to(work)) as events, run.stopped_by_failure():
+        for node, said in events:
+            if node == "day":
                 give_back()
-            if mode == "custom":
-                now |= {"day": data["day"], "hour": data["hour"]}
-                if data["success"]:
-                    scored[:] = [pool([*scored, Counts.model_validate(data["success"]["predicate"])])]
+            if said is not None:
+                now |= {"day": said["day"], "hour": said["hour"]}
+                if said["success"]:
+                    scored[:] = [pool([*scored, Counts.model_validate(said["success"]["predicate"])])]
                     now["success"] = scored[0].f1
             if on_event is not None:
-                nodes = [data["node"]] if mode == "custom" else list(data)
-                for node in nodes:
-                    on_event({**now, "node": node})
+                on_event({**now, "node": node})
     return waiting(graph, THREAD)

@@ -1,0 +1,90 @@
+"""What happens in a running study, node by node, told to whoever runs it.
+
+LangGraph streams graphs within graphs by waking three threads for each piece, which costs 2 to 4 ms an hour. Here the
+graphs run in one thread, which LangChain's callbacks listen to.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Generator, Mapping
+from contextvars import copy_context
+from queue import SimpleQueue
+from typing import Any, NamedTuple
+from uuid import UUID
+
+from langchain_core.callbacks import BaseCallbackHandler
+from langgraph.graph import START
+
+from coopera.graphs.events import SAID, Said
+
+Event = Mapping[str, Any]
+"""That a node has ended: `day`, `hour` (None in the evening), `node`, `success` (predicate F1 so far, or None)."""
+
+_NODE = "graph:step:"
+"""Begins LangGraph's tag of a node's run, and of no run within it."""
+
+
+class Heard(NamedTuple):
+    """That a node has ended, or what one says."""
+
+    node: str
+    said: Said | None = None
+
+
+class Listener(BaseCallbackHandler):
+    """Hears the nodes of graphs in the thread that runs them."""
+
+    ignore_llm = ignore_chat_model = ignore_retriever = ignore_agent = True
+
+    def __init__(self, hear: Callable[[Heard], None]) -> None:
+        """Have `hear` called, which must not fail."""
+        self._hear = hear
+        self._running: dict[UUID, str] = {}
+
+    def on_chain_start(self, serialized: Any, inputs: Any, *, run_id: UUID, **about: Any) -> None:
+        """Note which node it is, since its end does not tell."""
+        node = (about["metadata"] or {}).get("langgraph_node", START)
+        if node != START and any(tag.startswith(_NODE) for tag in about["tags"] or ()):
+            self._running[run_id] = node
+
+    def on_chain_end(self, outputs: Any, *, run_id: UUID, **about: Any) -> None:
+        """Hear that a node has ended."""
+        if (node := self._running.pop(run_id, None)) is not None:
+            self._hear(Heard(node))
+
+    def on_chain_error(self, error: BaseException, *, run_id: UUID, **about: Any) -> None:
+        """Let a node go that failed, or that waits for a person."""
+        self._running.pop(run_id, None)
+
+    def on_custom_event(self, name: str, data: Any, **about: Any) -> None:
+        """Hear what a node says."""
+        if name == SAID:
+            self._hear(Heard(data["node"], data))
+
+
+def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
+    """Do work in a thread of its own, and yield what its listener hears; the error that ends it is raised here.
+
+    Ctrl-C reaches whoever waits here, not the work. To close this is to wait until the work has ended.
+    """
+    heard: SimpleQueue[Heard | None] = SimpleQueue()
+    failed: list[BaseException] = []
+
+    def done() -> None:
+        try:
+            work(Listener(heard.put))
+        except BaseException as err:  # noqa: BLE001 - it is raised where it is waited for
+            failed.append(err)
+        finally:
+            heard.put(None)
+
+    thread = threading.Thread(target=copy_context().run, args=(done,), name="study")
+    thread.start()
+    try:
+        while (one := heard.get()) is not None:
+            yield one
+    finally:
+        thread.join()
+    if failed:
+        raise failed[0]
