@@ -171,11 +171,12 @@ class Filming:
         track, speed = Track.along(walk.points), (ROBOT_SPEED if drives else PERSON_SPEED) / TICKS
         ticks = min(math.ceil(track.marks[-1] / speed), round(SHOWN * TICKS))
         carries = walk.carries is not None
+        driving = self._idle(agent, carries) if drives else None  # to hold no `self` lets a recording go at once
 
         def at(tick: int) -> Placed:
             gone = max(track.marks[-1] - (ticks - tick) * speed, 0.0)
             yaw = track.heading(gone)
-            pose = self._idle(agent, carries) if drives else walking(gone, carries)
+            pose = walking(gone, carries) if driving is None else driving
             return Placed(*track.at(gone), there.yaw if yaw is None else yaw, pose)
 
         return ticks, at
@@ -334,12 +335,12 @@ class Filming:
         """Moments in which only one agent moves; who watches another one keeps its head towards the person."""
         bodies, all_held, worn, opened = dict(self.bodies), dict(self.held), dict(self.worn), self.opened
         outfits = {one: outfit for one, outfit in self._outfits.items() if one != agent}
-        robot, person = self.recording.robot, self.recording.person
+        robot, person, robots = self.recording.robot, self.recording.person, self.robots
 
         def moment(body: Placed, held: Held | None, moved: Mapping[str, ThingState]) -> Moment:
             now = {**bodies, agent: body}
             if agent != robot:
-                now[robot] = watching(self.robots[robot], now[robot], now[person])
+                now[robot] = watching(robots[robot], now[robot], now[person])
             return Moment(now, _with(all_held, agent, held), moved, worn, opened, outfits)
 
         return moment

@@ -155,12 +155,28 @@ def test_garbage_goes_with_the_evening_and_the_end_of_a_run_looks_through_everyt
     assert not gc.get_freeze_count()
 
 
-def test_what_a_library_brings_after_the_first_evening_is_not_looked_through_each_evening() -> None:
+def test_what_outlives_an_evening_is_not_looked_through_each_evening() -> None:
     with lasting():
         give_back()
-        held: list[list[int]] = [[] for _ in range(120_000)]
+        held: list[list[int]] = [[] for _ in range(20_000)]
         give_back()
         assert len(gc.get_objects()) < len(held)
+
+
+def test_what_becomes_garbage_after_the_evening_that_it_outlived_goes_in_the_end() -> None:
+    class Ring:
+        pass
+
+    with lasting():
+        give_back()
+        ring = Ring()
+        ring.itself = ring  # type: ignore[attr-defined]
+        left = weakref.ref(ring)
+        give_back()
+        del ring
+        for _ in range(100):
+            give_back()
+        assert left() is None
 
 
 def test_what_some_runs_of_a_process_left_is_let_go_of_before_the_next_ones() -> None:

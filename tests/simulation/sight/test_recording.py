@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
+
 import pytest
 
-from coopera.simulation.acts.plans import Open, Play
+from coopera.simulation.acts.plans import Open, Play, Walk
 from coopera.simulation.bodies.humanoid_reach import standing
 from coopera.simulation.sight.recording import Filming
 from coopera.simulation.sight.stances import still
@@ -32,6 +35,21 @@ def test_furniture_is_open_from_the_reach_on_and_the_hand_keeps_what_it_has(grou
     assert second.at(0).opened == {"fridge_1"}
     assert second.at(second.ticks - 1).opened == frozenset()
     assert {shot.at(tick).held["human"].name for shot in (first, second) for tick in (0, shot.deed)} == {"mug_1"}
+
+
+def test_a_film_that_nobody_keeps_goes_at_once_without_a_look_for_garbage(ground) -> None:
+    known, start = ground
+    walk = Walk("human", [(0.0, 0.0), (2.0, 2.0)])
+    step = Open("human", Stand(2.0, 2.0, 0.0, 0.0, 0.0), standing(), "fridge_1", opens=True)
+    recording = Filming(known, start, "robot", "human").film([walk, step], "human")
+    assert recording.shots[0].at(3).bodies
+    left = weakref.ref(recording.shots[0].at)
+    gc.disable()
+    try:
+        del recording
+        assert left() is None
+    finally:
+        gc.enable()
 
 
 def test_what_was_left_open_is_open_in_the_next_film(ground) -> None:
