@@ -282,7 +282,8 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     ctx, view, intention = runtime.context, runtime.context.view, state["intention"]
     home, direct = view.home, ctx.method.intentions == "skipped"
     in_hand = held(view.observation) if ctx.method.skips_held else None
-    weights = weights_for(state["told"], likeness(view, state["told"], intention.text))
+    [alike] = likeness(view, state["told"], [intention.text])
+    weights = weights_for(state["told"], alike)
     count = Numbers.DIRECT_TASKS if direct else how_many(ctx.method, view, state["told"], weights)
     extra: dict[str, Any] = {"in_hand": in_hand.thing if in_hand else None, "seen": state["seen"] or None}
     if view.collab == 1:

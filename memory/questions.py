@@ -52,12 +52,12 @@ class Relevances(NamedTuple):
     Attributes:
         texts: As they were added.
         hours: Global hour index of each.
-        relevances: Cosine of each with the query, in [-1, 1].
+        relevances: For each query, its cosine with each record, in [-1, 1].
     """
 
     texts: list[str]
     hours: list[int]
-    relevances: list[float]
+    relevances: list[list[float]]
 
 
 def check_text(text: str, what: str) -> None:

@@ -81,11 +81,11 @@ class Hits(NamedTuple):
 
 
 class Compared(NamedTuple):
-    """Consecutive records, in order of time, and how alike each is to a query.
+    """Consecutive records, in order of time, and how alike each is to some queries.
 
     Attributes:
         start: Position of the first.
-        cosines: Shape (n,), in float64.
+        cosines: Shape (queries, n), in float64.
     """
 
     start: int
@@ -148,25 +148,25 @@ def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int
     return Hits(window.best(), high - position)
 
 
-def every(rows: Rows, query: Vector, *, now: int, since: int | None = None) -> Compared:
-    """Compare all records with since <= hour <= now to a query; each cosine is the one that `top` gives.
+def every(rows: Rows, queries: Vector, *, now: int, since: int | None = None) -> Compared:
+    """Compare all records with since <= hour <= now to some queries; each cosine is the one that `top` gives.
 
     Args:
         rows: The records.
-        query: Unit vector, shape (d,), float32.
+        queries: Unit vectors, shape (queries, d), float32.
         now: Last hour in question.
         since: First hour in question; None for no limit.
     """
     low = 0 if since is None else rows.first_at(since)
     high = max(low, rows.first_at(now + 1))
-    cosines = [np.empty(0)]
+    cosines = [np.empty((len(queries), 0))]
     numbers = range(low // BLOCK, -(-high // BLOCK))
     for first in range(0, len(numbers), AT_ONCE):
         blocks = [rows.block(number) for number in numbers[first : first + AT_ONCE]]
         parts = [block.vectors[max(0, low - block.start) : high - block.start] for block in blocks]
         unlike, of = _different(_joined(parts))
-        cosines.append(_cosines(unlike, query)[of])
-    return Compared(low, np.concatenate(cosines))
+        cosines.append(_cosines(unlike, queries)[:, of])
+    return Compared(low, np.concatenate(cosines, axis=1))
 
 
 class _Window:
@@ -209,7 +209,7 @@ class _Window:
             positions.append(kept.positions[near])
             hours.append(kept.hours[near])
             unlike, of = np.unique(kept.of[near], return_inverse=True)
-            cosines.append(_cosines(kept.unlike[unlike], self._query)[of])
+            cosines.append(_cosines(kept.unlike[unlike], self._query[None])[0, of])
         position, hour, cosine = (np.concatenate(column) for column in (positions, hours, cosines))
         asked, place = np.unique(hour, return_inverse=True)
         recency = np.array([self._decay ** (self._newest - one) for one in asked.tolist()])
@@ -229,13 +229,18 @@ class _Kept(NamedTuple):
     """Which of the `unlike` vectors each record has."""
 
 
-def _cosines(vectors: Vector, query: Vector) -> npt.NDArray[np.float64]:
-    """Return the cosine of each of n unit vectors with a query, row by row, so that none depends on the others."""
-    cosines, query = np.empty(len(vectors)), query.astype(np.float64)
+def _cosines(vectors: Vector, queries: Vector) -> npt.NDArray[np.float64]:
+    """Return the cosines of n unit vectors with some queries, shape (queries, n), each by itself.
+
+    They are reckoned vector by vector, so that none depends on which others there are.
+    """
+    cosines = np.empty((len(queries), len(vectors)))
     for start in range(0, len(vectors), _ROWS):
         part = vectors[start : start + _ROWS].astype(np.float64)
-        part *= query
-        cosines[start : start + _ROWS] = part.sum(1)
+        products = np.empty_like(part)
+        for of_query, query in zip(cosines, queries.astype(np.float64), strict=True):
+            np.multiply(part, query, out=products)
+            of_query[start : start + _ROWS] = products.sum(1)
     return cosines
 
 

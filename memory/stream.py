@@ -205,11 +205,11 @@ class MemoryStream:
             recalled.append(Recollection(record.text, hit.hour, hit.relevance, recency, score, record.metadata))
         return recalled
 
-    def relevances(self, query: str, now: int, since: int | None = None) -> Relevances:
+    def relevances(self, queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
         """Return how relevant each record is, whatever its recency: what `recall` says of it, in a fifth of the time.
 
         Args:
-            query: Text of 1 to 100,000 characters.
+            queries: Texts of 1 to 100,000 characters; several together take less than one after the other.
             now: Last hour in question.
             since: First hour in question; None for no limit.
 
@@ -217,16 +217,19 @@ class MemoryStream:
             ConfigError: If an argument is out of range.
             MemoryStoreError: If the store fails or is damaged.
         """
-        check_text(query, "a query")
+        if isinstance(queries, str):
+            raise ConfigError(f"queries must be a list of texts, not the text {queries!r:.80}")
+        for query in queries:
+            check_text(query, "a query")
         now = whole(now, "the last hour of a comparison")
         since = since if since is None else whole(since, "the first hour of a comparison")
         log = self._open_log
         if not len(log):
-            return Relevances([], [], [])
-        [vector] = self._vectors([query])
+            return Relevances([], [], [[] for _ in queries])
+        vectors = self._vectors(queries)
         with log.lock:
-            start, cosines = every(log, vector, now=now, since=since)
-            texts, hours = log.texts(start, start + len(cosines))
+            start, cosines = every(log, vectors, now=now, since=since)
+            texts, hours = log.texts(start, start + cosines.shape[1])
         return Relevances(texts, hours, cosines.tolist())
 
     def texts(self, since: int | None = None) -> Texts:

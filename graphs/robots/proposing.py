@@ -43,7 +43,7 @@ def evidence_of(
     """What speaks for each imagined intention; nothing where the method does not count."""
     if not method.evidence:
         return [{} for _ in replies]
-    alike = [likeness(view, told, item.intention) for item in replies]
+    alike = likeness(view, told, [item.intention for item in replies])
     return of_intentions(told, alike, [item.probability for item in replies])
 
 

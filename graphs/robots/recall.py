@@ -75,10 +75,12 @@ def recall_weeks(view: RobotView, query: str) -> list[Recalled]:
 def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: int) -> list[Recalled]:
     if not now.day:
         return []
-    found = stream.relevances(query, now.day * 24 - 1, (now.day - DAYS) * 24)
-    recency = {hour: weight(now, hour) for hour in set(found.hours)}
+    texts, hours, [relevances] = stream.relevances([query], now.day * 24 - 1, (now.day - DAYS) * 24)
+    recency = {hour: weight(now, hour) for hour in set(hours)}
     best: dict[str, tuple[float, int, float]] = {}
-    for text, hour, relevance in zip(*found, strict=True):  # thousands, oldest first, most of them said before
+    for text, hour, relevance in zip(
+        texts, hours, relevances, strict=True
+    ):  # thousands, oldest first, most of them said before
         score = relevance * recency[hour]
         known = best.get(text)
         if known is None or score >= known[0]:

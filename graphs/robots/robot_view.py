@@ -98,10 +98,10 @@ class Recall(Protocol):
 
 
 class Compare(Protocol):
-    """How alike all of a memory stream is to a text; see `coopera.memory.MemoryStream.relevances`."""
+    """How alike all of a memory stream is to some texts; see `coopera.memory.MemoryStream.relevances`."""
 
-    def __call__(self, query: str, now: int, since: int | None = None) -> Relevances:
-        """The records until the global hour `now`, oldest first, each with its likeness."""
+    def __call__(self, queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
+        """The records until the global hour `now`, oldest first, and for each query the likeness of each."""
         ...
 
 
@@ -143,8 +143,8 @@ class Readable:
         def texts(since: int | None = None) -> Texts:
             return stream.texts(since)
 
-        def relevances(query: str, now: int, since: int | None = None) -> Relevances:
-            return stream.relevances(query, now, since=since)
+        def relevances(queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
+            return stream.relevances(queries, now, since=since)
 
         return cls(recall, records, texts, relevances)
 

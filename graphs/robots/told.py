@@ -89,13 +89,16 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     ]
 
 
-def likeness(view: RobotView, told: Sequence[ToldHour], intention: str) -> list[float]:
-    """How like an intention is to that of each told hour, by meaning, in [0, 1]; the same words give 1."""
-    if not told:
-        return []
-    found = view.history.intentions.relevances(intention, view.clock.now, told[0].now)
-    cosine = dict(zip(found.hours, found.relevances, strict=True))
-    return [min(1.0, max(0.0, (cosine.get(hour.now, 0.0) - UNLIKE) / (ALIKE - UNLIKE))) for hour in told]
+def likeness(view: RobotView, told: Sequence[ToldHour], intentions: Sequence[str]) -> list[list[float]]:
+    """How like each intention is to that of each told hour, by meaning, in [0, 1]; the same words give 1."""
+    if not told or not intentions:
+        return [[] for _ in intentions]
+    _, hours, relevances = view.history.intentions.relevances(intentions, view.clock.now, told[0].now)
+    cosines = [dict(zip(hours, of_one, strict=True)) for of_one in relevances]
+    return [
+        [min(1.0, max(0.0, (cosine.get(hour.now, 0.0) - UNLIKE) / (ALIKE - UNLIKE))) for hour in told]
+        for cosine in cosines
+    ]
 
 
 def best_hours(told: Sequence[ToldHour], weights: Sequence[float], most: int) -> list[tuple[ToldHour, float]]:

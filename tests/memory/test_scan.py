@@ -102,9 +102,11 @@ def check_arrays(case: Case) -> None:
         found = top(rows, query, k, now=now, decay=case.decay, since=since)
         expected = brute_force(vectors, case.hours, query, k, now, case.decay, since)
         assert [(hit.position, hit.relevance) for hit in found.hits] == expected
-        start, cosines = every(rows, query, now=now, since=since)
-        compared = [(start + place, cosine) for place, cosine in enumerate(cosines.tolist())]
-        assert compared == all_of(vectors, case.hours, query, now, since)
+        other = directions(case, rng, 1, query=True)[0]
+        start, cosines = every(rows, np.stack((other, query)), now=now, since=since)
+        for one, of_one in zip((other, query), cosines.tolist(), strict=True):
+            compared = [(start + place, cosine) for place, cosine in enumerate(of_one)]
+            assert compared == all_of(vectors, case.hours, one, now, since)
 
 
 def all_of(vectors: Vector, hours: list[int], query: Vector, now: int, since: int | None) -> list[tuple[int, float]]:
@@ -129,7 +131,7 @@ def check_stream(case: Case, folder: Path) -> None:
                 found = stream.recall(question, now, k, since)
                 expected = brute_force(vectors, seen, query, k, now, case.decay, since)
                 assert [(int(f.text.split()[1]), f.relevance) for f in found] == expected
-                texts, of, relevances = stream.relevances(question, now, since)
+                texts, of, [relevances] = stream.relevances([question], now, since)
                 compared = [(int(text.split()[1]), one) for text, one in zip(texts, relevances, strict=True)]
                 assert compared == all_of(vectors, seen, query, now, since)
                 assert of == [case.hours[place] for place, _ in compared]
@@ -216,6 +218,6 @@ def test_what_has_left_ram_while_the_rest_is_read_is_scored_by_its_own_vector(tm
         for hour in range(80):
             stream.add([f"record {hour}"], hour)
         found = [(int(one.text.split()[1]), one.relevance) for one in stream.recall("question", 80, 80)]
-        compared = stream.relevances("question", 80).relevances
+        [compared] = stream.relevances(["question"], 80).relevances
     assert list(enumerate(compared)) == sorted(found)
     assert found == brute_force(vectors, list(range(80)), vectors[7], 80, 80, 1.0, None)

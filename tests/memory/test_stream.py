@@ -71,16 +71,17 @@ def test_a_pause_of_years_does_not_blur_the_order(stream: MemoryStream) -> None:
 
 
 def test_how_relevant_everything_is_is_told_in_order_of_time_whatever_its_age(stream: MemoryStream) -> None:
-    assert stream.relevances("a", now=9) == ([], [], [])
+    assert stream.relevances(["a"], now=9) == ([], [], [[]])
     stream.add(["a", "b"], 0)
     stream.add(["ab"], 5)
     stream.add(["a"], 7)
     recalled = {(one.text, one.hour): one.relevance for one in stream.recall("a", now=5, k=9)}
-    texts, hours, relevances = stream.relevances("a", now=5)
+    texts, hours, relevances = stream.relevances(["a", "b"], now=5)
     assert (texts, hours) == (["a", "b", "ab"], [0, 0, 5])
-    assert relevances == [recalled["a", 0], recalled["b", 0], recalled["ab", 5]]
-    assert stream.relevances("a", now=9, since=5)[:2] == (["ab", "a"], [5, 7])
-    assert stream.relevances("a", now=9, since=8) == ([], [], [])
+    assert relevances[0] == [recalled["a", 0], recalled["b", 0], recalled["ab", 5]]
+    assert relevances == [stream.relevances([one], now=5).relevances[0] for one in "ab"]
+    assert stream.relevances(["a"], now=9, since=5)[:2] == (["ab", "a"], [5, 7])
+    assert stream.relevances(["a"], now=9, since=8) == ([], [], [[]])
 
 
 def test_recalling_changes_nothing(stream: MemoryStream) -> None:
@@ -191,7 +192,7 @@ def test_what_was_added_is_recalled_without_asking_the_store_for_its_text(monkey
         assert {tuple(one.metadata["pair"]) for one in recalled} == {(1, 2)}
         assert isinstance(recalled[0].metadata["pair"], list), "as the store would give it back"
         assert len(list(stream.records())) == 600
-        assert len(stream.relevances("record", now=3).texts) == 600
+        assert len(stream.relevances(["record"], now=3).texts) == 600
     assert not asked
 
 
@@ -226,9 +227,10 @@ def test_with_real_embeddings_what_was_meant_is_recalled(tmp_path: Path) -> None
         (lambda s: s.recall("a", 1, 0), "k must be at least 1, not 0"),
         (lambda s: s.recall("a", 1, -3), "k must be at least 1, not -3"),
         (lambda s: s.recall("a", "now", 1), "whole number"),
-        (lambda s: s.relevances("", 1), "not empty"),
-        (lambda s: s.relevances("a", "now"), "whole number"),
-        (lambda s: s.relevances("a", 1, since="monday"), "whole number, not 'monday'"),
+        (lambda s: s.relevances([""], 1), "not empty"),
+        (lambda s: s.relevances("a", 1), "a list of texts, not the text 'a'"),
+        (lambda s: s.relevances(["a"], "now"), "whole number"),
+        (lambda s: s.relevances(["a"], 1, since="monday"), "whole number, not 'monday'"),
         (lambda s: s.latest(-1), "negative"),
     ],
 )
