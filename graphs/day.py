@@ -97,7 +97,7 @@ def build_day_graph(
 def start_day(state: DayInput, runtime: Runtime[Services]) -> dict[str, Any]:
     """Begin at the first hour, knowing nothing of what is yet to come. Writes `position`."""
     forget_ahead(runtime.context, state["plan"], sorted(runtime.context.people))
-    say("start_day", state["plan"].day)
+    say(state["plan"].day)
     return {"position": 0}
 
 
@@ -114,7 +114,7 @@ def hour(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
     services.home(plan.scene).restore(state["worlds"].get(plan.scene, {}))
     services.home(plan.scene).inhabit(services.human_agent, services.people[plan.person])
     services.ask.take_calls()
-    say("hour", plan.day, plan.hours[position])
+    say(plan.day, plan.hours[position])
     belief = state["beliefs"].get(plan.person, Belief())
     given = HourInput(plan=plan, position=position, belief=belief, beliefs=state["beliefs"])
     done = _hour_graph().invoke(given, context=services.here())
@@ -224,7 +224,7 @@ def end_day(state: DayState, runtime: Runtime[Services]) -> dict[str, Any]:
             calls=[*state.get("calls", []), *services.ask.take_calls()],
         )
     )
-    say("end_day", plan.day)
+    say(plan.day)
     return {}
 
 

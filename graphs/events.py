@@ -12,14 +12,16 @@ SAID = "coopera"
 
 
 class Said(TypedDict):
-    """`hour` is None in the evening; `success` is the hour's (`coopera.core.success.Success`), once it is known."""
+    """`hour` is None in the evening; `success` is the hour's (`coopera.core.success.Success`), once it is known.
 
-    node: str
+    Which node says it is in the event's metadata, as `langgraph_node`.
+    """
+
     day: int
     hour: int | None
     success: dict[str, Any] | None
 
 
-def say(node: str, day: int, hour: int | None = None, success: dict[str, Any] | None = None) -> None:
+def say(day: int, hour: int | None = None, success: dict[str, Any] | None = None) -> None:
     """Say, within a node, that it is reached."""
-    dispatch_custom_event(SAID, Said(node=node, day=day, hour=hour, success=success))
+    dispatch_custom_event(SAID, Said(day=day, hour=hour, success=success))

@@ -188,7 +188,7 @@ def record(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
         ),
         after=home.frames_due(),  # an hour that stands has all its pictures
     )
-    say("record", plan.day, clock.hour, success.model_dump() if success else None)
+    say(plan.day, clock.hour, success.model_dump() if success else None)
     return {"world": world}
 
 

@@ -60,7 +60,7 @@ class Listener(BaseCallbackHandler):
     def on_custom_event(self, name: str, data: Any, **about: Any) -> None:
         """Hear what a node says."""
         if name == SAID:
-            self._hear(Heard(data["node"], data))
+            self._hear(Heard(about["metadata"]["langgraph_node"], data))
 
 
 def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:

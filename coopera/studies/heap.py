@@ -53,7 +53,7 @@ def give_back() -> None:
 
     Left to Python, such garbage gathers for days, among what stays, since a run holds so much. What is there after an
     evening (libraries, weights, homes, what was learned) is therefore no longer looked through, until the run ends
-    (`lasting`): a day leaves some 10 MB behind, and next to nothing of it refers to itself and outlives the evening.
+    (`lasting`) or all is looked through once more. Of what had outlived twenty evenings nothing had become garbage.
     """
     global _evenings
     if _evenings:  # on the first, all would be looked through, and there is little to find

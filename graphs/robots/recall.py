@@ -78,9 +78,8 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
     texts, hours, [relevances] = stream.relevances([query], now.day * 24 - 1, (now.day - DAYS) * 24)
     recency = {hour: weight(now, hour) for hour in set(hours)}
     best: dict[str, tuple[float, int, float]] = {}
-    for text, hour, relevance in zip(
-        texts, hours, relevances, strict=True
-    ):  # thousands, oldest first, most of them said before
+    # thousands, oldest first, most of them said before
+    for text, hour, relevance in zip(texts, hours, relevances, strict=True):
         score = relevance * recency[hour]
         known = best.get(text)
         if known is None or score >= known[0]:

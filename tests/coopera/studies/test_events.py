@@ -12,7 +12,7 @@ from langgraph.types import interrupt
 from typing_extensions import TypedDict
 
 from coopera.core.errors import StoppedError
-from coopera.graphs.events import say
+from coopera.graphs.events import Said, say
 from coopera.studies.events import Heard, Listener, listened_to
 
 
@@ -35,7 +35,7 @@ def outer(state: State) -> dict[str, Any]:
 
 
 def inner(state: State) -> dict[str, Any]:
-    say("inner", 3, 9)
+    say(3, 9)
     return {"seen": "inner"}
 
 
@@ -57,7 +57,7 @@ def run(graph: Any) -> Callable[[Listener], object]:
 
 
 def test_nodes_are_heard_as_they_end_those_of_inner_graphs_first_and_what_they_say_as_they_say_it() -> None:
-    said = {"node": "inner", "day": 3, "hour": 9, "success": None}
+    said = Said(day=3, hour=9, success=None)
     heard = list(listened_to(run(graph_of(outer, also))))
     assert heard == [Heard("inner", said), Heard("inner"), Heard("also"), Heard("outer"), Heard("also")]
 
