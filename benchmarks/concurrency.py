@@ -1,6 +1,7 @@
 """Eight studies at once against one after the other, at a server that answers every request after 200 ms.
 
-    python -m benchmarks.concurrency [--studies 8] [--days 2] [--hours 13] [--latency 0.2] [--processes 1 2]
+    python -m benchmarks.concurrency [--studies 8] [--days 2] [--hours 13] [--latency 0.2] [--under-way 64]
+        [--processes 1 2]
 
 Everything but the model's words is real: homes, memories, classifiers, run directories, HTTP. The ratio is bounded by
 the processors: what homes compute takes turns in each process. The time that the processes take to start counts.
@@ -20,13 +21,14 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from coopera import Config
+from coopera import Config, run_studies
 from coopera.config.schema import Models
 from coopera.core.errors import CooperaError
+from coopera.models.settings import CallSettings
 from coopera.people.shipped import shipped_ids
 from coopera.report.costs import costs_of
 from coopera.rundir.directory import RunDir
-from coopera.studies.several import Ended, run_studies
+from coopera.studies.several import Ended
 from tests.serving import done, serving
 
 
@@ -37,6 +39,7 @@ def main() -> None:
     parser.add_argument("--days", type=int, default=2)
     parser.add_argument("--hours", type=int, default=13)
     parser.add_argument("--latency", type=float, default=0.2)
+    parser.add_argument("--under-way", type=int, default=64, help="requests that the server may have at a time")
     parser.add_argument("--processes", type=int, nargs="+", default=sorted({1, os.cpu_count() or 1}))
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, serving("--latency", str(given.latency)) as url:
@@ -53,6 +56,7 @@ def main() -> None:
                     seed=n,
                     models=Models(human="openai:tiny", robot="openai:tiny", judge="openai:tiny"),
                     base_url=url,
+                    calls=CallSettings(at_once=given.under_way),
                     out=root / name / str(n),
                     cache=root / f"{name}.sqlite",
                     data_dir=root / "data",

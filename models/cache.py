@@ -44,12 +44,14 @@ def key_of(model: str, messages: Sequence[object], images: Iterable[bytes], form
 class ReplyCache:
     """A table from key to reply. Threads and processes may share the file."""
 
-    def __init__(self, path: Path, shared: Path | None = None) -> None:
+    def __init__(self, path: Path, shared: Path | None = None, *, copy: bool = False) -> None:
         """Open or create the file.
 
         Args:
             path: Where replies are kept.
             shared: A second file that other runs use too; what it knows is copied into the first.
+            copy: Whether another file has the same, so that no reply waits for the disk. If the power fails, the last
+                ones may then be missing from this file.
 
         Raises:
             RunError: If the file cannot be opened or is something else.
@@ -61,6 +63,8 @@ class ReplyCache:
             self._db = sqlite3.connect(path, timeout=_PATIENCE, check_same_thread=False, isolation_level=None)
             try:
                 self._db.execute("PRAGMA journal_mode=WAL")
+                if copy:
+                    self._db.execute("PRAGMA synchronous=NORMAL")
                 self._db.execute(
                     "CREATE TABLE IF NOT EXISTS replies(key TEXT PRIMARY KEY, reply TEXT, tokens_in INTEGER,"
                     " tokens_out INTEGER, cut INTEGER) WITHOUT ROWID"
@@ -71,7 +75,7 @@ class ReplyCache:
         if shared is not None:
             try:
                 shared.parent.mkdir(parents=True, exist_ok=True)
-                self._shared = ReplyCache(shared)
+                self._shared = ReplyCache(shared, copy=True)
             except (OSError, RunError):
                 self._db.close()
                 raise

@@ -12,6 +12,7 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for_all
+from functools import partial
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_any
 from multiprocessing.process import BaseProcess
@@ -24,9 +25,8 @@ from coopera.models.transport import share_pace
 from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
 from coopera.studies.events import Event
-from coopera.studies.heap import rare_collections
 from coopera.studies.study import run_study
-from coopera.studies.workers import die_with_parent, share_cores
+from coopera.studies.workers import start
 
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
@@ -113,14 +113,11 @@ def _in_processes(
     staff: dict[Connection, tuple[BaseProcess, set[int]]] = {}
     try:
         for n in range(processes):
-            here, there = context.Pipe()
             share = jobs[n::processes]
             threads = at_once // processes + (n < at_once % processes)
-            given = {"at_once": threads, "which": n, "of": processes, "events": on_event is not None}
-            process = context.Process(target=_serve, args=(there, share), kwargs=given, daemon=True)
-            process.start()
-            there.close()
-            staff[here] = process, {number for number, _ in share}
+            life = partial(_serve, share, at_once=threads, of=processes, events=on_event is not None)
+            process, pipe = start(context, life, n, processes)
+            staff[pipe] = process, {number for number, _ in share}
         _hear(staff, end, on_event)
     except KeyboardInterrupt:  # each hears it as well, or now, and writes down how far its runs got
         for one, _ in staff.values():
@@ -153,20 +150,9 @@ def _hear(
                 on_event(number, event)
 
 
-def _serve(
-    pipe: Connection,
-    jobs: Sequence[tuple[int, Config]],
-    *,
-    at_once: int,
-    which: int,
-    of: int,
-    events: bool,
-) -> None:
+def _serve(jobs: Sequence[tuple[int, Config]], pipe: Connection, *, at_once: int, of: int, events: bool) -> None:
     """The life of a process: its share of the studies, in threads; every event and end is told."""
-    die_with_parent()
     share_pace(of)
-    share_cores(which, of)
-    rare_collections()
 
     def tell(number: int, event: Event) -> None:
         pipe.send((number, event, None))

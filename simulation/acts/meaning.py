@@ -81,7 +81,8 @@ def motion_meant(ground: Ground, state: HomeState, act: FreeMotion, target: Scen
     words = {meant.caption: meant.likeness for meant in alone}
     whole = words if ground.rank is None else dict(ground.rank(asked))
     near = {caption: (words[caption] + whole.get(caption, 0.0)) / 2 for caption in words}
-    ranked = sorted(words, key=lambda caption: -(near[caption] + _fitness(ground, state, act, caption)))
+    said = _posture(act.motion)
+    ranked = sorted(words, key=lambda caption: -(near[caption] + _fitness(ground, state, act, caption, said)))
     best = next((caption for caption in ranked if _can(ground, state, act, target, caption)), None)
     surest, least = alone[0], LEAST if ground.rank is not None else 1e-9
     if best is not None and words[best] >= max(least, surest.likeness - _LESS if surest.likeness >= _SURE else 0.0):
@@ -113,14 +114,14 @@ def _can(ground: Ground, state: HomeState, act: FreeMotion, target: SceneObject,
     return True
 
 
-def _fitness(ground: Ground, state: HomeState, act: FreeMotion, caption: str) -> float:
-    """What the thing in hand, and a posture in the words, say for or against a motion."""
-    said, posture = affordances().of(caption), _posture(act.motion)
-    other = posture is not None and ground.motions[caption].posture != posture
-    done_with = (*said.needs, *said.lies)
+def _fitness(ground: Ground, state: HomeState, act: FreeMotion, caption: str, said: Posture | None) -> float:
+    """What the thing in hand, and a posture that is said, say for or against a motion."""
+    used = affordances().of(caption)
+    other = said is not None and ground.motions[caption].posture != said
+    done_with = (*used.needs, *used.lies)
     if done_with and in_hand_is(ground, state, act.in_hand, done_with):
         return _COUNTS * (1 - other)
-    return -_COUNTS * (bool(said.needs) + other)
+    return -_COUNTS * (bool(used.needs) + other)
 
 
 def _posture(text: str) -> Posture | None:
