@@ -310,6 +310,7 @@ def main() -> None:
     parser.add_argument(
         "--record", type=Path, help="keep each trial here, as a line of JSON, and do none that is there"
     )
+    parser.add_argument("--part", default="1/1", help="K/N: the K-th of N processes that share the trials")
     parser.add_argument("--named", default="", help="only writes in whose name this regular expression is found")
     given = parser.parse_args()
     until = time.monotonic() + 60 * given.minutes
@@ -321,7 +322,9 @@ def main() -> None:
     before = given.record.read_text().splitlines() if given.record and given.record.is_file() else []
     ended = [Trial(**json.loads(line)) for line in before]
     known = {(one.which, one.mode) for one in ended}
-    for place, mode in itertools.product(survey.sample(given.each), given.modes.split(",")):
+    part, parts = map(int, given.part.split("/"))
+    trials = list(itertools.product(survey.sample(given.each), given.modes.split(",")))
+    for place, mode in trials[part - 1 :: parts]:
         name, which = survey.names[place - 1], survey.which[place - 1]
         if (which, mode) in known or not re.search(given.named, name) or time.monotonic() > until:
             continue

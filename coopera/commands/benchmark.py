@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from contextlib import closing
 from importlib import import_module
 from pathlib import Path
 from threading import Thread
@@ -11,10 +12,9 @@ from typing import Annotated, Any
 
 import typer
 
-from coopera.commands.options import AsJson, BaseUrl, Model, PromptFolder, as_list, nested, option
+from coopera.commands.options import STOPPED, AsJson, BaseUrl, Model, PromptFolder, as_list, nested, option
 from coopera.core.naming import printable
 
-STOPPED = 130
 FLAGS = "--methods, --settings, --collab, --seeds, --humans, --scenes, --episodes, --days, --hours"
 
 
@@ -145,24 +145,27 @@ def _foresee(planned: Any, scatter: Path | None, *, as_json: bool) -> None:
 def carry_out_in_words(planned: Any, *, workers: int, ray: str | None, limit: float | None) -> dict[str, str]:
     """Work through what is left with a line per run; returns the runs that failed, with the reason."""
     from coopera.benchmark.grid_runs import carry_out
+    from coopera.rundir.stopping import ends_soon
+
+    def farewell() -> None:
+        typer.echo(printable(f"Stopped. Run the same command again to go on: {planned.root}"), err=True)
 
     total, left = len(planned.jobs), len(planned.left)
     typer.echo(f"{total} runs, {total - left} of them done already.", err=True)
     started, done, failures = time.monotonic(), total - left, dict[str, str]()
     ends = carry_out(planned, workers=workers, ray=ray, deadline=started + 60 * limit if limit else None)
     try:
-        for end in ends:
-            done += 1
-            what = f"failed: {end.error}" if end.error else "done"
-            if end.error:
-                failures[end.job.name] = end.error
-            said = f"{done} of {total} ({time.monotonic() - started:.0f} s): {end.job.name} {what}"
-            typer.echo(printable(said), err=True)
+        with ends_soon(STOPPED, farewell), closing(ends):
+            for end in ends:
+                done += 1
+                what = f"failed: {end.error}" if end.error else "done"
+                if end.error:
+                    failures[end.job.name] = end.error
+                said = f"{done} of {total} ({time.monotonic() - started:.0f} s): {end.job.name} {what}"
+                typer.echo(printable(said), err=True)
     except KeyboardInterrupt:
-        typer.echo(f"Stopped. Run the same command again to go on: {planned.root}", err=True)
+        farewell()
         raise typer.Exit(STOPPED) from None
-    finally:
-        ends.close()
     return failures
 
 

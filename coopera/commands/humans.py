@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from coopera.commands.listing import show_rows
-from coopera.commands.options import AsJson, BaseUrl, DataFolder, Model, PromptFolder
+from coopera.commands.options import STOPPED, AsJson, BaseUrl, DataFolder, Model, PromptFolder
 from coopera.commands.rows import rows_of
 from coopera.core.naming import printable
 
@@ -97,6 +97,7 @@ def import_humans(
     read_rows(file)  # a file that is wrong is refused before a model is loaded
     from coopera.core.errors import ConfigError
     from coopera.prompts import PromptLibrary
+    from coopera.rundir.stopping import ends_soon
     from coopera.studies.assemble import open_ask
 
     folder = config.data_dir / "humans"
@@ -110,13 +111,16 @@ def import_humans(
     def tell(person: str, what: str) -> None:
         typer.echo(printable(f"{person}: {what}"), err=True)
 
+    def farewell() -> None:
+        typer.echo("Stopped. The same command goes on where it was.", err=True)
+
     try:
-        with open_ask(config, prompts=library, root=replies) as ask:
+        with ends_soon(STOPPED, farewell), open_ask(config, prompts=library, root=replies) as ask:
             maker = Maker(ask, config.models.human, library.hashes())
             done = import_people(file, maker, folder, limit=limit, force=force, workers=workers, on_person=tell)
     except KeyboardInterrupt:
-        typer.echo("Stopped. The same command goes on where it was.", err=True)
-        raise typer.Exit(130) from None
+        farewell()
+        raise typer.Exit(STOPPED) from None
     for person, why in done.failed.items():
         typer.echo(printable(f"{person}: {why}"), err=True)
     if as_json:

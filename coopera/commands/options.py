@@ -26,6 +26,7 @@ PageName = Annotated[
     str | None,
     typer.Option("--name", metavar="NAME", help="Name of a proxy with TLS before the pages; they then need a token."),
 ]
+STOPPED = 130  # what shells give a program that Ctrl-C ended
 HOST, PORT = "127.0.0.1", 8765
 
 

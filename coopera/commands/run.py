@@ -13,6 +13,7 @@ import typer
 from coopera.commands.options import (
     HOST,
     PORT,
+    STOPPED,
     AsJson,
     CallBudget,
     MoneyBudget,
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
     from coopera.config.schema import Config
     from coopera.graphs.players.real_person import Interview
     from coopera.studies.events import Event
-
-STOPPED = 130  # what shells give a program that Ctrl-C ended
 
 
 @takes_settings
@@ -174,12 +173,19 @@ def _carry_out(
     from coopera.core.errors import WaitingError
     from coopera.report.console import PlainConsole
     from coopera.report.progress import Progress, days_table
+    from coopera.rundir.stopping import ends_soon
 
     try:
         # a live line and a person's typing would get in each other's way
         console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.attended else None
         with Progress(_hours_of(config), console, done=done) as progress:
-            summary = work(progress.tell)
+
+            def farewell() -> None:
+                progress.close()
+                typer.echo(printable(_how_to_go_on(folder)), err=True)
+
+            with ends_soon(STOPPED, farewell):
+                summary = work(progress.tell)
     except WaitingError as err:
         typer.echo(printable(f"{err} Continue with: coopera resume {folder}"), err=True)
         raise typer.Exit(STOPPED) from None

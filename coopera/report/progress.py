@@ -56,6 +56,10 @@ class Progress:
         """Show the last hour as done unless it was broken off."""
         if error is None:
             self._close_hour()
+        self.close()
+
+    def close(self) -> None:
+        """Leave the terminal as it was."""
         if self._bar:
             self._bar.stop()
 

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import os
 import signal
+import socket
 import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FrameType, TracebackType
 from typing import Any, Self
 
 from coopera.core.errors import StoppedError
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+PATIENCE = 0.7
+"""Seconds that work has to end by itself, once Ctrl-C was pressed."""
+_WORDS = 0.2
+"""Seconds for what is said at the end to be read."""
 
 
 class Stop:
@@ -57,3 +65,42 @@ class Stop:
     def _ask(self, number: int, frame: FrameType | None) -> None:
         self.ask()
         raise KeyboardInterrupt
+
+
+@contextmanager
+def ends_soon(code: int, farewell: Callable[[], None]) -> Iterator[None]:
+    """While it lasts, SIGINT and SIGTERM end the program within a second, whatever holds its work up.
+
+    Libraries that load, weights that answer and texts that are encoded cannot be interrupted: they hold up the thread
+    that does the work for seconds. What is broken off is then as it would be after `kill -9`, and is made good alike.
+
+    Args:
+        code: What the program exits with where its work did not end by itself.
+        farewell: Says so, in another thread than the main one, and is not waited for where nobody reads it.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    over = threading.Event()
+    hears, told = socket.socketpair()
+    told.setblocking(False)
+
+    def watch() -> None:
+        while heard := hears.recv(1):  # a byte for each signal, or none once nobody tells any more
+            if heard[0] in _SIGNALS and not over.wait(PATIENCE):
+                words = threading.Thread(target=farewell, daemon=True)
+                words.start()
+                words.join(_WORDS)
+                os._exit(code)
+
+    watcher = threading.Thread(target=watch, name="ends soon", daemon=True)
+    before = signal.set_wakeup_fd(told.fileno(), warn_on_full_buffer=False)
+    watcher.start()
+    try:
+        yield
+    finally:
+        over.set()
+        signal.set_wakeup_fd(before)
+        told.close()
+        watcher.join()
+        hears.close()

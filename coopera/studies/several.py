@@ -26,7 +26,7 @@ from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
 from coopera.studies.events import Event
 from coopera.studies.study import run_study
-from coopera.studies.workers import start
+from coopera.studies.workers import end_soon, start
 
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
@@ -52,7 +52,8 @@ def run_studies(
 
     Raises:
         ConfigError: If a configuration is wrong, or two have the same folder; nothing has then been begun.
-        KeyboardInterrupt: If Ctrl-C was pressed; each run stops within its hour, and can be resumed.
+        KeyboardInterrupt: If Ctrl-C was pressed; each run stops within its hour, or with its process a second later,
+            and can be resumed.
     """
     jobs = list(enumerate(resolve(config) for config in configs))
     folders = [config.out for config in configs]
@@ -119,9 +120,8 @@ def _in_processes(
             process, pipe = start(context, life, n, processes)
             staff[pipe] = process, {number for number, _ in share}
         _hear(staff, end, on_event)
-    except KeyboardInterrupt:  # each hears it as well, or now, and writes down how far its runs got
-        for one, _ in staff.values():
-            one.terminate()
+    except KeyboardInterrupt:
+        end_soon([process for process, _ in staff.values()])
         _hear(staff, end, None)
         raise
 

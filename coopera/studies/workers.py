@@ -8,15 +8,17 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Generator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
 from coopera.rundir.crash import told
+from coopera.rundir.stopping import PATIENCE
 from coopera.studies.heap import rare_collections
 
 Work = Callable[[Any], Any]
@@ -145,10 +147,19 @@ def _dismiss(staff: Sequence[_Worker]) -> None:
     """End all workers: the closing of its pipe ends one that waits, a signal one that is at work."""
     for one in staff:
         one.pipe.close()
-        if one.job is not None:
-            one.process.terminate()
+    end_soon([one.process for one in staff if one.job is not None])
     for one in staff:
         one.process.join()
+
+
+def end_soon(processes: Sequence[BaseProcess]) -> None:
+    """Have processes end: they may first say how far they got, for less than a second."""
+    for process in processes:
+        process.terminate()
+    for process in processes:
+        late = threading.Timer(PATIENCE, process.kill)
+        late.daemon = True
+        late.start()
 
 
 def _hire(context: Any, work: Work, place: int, of: int) -> _Worker:
@@ -163,7 +174,8 @@ def start(context: Any, life: Callable[[Connection], None], which: int, of: int)
 
     Args:
         context: Of `multiprocessing`.
-        life: What it does with its end of the pipe; it hears no Ctrl-C unless it listens.
+        life: What it does with its end of the pipe. It hears no Ctrl-C, not even while it loads: this process does,
+            and ends it.
         which: The how-manieth of the processes it is, from 0.
         of: How many there are.
 
@@ -172,18 +184,32 @@ def start(context: Any, life: Callable[[Connection], None], which: int, of: int)
     """
     here, there = context.Pipe()
     process = context.Process(target=_begin, args=(there, which, of), daemon=True)
-    process.start()
+    with _without_interrupts():
+        process.start()
     there.close()
     with suppress(OSError):  # it has died, which shows when it is to answer
         here.send(life)
     return process, here
 
 
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Hold Ctrl-C back, where the system can; what begins meanwhile never hears it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    resource_tracker.ensure_running()  # its start lets Ctrl-C through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _begin(pipe: Connection, which: int, of: int) -> None:
     die_with_parent()
     share_cores(which, of)
     rare_collections()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent hears Ctrl-C and ends its processes
     try:
         life = pipe.recv()
     except EOFError:

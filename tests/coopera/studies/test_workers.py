@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import socket
@@ -7,6 +8,7 @@ import subprocess
 import sys
 import threading
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -15,7 +17,7 @@ import pytest
 
 from coopera.benchmark.cluster import work_on_ray
 from coopera.core.errors import ConfigError, RunError
-from coopera.studies.workers import Done, Queue, work_through
+from coopera.studies.workers import Done, Queue, end_soon, start, work_through
 
 
 @dataclass(frozen=True)
@@ -263,3 +265,29 @@ def test_each_of_several_workers_keeps_to_cores_of_its_own_and_a_single_one_has_
         assert set().union(*shares) <= mine
         if workers == 1:
             assert shares == [mine]
+
+
+def be_interrupted(pipe: Connection) -> None:
+    signal.raise_signal(signal.SIGINT)
+    pipe.send("still here")
+
+
+def test_a_process_leaves_ctrl_c_to_the_one_that_started_it() -> None:
+    process, pipe = start(multiprocessing.get_context("spawn"), be_interrupted, 0, 1)
+    assert pipe.recv() == "still here"
+    process.join()
+    assert process.exitcode == 0
+
+
+def refuse_to_end(pipe: Connection) -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    pipe.send("at work")
+    threading.Event().wait(600)
+
+
+def test_a_process_that_does_not_end_when_it_is_told_to_is_killed() -> None:
+    process, pipe = start(multiprocessing.get_context("spawn"), refuse_to_end, 0, 1)
+    assert pipe.recv() == "at work"
+    end_soon([process])
+    process.join(60)
+    assert process.exitcode == -signal.SIGKILL
