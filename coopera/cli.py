@@ -33,12 +33,11 @@ from coopera.commands import (
     sharing,
     view,
 )
+from coopera.commands.options import STOPPED
 from coopera.core.errors import OldWordWarning
 from coopera.core.naming import printable
 from coopera.core.version import __version__
 from coopera.studies.heap import rare_collections
-
-STOPPED = 130  # what shells give a program that Ctrl-C ended
 
 app = typer.Typer(
     name="coopera",

@@ -210,6 +210,7 @@ def _begin(pipe: Connection, which: int, of: int) -> None:
     die_with_parent()
     share_cores(which, of)
     rare_collections()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where a system cannot hold it back
     try:
         life = pipe.recv()
     except EOFError:
