@@ -26,8 +26,8 @@ def work():
 with ends_soon(130, farewell):
     thread = threading.Thread(target=work)
     thread.start()
-    print("at work", flush=True)
     try:
+        print("at work", flush=True)
         signal.pause()
     except KeyboardInterrupt:
         thread.join()
