@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from contextlib import closing
+from contextlib import closing, nullcontext
 from importlib import import_module
 from pathlib import Path
 from threading import Thread
@@ -155,7 +155,8 @@ def carry_out_in_words(planned: Any, *, workers: int, ray: str | None, limit: fl
     started, done, failures = time.monotonic(), total - left, dict[str, str]()
     ends = carry_out(planned, workers=workers, ray=ray, deadline=started + 60 * limit if limit else None)
     try:
-        with ends_soon(STOPPED, farewell), closing(ends):
+        # a cluster's processes are to be gone, too, which takes Ray some seconds
+        with nullcontext() if ray else ends_soon(STOPPED, farewell), closing(ends):
             for end in ends:
                 done += 1
                 what = f"failed: {end.error}" if end.error else "done"
