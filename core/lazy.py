@@ -11,7 +11,8 @@ from importlib import import_module
 from threading import RLock
 from typing import Any, Generic, ParamSpec, TypeVar
 
-_NEW_OBJECTS = 10_000
+NEW_OBJECTS = 10_000
+"""After so many new objects Python looks for garbage, where that is to be rare; by itself after 700."""
 
 Given = ParamSpec("Given")
 Thing = TypeVar("Thing")
@@ -47,7 +48,7 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], 
 def _rarely_collecting() -> Iterator[None]:
     """While modules load, whose objects stay, look for garbage rarely: to look took a sixth of their time."""
     before = gc.get_threshold()
-    gc.set_threshold(before[0] and max(before[0], _NEW_OBJECTS), *before[1:])
+    gc.set_threshold(before[0] and max(before[0], NEW_OBJECTS), *before[1:])
     try:
         yield
     finally:

@@ -11,13 +11,14 @@ from itertools import count
 
 from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped]
 
+from coopera.core.lazy import NEW_OBJECTS
+
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8  # of glibc's malloc.h
 _LARGE = 2**20
 """Bytes from which on memory is the system's again once it is free."""
 _SCRATCH = 16 * _LARGE
 """What OpenBLAS may have used of the room that it keeps for itself; it keeps as much or more on every processor."""
 _DONTNEED = 4  # of Linux's mman.h
-_NEW_OBJECTS = 10_000
 _EVENINGS = 64
 """After so many, all of what is there is looked through once more, which takes 0.1 s."""
 _RUNS = 5
@@ -32,7 +33,7 @@ def rare_collections() -> None:
 
     A tenth of a process's start went into looking, and a quarter of what LangGraph and the memory take in a long life.
     """
-    gc.set_threshold(_NEW_OBJECTS)
+    gc.set_threshold(NEW_OBJECTS)
 
 
 def steady_heap() -> bool:

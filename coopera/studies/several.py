@@ -26,7 +26,7 @@ from coopera.rundir.stopping import Stop
 from coopera.studies.catalogues import resolve
 from coopera.studies.events import Event
 from coopera.studies.study import run_study
-from coopera.studies.workers import end_soon, start
+from coopera.studies.workers import start, stop_all
 
 Ended: TypeAlias = dict[str, Any] | CooperaError
 Tell: TypeAlias = Callable[[int, Event], None]
@@ -121,7 +121,7 @@ def _in_processes(
             staff[pipe] = process, {number for number, _ in share}
         _hear(staff, end, on_event)
     except KeyboardInterrupt:
-        end_soon([process for process, _ in staff.values()])
+        stop_all([process for process, _ in staff.values()])
         _hear(staff, end, None)
         raise
 

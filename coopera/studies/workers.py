@@ -147,12 +147,12 @@ def _dismiss(staff: Sequence[_Worker]) -> None:
     """End all workers: the closing of its pipe ends one that waits, a signal one that is at work."""
     for one in staff:
         one.pipe.close()
-    end_soon([one.process for one in staff if one.job is not None])
+    stop_all([one.process for one in staff if one.job is not None])
     for one in staff:
         one.process.join()
 
 
-def end_soon(processes: Sequence[BaseProcess]) -> None:
+def stop_all(processes: Sequence[BaseProcess]) -> None:
     """Have processes end: they may first say how far they got, for less than a second."""
     for process in processes:
         process.terminate()

@@ -15,6 +15,7 @@ from PIL import Image
 
 from coopera.core.errors import CooperaError
 from coopera.core.household import AgentId
+from coopera.core.lazy import NEW_OBJECTS
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.people.appearance import Appearance
@@ -24,16 +25,13 @@ from coopera.simulation.sight.studio import Closed, Filmed, Inhabited, Opened, c
 from coopera.simulation.sight.watching import Watcher
 from coopera.simulation.ways.navigation import Navigator
 
-_NEW_OBJECTS = 10_000
-"""After so many garbage is looked for; Python's 700 are few where a picture makes thousands."""
-
 
 def serve(pipes: list[int]) -> None:
     """Do what is asked through pipes, by their numbers: a process for each, this one and forks of it.
 
     A process ends with its pipe's last message (None) or when the other end is gone; this one, when all have.
     """
-    gc.set_threshold(_NEW_OBJECTS)
+    gc.set_threshold(NEW_OBJECTS)  # a picture makes thousands
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks for pictures says when it is over
     Image.init()
     mine, *others = pipes

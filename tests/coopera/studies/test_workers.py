@@ -17,7 +17,7 @@ import pytest
 
 from coopera.benchmark.cluster import work_on_ray
 from coopera.core.errors import ConfigError, RunError
-from coopera.studies.workers import Done, Queue, end_soon, start, work_through
+from coopera.studies.workers import Done, Queue, start, stop_all, work_through
 
 
 @dataclass(frozen=True)
@@ -288,6 +288,6 @@ def refuse_to_end(pipe: Connection) -> None:
 def test_a_process_that_does_not_end_when_it_is_told_to_is_killed() -> None:
     process, pipe = start(multiprocessing.get_context("spawn"), refuse_to_end, 0, 1)
     assert pipe.recv() == "at work"
-    end_soon([process])
+    stop_all([process])
     process.join(60)
     assert process.exitcode == -signal.SIGKILL
