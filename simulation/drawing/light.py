@@ -24,9 +24,9 @@ _CONTACT = 0.05
 
 
 def room_rows(scenery: Scenery) -> NDArray[np.float32]:
-    """For each room a row of texels: its rectangle within its walls, its windows, and again those towards the sun.
+    """For each room what `room` is in scene.vert: its rectangle within its walls, its windows, those towards the sun.
 
-    Shape (rooms, texels, 4); scene.vert and scene.frag read them.
+    Shape (rooms, n, 4).
     """
     rooms = scenery.scene.rooms
     rows = np.zeros((len(rooms), 1 + 2 * (_WINDOWS + gates(scenery)), 4), dtype=np.float32)
@@ -41,11 +41,7 @@ def room_rows(scenery: Scenery) -> NDArray[np.float32]:
 
 
 def gates(scenery: Scenery) -> int:
-    """Through how many windows the sun shines into a room at most; at least 1.
-
-    The processor that stands in for a graphics card works out every branch for every pixel, so what is never taken is
-    not to be among them.
-    """
+    """Through how many windows the sun shines into a room at most; at least 1."""
     return max(1, *(len(_sunward(scenery, room)) for room in scenery.scene.rooms))
 
 

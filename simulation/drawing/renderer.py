@@ -27,7 +27,7 @@ from coopera.simulation.shapes.rotations import Array
 Image = NDArray[np.uint8]
 Numbers = NDArray[np.int32]
 _SHADERS = Path(__file__).parent / "shaders"
-_LAYOUT = ("3f 4i1 4f1 2f 2i", "at", "normal", "paint", "uv", "tag")
+_LAYOUT = ("3f 4i1 4f1 2f 1i", "at", "normal", "paint", "uv", "tag")
 _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
 _SMALL = 400
@@ -67,9 +67,9 @@ class _Store:
     def __init__(self, kit: _Kit, batch: Batch) -> None:
         context = self._context = kit.context
         self.vertices = context.buffer(batch.vertices.tobytes())
-        self.faces, self._held = context.buffer(batch.faces.tobytes()), batch.faces
+        self.faces, self._held = context.buffer(batch.faces.tobytes()), batch.vertices
         self._seen: dict[int, Any] = {}
-        self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 24x", "at")], self.faces)
+        self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 20x", "at")], self.faces)
         self.set(batch.pieces)
 
     def seen(self, program: Any) -> Any:
@@ -78,16 +78,15 @@ class _Store:
             self._seen[program.glo] = self._context.vertex_array(program, [(self.vertices, *_LAYOUT)], self.faces)
         return self._seen[program.glo]
 
-    def fits(self, batch: Batch) -> bool:
-        """Whether another batch takes just as much memory, vertices and faces."""
-        return bool(self.vertices.size == batch.vertices.nbytes and self.faces.size == batch.faces.nbytes)
+    def holds(self, batch: Batch) -> bool:
+        """Whether this is the memory of a batch as it was before."""
+        return batch.vertices is self._held
 
     def rewrite(self, batch: Batch) -> None:
-        """Hold another batch, which fits, in place of this one."""
-        self.vertices.write(batch.vertices.tobytes())
-        if batch.faces is not self._held:
-            self.faces.write(batch.faces.tobytes())
-            self._held = batch.faces
+        """Take over what has changed of the batch."""
+        for vertices, faces in batch.changed:
+            _write(self.vertices, batch.vertices, vertices)
+            _write(self.faces, batch.faces, faces)
         self.set(batch.pieces)
 
     def set(self, pieces: list[Piece]) -> None:
@@ -101,6 +100,7 @@ class _Store:
         self.above = np.array([piece.above for piece in pieces], dtype=bool)
         self.casts = np.array([piece.casts for piece in pieces], dtype=bool)
         self.closed = np.array([piece.closed for piece in pieces], dtype=bool)
+        self.lies = np.array([piece.lies for piece in pieces], dtype=bool)
 
     def draw(self, context: Any, array: Any, chosen: NDArray[np.int64]) -> None:
         """Draw some stretches, in this order, but the closed ones first: half of their triangles cost little then."""
@@ -130,7 +130,7 @@ class _Kit:
         self.context = context
         text = {path.name: path.read_text(encoding="utf-8") for path in sorted(_SHADERS.iterdir())}
         self._text = text
-        self._scenes: dict[tuple[int, bool], Any] = {}
+        self._scenes: dict[tuple[int, bool, bool], Any] = {}
         self.shadow = context.program(vertex_shader=text["shadow.vert"], fragment_shader=text["shadow.frag"])
         self.copy = context.program(vertex_shader=text["copy.vert"], fragment_shader=text["copy.frag"])
         self.copying = context.vertex_array(self.copy, [])
@@ -141,17 +141,24 @@ class _Kit:
         self.looks.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
         self.targets: dict[tuple[int, int], _Target] = {}
 
-    def scene(self, gates: int, *, soft: bool) -> Any:
-        """The program that draws rooms into which the sun shines through so many windows at most."""
-        if (gates, soft) not in self._scenes:
-            light = self._text["scene.frag"].replace("const int GATES = 3;", f"const int GATES = {gates};")
-            light = light.replace("const bool SOFT = true;", f"const bool SOFT = {str(soft).lower()};")
-            program = self.context.program(vertex_shader=self._text["scene.vert"], fragment_shader=light)
-            for number, name in enumerate(("rooms", "shadows", "floors", "looks")):
+    def scene(self, gates: int, *, soft: bool, low: bool) -> Any:
+        """The program that draws rooms into which the sun shines through so many windows at most.
+
+        The processor that stands in for a graphics card works out every branch for every pixel, so what is never taken
+        is not to be among them.
+        """
+        if (gates, soft, low) not in self._scenes:
+            chosen = {"int GATES = 3": f"int GATES = {gates}", "bool SOFT = true": f"bool SOFT = {str(soft).lower()}"}
+            chosen["bool LOW = true"] = f"bool LOW = {str(low).lower()}"
+            vertices, light = self._text["scene.vert"], self._text["scene.frag"]
+            for default, value in chosen.items():
+                vertices, light = vertices.replace(default, value), light.replace(default, value)
+            program = self.context.program(vertex_shader=vertices, fragment_shader=light)
+            for number, name in enumerate(("shadows", "floors", "looks")):
                 if name in program:
                     program[name] = number
-            self._scenes[gates, soft] = program
-        return self._scenes[gates, soft]
+            self._scenes[gates, soft, low] = program
+        return self._scenes[gates, soft, low]
 
     def target(self, size: tuple[int, int]) -> _Target:
         """What to draw a picture of a size into; a few are kept."""
@@ -201,9 +208,7 @@ class Renderer:
         self._kit, self._gates = kit, gates(self.scenery)
         self._fixed = _Store(kit, self.scenery.fixed)
         self._moving: _Store | None = None
-        rows = room_rows(self.scenery)
-        self._rooms = context.texture((rows.shape[1], rows.shape[0]), 4, rows.tobytes(), dtype="f4")
-        self._rooms.filter = (context.NEAREST, context.NEAREST)
+        self._rooms = room_rows(self.scenery)
         floors = contact(self.scenery)
         self._floors = context.texture(floors.shape[::-1], 1, floors.tobytes(), alignment=1)
         self._floors.repeat_x = self._floors.repeat_y = False
@@ -233,7 +238,6 @@ class Renderer:
         for store in (self._fixed, self._moving):
             if store is not None:
                 store.release()
-        self._rooms.release()
         self._floors.release()
         for frame in (self._still, self._all):
             frame.depth_attachment.release()
@@ -275,7 +279,7 @@ class Renderer:
         if stirred == []:
             return
         batch = self.scenery.moving()
-        if self._moving is not None and self._moving.fits(batch):
+        if self._moving is not None and self._moving.holds(batch):
             self._moving.rewrite(batch)
         else:
             if self._moving is not None:
@@ -329,22 +333,32 @@ class Renderer:
         if found.tags.size:
             target.tags.write(bytes(4 * tile[2] * tile[3]))
         context.enable_only(context.DEPTH_TEST)
-        program = self._kit.scene(self._gates, soft=max(size) > _SMALL)
-        program["lens"].write(_columns(lens))
-        program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
-        program["sun"] = (*self._sun.tolist(), self._deep)
-        program["ground"] = self._ground
-        program["eye"] = camera.eye
-        program["shadowed"] = self.shadow
-        self._rooms.use(0)
-        (self._all if self.shadow else self._still).depth_attachment.use(1)
-        self._floors.use(2)
-        self._kit.looks.use(3)
+        (self._all if self.shadow else self._still).depth_attachment.use(0)
+        self._floors.use(1)
+        self._kit.looks.use(2)
+        programs = [self._kit.scene(self._gates, soft=max(size) > _SMALL, low=low) for low in (False, True)]
+        for program in programs:
+            program["lens"].write(_columns(lens))
+            program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
+            program["sun"] = (*self._sun.tolist(), self._deep)
+            program["eye"] = camera.eye
+            program["shadowed"] = self.shadow
+        programs[True]["ground"] = self._ground
         rooms = rooms_seen(self.scenery.scene, camera)
         for store in (self._moving, self._fixed):  # what is before the rest first: what it hides costs no light then
             if store is not None:
-                store.draw(context, store.seen(program), in_view(self.scenery.scene, camera, lens, store, rooms))
+                seen = in_view(self.scenery.scene, camera, lens, store, rooms)
+                for program, some in zip(programs, (seen[~store.lies[seen]], seen[store.lies[seen]]), strict=True):
+                    self._draw_rooms(context, store, program, some)
         self._read_tile(context, target, tile, found, reach)
+
+    def _draw_rooms(self, context: Any, store: _Store, program: Any, chosen: NDArray[np.int64]) -> None:
+        """Draw stretches by a program room by room, the room of the first one first."""
+        rooms = store.room[chosen]
+        for room in dict.fromkeys(rooms.tolist()):
+            program["indoors"] = room >= 0
+            program["room"].write(self._rooms[room].tobytes())
+            store.draw(context, store.seen(program), chosen[rooms == room])
 
     def _read_tile(
         self,
@@ -378,6 +392,12 @@ _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0
 def bodies_of(tags: Numbers) -> NDArray[np.int64]:
     """The body of each tag, -1 for none."""
     return (tags & ((1 << BODY_BITS) - 1)).astype(np.int64) - 1
+
+
+def _write(buffer: Any, values: NDArray[Any], part: slice) -> None:
+    """Bring some rows to the graphics card."""
+    if part.start < part.stop:
+        buffer.write(values[part].tobytes(), offset=part.start * values.strides[0])
 
 
 def _columns(matrix: Array) -> bytes:

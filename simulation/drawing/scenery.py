@@ -24,12 +24,14 @@ from coopera.simulation.homes.scene import Scene, SceneObject, rgb_of
 from coopera.simulation.shapes.kit import Colour, Part, Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
-VERTEX = np.dtype([("at", "<f4", 3), ("normal", "i1", 4), ("paint", "u1", 4), ("uv", "<f4", 2), ("tag", "<i4", 2)])
-"""One corner as the graphics card reads it: 36 bytes. `paint` is colour and material, `tag` what and in which room."""
+VERTEX = np.dtype([("at", "<f4", 3), ("normal", "i1", 4), ("paint", "u1", 4), ("uv", "<f4", 2), ("tag", "<i4")])
+"""One corner as the graphics card reads it: 32 bytes. `paint` is colour and material, `tag` what it is of."""
 BODY_BITS = 20
 """A tag's low bits are the body's number plus 1, its high bits that of the class."""
 OUTSIDE = -1
 _BELOW, _SEEN = 50.0, -1.0
+_FLAT, _UPWARDS = 0.02, 100
+"""Metres above the floor, as in scene.frag, and how much of 127 a normal points upwards."""
 _METRES = np.array(METRES, dtype=np.float32)
 
 
@@ -48,15 +50,19 @@ class Piece(NamedTuple):
     """Whether it casts a shadow."""
     closed: bool
     """Whether it is drawn from without only, as our own shapes are; what comes from files may be inside out."""
+    lies: bool
+    """Whether it has a top so near the floor that furniture keeps light from it, as from a rug."""
 
 
 @dataclass(slots=True)
 class Batch:
-    """Vertices and faces in one piece of memory each, with what they are made of."""
+    """Vertices and faces in one piece of memory each, which may have room for more, with what they are made of."""
 
     vertices: NDArray[np.void]
     faces: NDArray[np.uint32]
     pieces: list[Piece]
+    changed: list[tuple[slice, slice]]
+    """Which vertices and which faces are others than in the same memory before."""
 
 
 @dataclass(slots=True)
@@ -67,11 +73,23 @@ class _Slot:
     vertices: NDArray[np.void]
     """Once there is a batch, the part of it that is this thing's."""
     closed: bool
+    start: int = 0
+    """Its first vertex in the batch."""
     first: int = 0
+    """Its first triangle there."""
     placed: tuple[float, ...] = ()
     low: Floats = field(default_factory=lambda: np.zeros(3, dtype=np.float32))
     high: Floats = field(default_factory=lambda: np.zeros(3, dtype=np.float32))
     room: int = OUTSIDE
+    lies: bool = False
+
+    def corners(self) -> slice:
+        """Which vertices of the batch are its own."""
+        return slice(self.start, self.start + len(self.vertices))
+
+    def triangles(self) -> slice:
+        """Which faces of the batch are its own."""
+        return slice(self.first, self.first + len(self.mesh.faces))
 
 
 class Scenery:
@@ -85,6 +103,10 @@ class Scenery:
         """Boxes in which something has come, gone or moved since `moving` was last asked for; None for everywhere."""
         self._slots: dict[str, _Slot] = {}
         self._whole: Batch | None = None
+        self._taken = (0, 0)
+        """How many vertices and faces of the batch things have, or had."""
+        self._stale: dict[str, bool] = {}
+        """What has changed since `moving` was last asked for, and whether it has come since then."""
         self.windows = house.windows(scene)
         self.sun = house.sunlight(scene)
         self.fixed = self._fixed(bodies)
@@ -98,15 +120,15 @@ class Scenery:
                 for cls in sorted({cls for cls, _ in pairs}):
                     mesh = merged([mesh for name, mesh in pairs if name == cls])
                     tag = self._tag(bodies.get(room.name, -1), cls)
-                    packs.append((packed(mesh, tag, number), mesh.faces, number, above, False))
+                    packs.append((packed(mesh, tag), mesh.faces, number, above, False))
         if scene.stage is not None:
             mesh = house.loose_walls(walls)
-            packs.append((packed(mesh, self._tag(-1, "wall"), OUTSIDE), mesh.faces, OUTSIDE, False, False))
+            packs.append((packed(mesh, self._tag(-1, "wall")), mesh.faces, OUTSIDE, False, False))
         numbers = {room.name: number for number, room in enumerate(scene.rooms)}
         for thing in scene.fixed:
             mesh = thing_mesh(scene, thing).moved(thing.position, about_z(thing.yaw))
             room_number = numbers[thing.room]
-            vertices = packed(mesh, self._tag(bodies.get(thing.name, -1), thing.cls), room_number)
+            vertices = packed(mesh, self._tag(bodies.get(thing.name, -1), thing.cls))
             opaque = not (mesh.material == Material.WINDOW).any()  # daylight comes past the curtains of a window
             packs.append((vertices, mesh.faces, room_number, False, opaque))
         corners: list[NDArray[np.void]] = []
@@ -117,13 +139,12 @@ class Scenery:
             if not len(face):
                 continue
             low, high = corner["at"].min(axis=0).tolist(), corner["at"].max(axis=0).tolist()
-            pieces.append(
-                Piece(first, face.size, tuple(low), tuple(high), room_number, above, casts, scene.meshes is None)
-            )
+            how = above, casts, scene.meshes is None, _lies(corner)
+            pieces.append(Piece(first, face.size, tuple(low), tuple(high), room_number, *how))
             corners.append(corner)
             faces.append(face + np.uint32(start))
             start, first = start + len(corner), first + face.size
-        return Batch(np.concatenate(corners), np.concatenate(faces).astype(np.uint32), pieces)
+        return Batch(np.concatenate(corners), np.concatenate(faces).astype(np.uint32), pieces, [])
 
     def _tag(self, body: int, cls: str) -> int:
         if cls not in self.classes:
@@ -136,17 +157,18 @@ class Scenery:
 
     def add(self, name: str, mesh: Mesh, body: int, cls: str, *, closed: bool = True) -> None:
         """Have one more thing that moves, out of sight until it is put somewhere; for `closed` see `Piece`."""
-        self._slots[name] = slot = _Slot(mesh, packed(mesh, self._tag(body, cls), OUTSIDE), closed)
+        self._slots[name] = slot = _Slot(mesh, packed(mesh, self._tag(body, cls)), closed)
         slot.vertices["at"][:, 2] -= _BELOW
         slot.low = slot.high = np.full(3, -_BELOW, dtype=np.float32)
-        self._whole = None
+        self._stale[name] = True
+        self._take_in(slot)
 
     def remove(self, name: str) -> None:
         """Have a thing that moves no longer."""
         slot = self._slots.pop(name, None)
         if slot is not None:
             self._stir(slot)
-            self._whole = None
+            self._stale.pop(name, None)
 
     def __contains__(self, name: object) -> bool:
         return name in self._slots
@@ -167,9 +189,10 @@ class Scenery:
         here["at"], here["normal"][:, :3] = at, np.round(normal * 127)
         if len(at):
             slot.low, slot.high = at.min(axis=0), at.max(axis=0)
+        slot.lies = bool(slot.low[2] < _FLAT) and _lies(here)
+        self._stale.setdefault(name, False)
         middle = (slot.low + slot.high) / 2
         slot.room = self.room_at(float(middle[0]), float(middle[1]))
-        here["tag"][:, 1] = slot.room
         self._stir(slot)
 
     def _stir(self, slot: _Slot) -> None:
@@ -178,42 +201,67 @@ class Scenery:
 
     def moving(self) -> Batch:
         """All that moves, as it now is; what is deep below the floor is left out."""
-        batch = self._moving()
+        batch = self._whole or self._laid_out()
+        stale = [(self._slots[name], came) for name, came in self._stale.items()]
+        batch.changed = [(slot.corners(), slot.triangles() if came else slice(0, 0)) for slot, came in stale]
+        self.stirred, self._stale = [], {}
         batch.pieces = [
             Piece(
-                slot.first, slot.mesh.faces.size, tuple(slot.low), tuple(slot.high), slot.room, False, True, slot.closed
+                3 * slot.first,
+                slot.mesh.faces.size,
+                tuple(slot.low),
+                tuple(slot.high),
+                slot.room,
+                above=False,
+                casts=True,
+                closed=slot.closed,
+                lies=slot.lies,
             )
             for slot in self._slots.values()
             if slot.mesh.faces.size and slot.high[2] > _SEEN
         ]
-        self.stirred = []
         return batch
 
-    def _moving(self) -> Batch:
-        """The memory of all that moves; made anew, with everything where it was, when something came or went."""
-        if self._whole is not None:
-            return self._whole
-        starts = np.cumsum([0, *(len(slot.vertices) for slot in self._slots.values())]).tolist()
-        vertices = np.empty(starts[-1], dtype=VERTEX)
-        faces, first = [np.zeros((0, 3), dtype=np.uint32)], 0
-        for slot, start, end in zip(self._slots.values(), starts, starts[1:], strict=False):
-            vertices[start:end] = slot.vertices
-            slot.vertices, slot.first = vertices[start:end], first
-            faces.append(slot.mesh.faces + np.uint32(start))
-            first += slot.mesh.faces.size
-        self._whole = Batch(vertices, np.concatenate(faces).astype(np.uint32), [])
-        return self._whole
+    def _laid_out(self) -> Batch:
+        """Memory for all that moves, and for half as much again that may come."""
+        slots = list(self._slots.values())
+        vertices = sum(len(slot.vertices) for slot in slots)
+        faces = sum(len(slot.mesh.faces) for slot in slots)
+        made = Batch(np.zeros(vertices * 3 // 2, VERTEX), np.zeros((faces * 3 // 2, 3), np.uint32), [], [])
+        self._whole, self._taken = made, (0, 0)
+        for slot in slots:
+            self._take_in(slot)
+        return made
+
+    def _take_in(self, slot: _Slot) -> None:
+        """Give a thing its part of the memory, where there is some; if there is too little, it is all laid out anew."""
+        whole, (start, first) = self._whole, self._taken
+        if whole is None:
+            return
+        end, last = start + len(slot.vertices), first + len(slot.mesh.faces)
+        if end > len(whole.vertices) or last > len(whole.faces):
+            self._whole = None
+            return
+        whole.vertices[start:end] = slot.vertices
+        whole.faces[first:last] = slot.mesh.faces + np.uint32(start)
+        slot.vertices, slot.start, slot.first = whole.vertices[start:end], start, first
+        self._taken = end, last
 
 
-def packed(mesh: Mesh, tag: int, room: int) -> NDArray[np.void]:
+def packed(mesh: Mesh, tag: int) -> NDArray[np.void]:
     """A mesh as the graphics card reads it: shape (n,) of `VERTEX`."""
     found = np.zeros(len(mesh.at), dtype=VERTEX)
     found["at"], found["normal"][:, :3] = mesh.at, np.round(mesh.normal * 127)
     found["paint"][:, :3] = np.clip(np.round(mesh.colour * 255), 0, 255)
     found["paint"][:, 3] = mesh.material
     found["uv"] = mesh.uv / _METRES[mesh.material][:, None]
-    found["tag"] = tag, room
+    found["tag"] = tag
     return found
+
+
+def _lies(corners: NDArray[np.void]) -> bool:
+    """Whether any corner faces upwards just above the floor."""
+    return bool(((corners["at"][:, 2] < _FLAT) & (corners["normal"][:, 2] > _UPWARDS)).any())
 
 
 def thing_mesh(scene: Scene, thing: SceneObject) -> Mesh:

@@ -146,7 +146,13 @@ def _rigid(piece: Piece, part: str, *, flipped: bool = False) -> _Carried:
     return _Carried(placed, own)
 
 
-def _head(looks: Appearance) -> Iterator[_Carried]:
+@lru_cache(maxsize=8)
+def _head(looks: Appearance) -> list[_Carried]:
+    """The same in all that somebody wears."""
+    return list(_parts_of_head(looks))
+
+
+def _parts_of_head(looks: Appearance) -> Iterator[_Carried]:
     jaw_ = jaw(looks.face)
 
     def skin_at(points: Array) -> Array:

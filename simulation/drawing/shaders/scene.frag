@@ -1,6 +1,5 @@
 #version 400
 // Colours are linear while light is reckoned; the last line makes them what a screen expects (gamma 2).
-uniform sampler2D rooms;       // see scene.vert
 uniform sampler2D shadows;     // depth towards the sun
 uniform sampler2D floors;      // how much furniture keeps light from the floor
 uniform sampler2DArray looks;  // the pictures of the materials
@@ -16,7 +15,6 @@ in vec2 spot;
 in vec3 daylight;
 flat in vec4 colour;
 flat in int what;
-flat in int room;
 
 layout(location = 0) out vec4 seen;
 layout(location = 1) out int tagged;
@@ -26,6 +24,9 @@ const int WINDOWS = 3;
 // The renderer fills these in:
 const int GATES = 3;      // windows towards the sun that a room has at most
 const bool SOFT = true;   // whether the shadow's edge is wide enough to be looked at closely
+const bool LOW = true;    // whether anything of this lies on the floor
+uniform vec4 room[1 + 2 * (WINDOWS + GATES)];  // see scene.vert
+uniform bool indoors;
 const int LAMP = 9, WINDOW = 8, METAL = 6, GLASS = 7, TILES = 4, WALL_TILES = 13, PLANKS = 3, SKIN = 10;
 
 float near(float metres) {
@@ -64,9 +65,9 @@ float through(vec3 gate) {
     float inside = 0.0;
     if (gate.z > CEILING - 0.01) return inside;
     for (int i = 0; i < GATES; i++) {
-        vec4 upright = texelFetch(rooms, ivec2(2 + 2 * (WINDOWS + i), room), 0);
+        vec4 upright = room[2 + 2 * (WINDOWS + i)];
         if (upright.w <= 0.0) break;
-        vec4 opening = texelFetch(rooms, ivec2(1 + 2 * (WINDOWS + i), room), 0);
+        vec4 opening = room[1 + 2 * (WINDOWS + i)];
         vec2 where = opening.x < 0.5 ? gate.xy : gate.yx;
         vec4 edges = vec4(where.x - opening.z, opening.w - where.x, gate.z - upright.x, upright.y - gate.z);
         vec4 within = clamp(edges / 0.05, 0.0, 1.0);
@@ -90,8 +91,8 @@ void main() {
 
     float shade = 1.0, leaves = 50.0;
     float falls = max(dot(normal, sun.xyz), 0.0);
-    if (room >= 0) {
-        vec4 walls = texelFetch(rooms, ivec2(0, room), 0);
+    if (indoors) {
+        vec4 walls = room[0];
         // Corners are darker: each wall, the floor and the ceiling take light from what is near and faces them.
         shade -= 0.26 * near(place.z) * (1.0 - normal.z);
         shade -= 0.16 * near(CEILING - place.z) * (1.0 + normal.z);
@@ -100,7 +101,7 @@ void main() {
         shade -= 0.20 * near(place.y - walls.y) * (1.0 - normal.y);
         shade -= 0.20 * near(walls.w - place.y) * (1.0 + normal.y);
         shade = max(shade, 0.35);
-        if (place.z < 0.02 && normal.z > 0.9)
+        if (LOW && place.z < 0.02 && normal.z > 0.9)
             shade *= 1.0 - 0.55 * texture(floors, (place.xy - ground.xy) * ground.zw).r;
         // Where the way to the sun leaves the room: through a wall, or at last the ceiling.
         vec2 far = vec2(sun.x > 0.0 ? walls.z : walls.x, sun.y > 0.0 ? walls.w : walls.y);
@@ -108,7 +109,7 @@ void main() {
         leaves = max(min(min(reach.x, reach.y), (CEILING - place.z) / sun.z), 0.0);
     }
     if (shadowed && falls > 0.0) falls *= lit(normal, leaves);
-    float inside = falls > 0.0 && room >= 0 ? through(place + sun.xyz * leaves) : 0.0;
+    float inside = falls > 0.0 && indoors ? through(place + sun.xyz * leaves) : 0.0;
     float up = 0.5 + 0.5 * normal.z;
     vec3 sky = mix(vec3(0.50, 0.475, 0.45), vec3(0.56, 0.57, 0.585), up);
     // A little difference between walls that meet, where no light falls on either.

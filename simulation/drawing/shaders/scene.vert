@@ -2,14 +2,13 @@
 // Every vertex is in the world already: see scenery.VERTEX. Daylight from the windows is reckoned here; it changes
 // slowly, and floors and walls are made of small pieces.
 uniform mat4 lens;
-uniform sampler2D rooms;  // a row for each room: its rectangle, then for each window (axis, at, start, end) and
-                          // (low, high, inward, area)
+uniform bool indoors;     // whether it is in a room
 
 in vec3 at;
 in vec4 normal;
 in vec4 paint;
 in vec2 uv;
-in ivec2 tag;
+in int tag;
 
 out vec3 place;
 out vec3 facing;
@@ -17,9 +16,12 @@ out vec2 spot;
 out vec3 daylight;
 flat out vec4 colour;
 flat out int what;
-flat out int room;
 
 const int WINDOWS = 3;
+const int GATES = 3;      // see scene.frag
+// The room: its rectangle, then for each window (axis, at, start, end) and (low, high, inward, area), and again for
+// those towards the sun.
+uniform vec4 room[1 + 2 * (WINDOWS + GATES)];
 
 void main() {
     gl_Position = lens * vec4(at, 1.0);
@@ -27,12 +29,11 @@ void main() {
     facing = normalize(normal.xyz);
     spot = uv;
     colour = vec4(paint.rgb * paint.rgb, paint.a * 255.0);
-    what = tag.x;
-    room = tag.y;
+    what = tag;
     daylight = vec3(0.0);
-    for (int i = 0; i < WINDOWS && room >= 0; i++) {
-        vec4 opening = texelFetch(rooms, ivec2(1 + 2 * i, room), 0);
-        vec4 upright = texelFetch(rooms, ivec2(2 + 2 * i, room), 0);
+    for (int i = 0; i < WINDOWS && indoors; i++) {
+        vec4 opening = room[1 + 2 * i];
+        vec4 upright = room[2 + 2 * i];
         if (upright.w <= 0.0) break;
         bool along = opening.x < 0.5;
         float middle = 0.5 * (opening.z + opening.w), height = 0.5 * (upright.x + upright.y);

@@ -23,7 +23,7 @@ def triangles(scenery: Scenery, camera: Camera) -> tuple[np.ndarray, np.ndarray]
             if not (above and piece.above) and float((corner - camera.eye) @ ahead) > 0:
                 faces = batch.faces.reshape(-1)[piece.first : piece.first + piece.length].reshape(-1, 3)
                 corners.append(batch.vertices["at"][faces])
-                tags.append(batch.vertices["tag"][faces[:, 0], 0])
+                tags.append(batch.vertices["tag"][faces[:, 0]])
     return np.concatenate(corners).astype(float), np.concatenate(tags)
 
 

@@ -14,6 +14,8 @@ from coopera.simulation import PersonAgent, RobotAgent, World
 from coopera.simulation.drawing import context
 from coopera.simulation.drawing.context import chosen, problem
 from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.renderer import Renderer
+from coopera.simulation.drawing.scenery import shape_mesh
 from coopera.simulation.drawing.view import NOTHING
 from coopera.simulation.people.appearance import Appearance
 from tests.simulation.drawing.rays import agreement
@@ -147,14 +149,27 @@ def test_odd_sizes_are_pictures(home: World, size: tuple[int, int]) -> None:
 
 
 @needs_gl
-def test_what_has_as_many_corners_and_more_faces_takes_the_place_of_something_else(home: World) -> None:
-    first = home.view("robot", SIZE)
-    scenery = home._watching().drawn.drawer.scenery
-    whole = scenery._moving()
-    whole.faces = np.concatenate([whole.faces, np.zeros((7, 3), dtype=whole.faces.dtype)])
-    scenery.stirred = None
-    again = home.view("robot", SIZE)
-    assert again.colour.tobytes() == first.colour.tobytes()
+def test_what_comes_and_goes_is_drawn_as_by_a_renderer_that_sees_it_first(home: World) -> None:
+    camera = over(home, "dining_table_1")
+    before = home.view(camera, SIZE).colour
+    drawer = home._watching().drawn.drawer
+    scenery, spot = drawer.scenery, np.array(camera.target)
+    mug = shape_mesh("mug", (0.3, 0.3, 0.3), (0.9, 0.1, 0.1))
+    for number in range(120):  # more than there is room for at first
+        scenery.add(f"mug {number}", mug, 0, "mug")
+        scenery.put(f"mug {number}", spot + (0.0, 0.0, 0.01 * (number % 7)), np.eye(3))
+        if number % 2:
+            scenery.remove(f"mug {number - 1}")
+        if number % 10 == 5:
+            seen = drawer.draw(camera, SIZE).colour
+            scenery.stirred = None
+            fresh = Renderer(scenery)
+            assert (seen == fresh.draw(camera, SIZE).colour).all()
+            fresh.close()
+            assert (seen != before).any()
+    for number in range(1, 120, 2):
+        scenery.remove(f"mug {number}")
+    assert (drawer.draw(camera, SIZE).colour == before).all()
 
 
 @needs_gl
