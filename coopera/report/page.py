@@ -76,13 +76,10 @@ def fitted(run: RunDir) -> str:
     packs = pack_days(run.hours(), run.evenings())
     if sum(map(len, packs.values())) > most // 3:
         packs = {}
-    text, frames = texts(run, packs), frames_of(run)
-    html = fill(text, bare := embed(frames, 0))
-    if not bare.taken:
-        return html
-    album = embed(frames, max(most - len(html.encode()), 0))
+    frames = frames_of(run)
+    text, album = texts(run, packs), embed(frames, most - sum(map(len, packs.values())))
     html = fill(text, album)
-    if (over := len(html.encode()) - most) > 0:
+    if album.kept and (over := len(html.encode()) - most) > 0:
         html = fill(text, embed(frames, max(album.size - over, 0)))
     return html
 

@@ -136,7 +136,7 @@ def _data_uri(path: Path, *, small: bool) -> str:
         out = io.BytesIO()
         try:
             with open_picture(data) as image:
-                image.thumbnail(SMALL, Resampling.HAMMING)
+                image.thumbnail(SMALL, Resampling.BOX, reducing_gap=1.0)  # halves in a fifth of the time
                 image.save(out, "WEBP", quality=40, method=2)  # half the time of the defaults, for 6 % more bytes
         except ValueError:
             return ""
