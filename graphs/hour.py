@@ -14,6 +14,7 @@ from typing import Annotated, Any, NotRequired, Protocol, cast
 from langgraph.graph import END, START, StateGraph
 from langgraph.graph.state import CompiledStateGraph
 from langgraph.runtime import Runtime
+from langgraph.types import Command
 from typing_extensions import TypedDict
 
 from coopera.core.clock import Clock
@@ -84,6 +85,14 @@ class Node(Protocol):
         ...
 
 
+class Step(Protocol):
+    """A node that says what comes next, too."""
+
+    def __call__(self, state: HourState, *, runtime: Runtime[Services]) -> Command[str]:
+        """Return a partial update of the state, and the next node."""
+        ...
+
+
 def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, HourState]:
     """Compile the hour; a reply that cannot be read ends it early, as failed, and it is recorded all the same."""
     graph = StateGraph(HourState, context_schema=Services, input_schema=HourInput)
@@ -96,9 +105,8 @@ def build_hour_graph() -> CompiledStateGraph[HourState, Services, HourInput, Hou
     }
     graph.add_edge(START, "human")
     for (name, node), after in zip(nodes.items(), [*list(nodes)[1:], "record"], strict=True):
-        graph.add_node(name, _failing(node))
         alone = _ALONE.get(name, after)
-        graph.add_conditional_edges(name, _goes_on_to(after, alone), sorted({after, alone, "record"}))
+        graph.add_node(name, _going_on(node, after, alone), destinations=tuple(sorted({after, alone, "record"})))
     graph.add_node("record", record)
     graph.add_edge("record", END)
     hours = graph.compile(checkpointer=False, name="hour")
@@ -292,20 +300,19 @@ def _clock(state: HourInput) -> Clock:
     return state["plan"].clock(state["position"])
 
 
-def _failing(node: Node) -> Node:
-    def run(state: HourState, runtime: Runtime[Services]) -> dict[str, Any]:
+def _going_on(node: Node, after: str, alone: str) -> Step:
+    """The node, then `after` or, without a robot, `alone`; the record where it failed, or where nobody is at home.
+
+    For an edge with a condition of its own LangGraph reads all of the state once more.
+    """
+
+    def run(state: HourState, *, runtime: Runtime[Services]) -> Command[str]:
         try:
-            return node(state, runtime=runtime)
+            update = node(state, runtime=runtime)
         except HourError as err:
-            return {"failure": str(err)}
+            return Command(update={"failure": str(err)}, goto="record")
+        human: HumanHour = update.get("human") or state["human"]
+        at_home = after if runtime.context.method.robot else alone
+        return Command(update=update, goto="record" if human.intention.away else at_home)
 
     return run
-
-
-def _goes_on_to(after: str, alone: str) -> Callable[[HourState, Runtime[Services]], str]:
-    def route(state: HourState, runtime: Runtime[Services]) -> str:
-        if "failure" in state or state["human"].intention.away:
-            return "record"
-        return after if runtime.context.method.robot else alone
-
-    return route

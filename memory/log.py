@@ -17,7 +17,7 @@ from coopera.memory.lately import Lately
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.questions import Texts
-from coopera.memory.rows import Record, Row, restored, row, vector_sum
+from coopera.memory.rows import AS_DOCUMENTS, Record, Row, has_vector, restored, row
 from coopera.memory.scan import AT_ONCE, BLOCK, Block
 from coopera.memory.vectors import Held, Places, Table, Vectors
 
@@ -63,6 +63,7 @@ class Log:
         self._starts: dict[int, int] = {}
         self._lately = Lately(_TEXTS_IN_RAM)
         self._waiting: list[Row] = []
+        self._as_documents = False
         self._reload()
 
     def __len__(self) -> int:
@@ -210,10 +211,9 @@ class Log:
         self._put(max(positions) + 1)
         with translated(self.where):
             rows = self._collection.get(ids=self._ids(positions), include=["documents", "metadatas"])
-        texts, metadatas = rows["documents"] or [], rows["metadatas"] or []
-        stored = {
-            position_of(key): (text, meta or {}) for key, text, meta in zip(rows["ids"], texts, metadatas, strict=True)
-        }
+        documents, metadatas = rows["documents"] or [], rows["metadatas"] or []
+        told = zip(rows["ids"], documents, metadatas, strict=True)
+        stored = {position_of(key): (document, meta or {}) for key, document, meta in told}
         found = {}
         for position in positions:
             if position not in stored:
@@ -230,23 +230,23 @@ class Log:
         places = self._table.hold(vectors)
         ids = self._ids(range(self._length, self._length + len(texts)))
         records = [Record(*one) for one in zip(texts, hours, metadata, strict=True)]
-        rows = [row(*one) for one in zip(ids, records, vectors, strict=True)]
+        rows = [row(*one, as_document=self._as_documents) for one in zip(ids, records, vectors, strict=True)]
         self.keep(texts, vectors)
         self._waiting += rows
         added = enumerate(rows, self._length)
-        self._lately.keep((at, record) for at, one in added if (record := restored(one.text, one.entry)[0]))
+        self._lately.keep((at, record) for at, one in added if (record := restored(one.document, one.entry)[0]))
         self._extend(places, np.asarray(hours, np.int64))
 
     def _write(self, rows: Sequence[Row]) -> None:
         """Put rows into the store, up to `_PER_CALL` of them, once all vectors are there."""
         if self._vectors is not None:
             self._vectors.flush()
-        ids, texts, vectors, entries = map(list, zip(*rows, strict=True))
+        ids, documents, vectors, entries = map(list, zip(*rows, strict=True))
         with translated(self.where):
             self._collection.add(
                 ids=ids,
                 embeddings=np.stack(vectors) if self._vectors is None else np.ones((len(rows), 1), np.float32),
-                documents=texts,
+                documents=documents if self._as_documents else None,
                 metadatas=entries,
             )
         if not self._exclusive:
@@ -298,6 +298,7 @@ class Log:
         with translated(self.where):
             self._collection = self._reach()
             self._numbering = Numbering.of(self._collection.metadata)
+            self._as_documents = self._collection.metadata.get("format") in AS_DOCUMENTS
         length = self._find_length()
         if length == 0:
             return
@@ -344,10 +345,10 @@ class Log:
         if self._vectors is None:
             vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
         else:
-            texts: Any = rows["documents"]
-            vectors = self._vectors_of([(texts[place], metadatas[place]) for place in order], start)
+            documents: Any = rows["documents"]
+            vectors = self._vectors_of([(documents[place], metadatas[place]) for place in order], start)
         for offset, place in enumerate(order):
-            if metadatas[place].get("vector_sum") != vector_sum(vectors[offset], int(hours[offset])):
+            if not has_vector(metadatas[place], vectors[offset], int(hours[offset])):
                 raise DamagedMemoryError(
                     self.where, f"the vector or hour of record {start + offset} is not what was written"
                 )
@@ -358,10 +359,13 @@ class Log:
     def _vectors_of(self, stored: Sequence[tuple[str | None, Mapping[str, Any]]], start: int) -> Vector:
         """Return the vectors of stored texts, once each is known to be what was written."""
         assert self._vectors is not None
-        for position, (text, meta) in enumerate(stored, start):
-            if not restored(text, meta)[1]:
+        texts = []
+        for position, one in enumerate(stored, start):
+            record, whole = restored(*one)
+            if record is None or not whole:
                 raise DamagedMemoryError(self.where, f"the text of record {position} is not what was written")
-        return self._vectors.of([str(text) for text, _ in stored])
+            texts.append(record.text)
+        return self._vectors.of(texts)
 
     def _start_hours(self, numbers: Sequence[int]) -> dict[int, int]:
         """Return the first hour of some full blocks, by block number."""

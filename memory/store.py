@@ -42,8 +42,11 @@ _INDEX = {
         "sync_threshold": _QUEUE,
     }
 }
-_FORMAT, _FORMATS = 2, (1, 2)
-"""A stream of format 1 has its vectors in its own collection, as of now in that of all streams of its model."""
+_FORMAT, _FORMATS = 3, (1, 2, 3)
+"""A stream of format 1 has its vectors in its own collection, since then in that of all streams of its model.
+
+For texts see `rows.AS_DOCUMENTS`. A stream keeps the format in which it was begun.
+"""
 MAX_NAME = 200
 
 

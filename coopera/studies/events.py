@@ -7,6 +7,7 @@ graphs run in one thread, which LangChain's callbacks listen to.
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Generator, Mapping
 from contextvars import copy_context
 from queue import SimpleQueue
@@ -23,6 +24,8 @@ Event = Mapping[str, Any]
 
 _NODE = "graph:step:"
 """Begins LangGraph's tag of a node's run, and of no run within it."""
+_PAUSE = 0.02
+"""Seconds for which what is heard waits to be told together: each waking takes from the work, in the same process."""
 
 
 class Heard(NamedTuple):
@@ -84,6 +87,8 @@ def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
     try:
         while (one := heard.get()) is not None:
             yield one
+            if heard.empty():
+                time.sleep(_PAUSE)
     finally:
         thread.join()
     if failed:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from coopera.memory import MemoryStream
+from coopera.memory.rebuild import texts
 from coopera.memory.vectors import Held, Table
 from tests.memory.fakes import Letters
 
@@ -37,16 +38,26 @@ def rows(folder: Path) -> dict[str, tuple[int, int]]:
     return found
 
 
+def documents(folder: Path) -> int:
+    """Of how many texts Chroma has an index of all their pieces."""
+    with closing(sqlite3.connect(folder / "chroma.sqlite3")) as database:
+        found: int = database.execute("SELECT count(*) FROM embedding_fulltext_search").fetchone()[0]
+    return found
+
+
 def test_what_is_said_again_and_again_has_its_vector_stored_once(tmp_path: Path) -> None:
     lived(tmp_path / "m")
     dimension = len(Letters().embed_query("a"))
     assert rows(tmp_path / "m") == {"stream": (12, 1), "vectors": (2, dimension)}
 
 
-def test_a_stream_of_before_is_gone_on_with_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Then each record had its vector in the stream's own collection."""
+@pytest.mark.parametrize("format_", [1, 2])
+def test_a_stream_of_before_is_gone_on_with_as_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, format_: int
+) -> None:
+    """At first each record had its vector in the stream's own collection, then its text was a document still."""
     expected = lived(tmp_path / "new")
-    monkeypatch.setattr("coopera.memory.store._FORMAT", 1)
+    monkeypatch.setattr("coopera.memory.store._FORMAT", format_)
     assert lived(tmp_path / "old") == expected
     monkeypatch.undo()
     for folder in ("new", "old"):
@@ -57,7 +68,12 @@ def test_a_stream_of_before_is_gone_on_with_as_it_was(tmp_path: Path, monkeypatc
         MemoryStream.open(tmp_path / "old", "x", Letters()) as old,
     ):
         assert new.recall("eat", 6, 9) == old.recall("eat", 6, 9)
-    assert rows(tmp_path / "old") == {"stream": (13, len(Letters().embed_query("a")))}
+    dimension = len(Letters().embed_query("a"))
+    assert rows(tmp_path / "old") == (
+        {"stream": (13, dimension)} if format_ == 1 else {"stream": (13, 1), "vectors": (3, dimension)}
+    )
+    assert (documents(tmp_path / "old"), documents(tmp_path / "new")) == (13, 0)
+    assert texts(tmp_path / "old") == texts(tmp_path / "new")
 
 
 def test_vectors_held_once_come_out_bit_for_bit() -> None:
