@@ -7,7 +7,6 @@ graphs run in one thread, which LangChain's callbacks listen to.
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Generator, Mapping
 from contextvars import copy_context
 from queue import SimpleQueue
@@ -73,6 +72,7 @@ def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
     """
     heard: SimpleQueue[Heard | None] = SimpleQueue()
     failed: list[BaseException] = []
+    over = threading.Event()
 
     def done() -> None:
         try:
@@ -81,6 +81,7 @@ def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
             failed.append(err)
         finally:
             heard.put(None)
+            over.set()
 
     thread = threading.Thread(target=copy_context().run, args=(done,), name="study")
     thread.start()
@@ -88,7 +89,7 @@ def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
         while (one := heard.get()) is not None:
             yield one
             if heard.empty():
-                time.sleep(_PAUSE)
+                over.wait(_PAUSE)
     finally:
         thread.join()
     if failed:

@@ -18,16 +18,16 @@ from coopera.simulation.drawing.context import on_context
 from coopera.simulation.drawing.lens import Camera, metres_of, projection, reach_of, view_matrix
 from coopera.simulation.drawing.light import apart, contact, gates, room_rows, sun_lens
 from coopera.simulation.drawing.materials import SIDE, Material, pictures
-from coopera.simulation.drawing.scenery import BODY_BITS, Batch, Piece, Scenery
+from coopera.simulation.drawing.scenery import BODY_BITS, Scenery
 from coopera.simulation.drawing.sight import in_view, rooms_seen
-from coopera.simulation.drawing.unheld import finish, render, render_picture
+from coopera.simulation.drawing.stored import Stored
+from coopera.simulation.drawing.unheld import finish, render_picture
 from coopera.simulation.drawing.view import View
 from coopera.simulation.shapes.rotations import Array
 
 Image = NDArray[np.uint8]
 Numbers = NDArray[np.int32]
 _SHADERS = Path(__file__).parent / "shaders"
-_LAYOUT = ("3f 4i1 4f1 2f 1i", "at", "normal", "paint", "uv", "tag")
 _TILE = 2048
 """Larger pictures are drawn in tiles of so many pixels a side."""
 _SMALL = 400
@@ -61,68 +61,6 @@ class _Target(NamedTuple):
     held: tuple[Any, ...]
 
 
-class _Store:
-    """A batch in the graphics card's memory."""
-
-    def __init__(self, kit: _Kit, batch: Batch) -> None:
-        context = self._context = kit.context
-        self.vertices = context.buffer(batch.vertices.tobytes())
-        self.faces, self._held = context.buffer(batch.faces.tobytes()), batch.vertices
-        self._seen: dict[int, Any] = {}
-        self.cast = context.vertex_array(kit.shadow, [(self.vertices, "3f 20x", "at")], self.faces)
-        self.set(batch.pieces)
-
-    def seen(self, program: Any) -> Any:
-        """The vertex array that a program draws as the camera sees it."""
-        if program.glo not in self._seen:
-            self._seen[program.glo] = self._context.vertex_array(program, [(self.vertices, *_LAYOUT)], self.faces)
-        return self._seen[program.glo]
-
-    def holds(self, batch: Batch) -> bool:
-        """Whether this is the memory of a batch as it was before."""
-        return batch.vertices is self._held
-
-    def rewrite(self, batch: Batch) -> None:
-        """Take over what has changed of the batch."""
-        for vertices, faces in batch.changed:
-            _write(self.vertices, batch.vertices, vertices)
-            _write(self.faces, batch.faces, faces)
-        self.set(batch.pieces)
-
-    def set(self, pieces: list[Piece]) -> None:
-        """Know which stretches there are."""
-        self.pieces = pieces
-        self.first = np.array([piece.first for piece in pieces], dtype=np.uint32)
-        self.count = np.array([piece.length for piece in pieces], dtype=np.uint32)
-        self.low = np.array([piece.low for piece in pieces], dtype=np.float64).reshape(-1, 3)
-        self.high = np.array([piece.high for piece in pieces], dtype=np.float64).reshape(-1, 3)
-        self.room = np.array([piece.room for piece in pieces], dtype=np.int64)
-        self.above = np.array([piece.above for piece in pieces], dtype=bool)
-        self.casts = np.array([piece.casts for piece in pieces], dtype=bool)
-        self.closed = np.array([piece.closed for piece in pieces], dtype=bool)
-        self.lies = np.array([piece.lies for piece in pieces], dtype=bool)
-
-    def draw(self, context: Any, array: Any, chosen: NDArray[np.int64]) -> None:
-        """Draw some stretches, in this order, but the closed ones first: half of their triangles cost little then."""
-        closed = self.closed[chosen]
-        for some, flags in (
-            (chosen[closed], context.DEPTH_TEST | context.CULL_FACE),
-            (chosen[~closed], context.DEPTH_TEST),
-        ):
-            if len(some):
-                context.enable_only(flags)
-                rows = np.zeros((len(some), 5), dtype=np.uint32)
-                rows[:, 0], rows[:, 1], rows[:, 2] = self.count[some], 1, self.first[some]
-                orders = context.buffer(rows.tobytes())
-                render(array, orders)
-                orders.release()
-
-    def release(self) -> None:
-        """Give the memory back."""
-        for one in (*self._seen.values(), self.cast, self.vertices, self.faces):
-            one.release()
-
-
 class _Kit:
     """What all renderers of a context share: the programs and the pictures of the materials."""
 
@@ -141,15 +79,15 @@ class _Kit:
         self.looks.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
         self.targets: dict[tuple[int, int], _Target] = {}
 
-    def scene(self, gates: int, *, soft: bool, low: bool) -> Any:
+    def scene(self, gates: int, *, soft: bool, lies: bool) -> Any:
         """The program that draws rooms into which the sun shines through so many windows at most.
 
         The processor that stands in for a graphics card works out every branch for every pixel, so what is never taken
         is not to be among them.
         """
-        if (gates, soft, low) not in self._scenes:
+        if (gates, soft, lies) not in self._scenes:
             chosen = {"int GATES = 3": f"int GATES = {gates}", "bool SOFT = true": f"bool SOFT = {str(soft).lower()}"}
-            chosen["bool LOW = true"] = f"bool LOW = {str(low).lower()}"
+            chosen["bool LIES = true"] = f"bool LIES = {str(lies).lower()}"
             vertices, light = self._text["scene.vert"], self._text["scene.frag"]
             for default, value in chosen.items():
                 vertices, light = vertices.replace(default, value), light.replace(default, value)
@@ -157,8 +95,8 @@ class _Kit:
             for number, name in enumerate(("shadows", "floors", "looks")):
                 if name in program:
                     program[name] = number
-            self._scenes[gates, soft, low] = program
-        return self._scenes[gates, soft, low]
+            self._scenes[gates, soft, lies] = program
+        return self._scenes[gates, soft, lies]
 
     def target(self, size: tuple[int, int]) -> _Target:
         """What to draw a picture of a size into; a few are kept."""
@@ -206,8 +144,8 @@ class Renderer:
     def _start(self, context: Any) -> None:
         scene, kit = self.scenery.scene, _kit(context)
         self._kit, self._gates = kit, gates(self.scenery)
-        self._fixed = _Store(kit, self.scenery.fixed)
-        self._moving: _Store | None = None
+        self._fixed = Stored(context, kit.shadow, self.scenery.fixed)
+        self._moving: Stored | None = None
         self._rooms = room_rows(self.scenery)
         floors = contact(self.scenery)
         self._floors = context.texture(floors.shape[::-1], 1, floors.tobytes(), alignment=1)
@@ -284,7 +222,7 @@ class Renderer:
         else:
             if self._moving is not None:
                 self._moving.release()
-            self._moving = _Store(self._kit, batch) if len(batch.vertices) else None
+            self._moving = Stored(context, self._kit.shadow, batch) if len(batch.vertices) else None
         if self.shadow:
             self._cast_moving(context, stirred)
 
@@ -336,7 +274,7 @@ class Renderer:
         (self._all if self.shadow else self._still).depth_attachment.use(0)
         self._floors.use(1)
         self._kit.looks.use(2)
-        programs = [self._kit.scene(self._gates, soft=max(size) > _SMALL, low=low) for low in (False, True)]
+        programs = [self._kit.scene(self._gates, soft=max(size) > _SMALL, lies=lies) for lies in (False, True)]
         for program in programs:
             program["lens"].write(_columns(lens))
             program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
@@ -352,7 +290,7 @@ class Renderer:
                     self._draw_rooms(context, store, program, some)
         self._read_tile(context, target, tile, found, reach)
 
-    def _draw_rooms(self, context: Any, store: _Store, program: Any, chosen: NDArray[np.int64]) -> None:
+    def _draw_rooms(self, context: Any, store: Stored, program: Any, chosen: NDArray[np.int64]) -> None:
         """Draw stretches by a program room by room, the room of the first one first."""
         rooms = store.room[chosen]
         for room in dict.fromkeys(rooms.tolist()):
@@ -392,12 +330,6 @@ _TO_UNIT = np.array(((0.5, 0, 0, 0.5), (0, 0.5, 0, 0.5), (0, 0, 0.5, 0.5), (0, 0
 def bodies_of(tags: Numbers) -> NDArray[np.int64]:
     """The body of each tag, -1 for none."""
     return (tags & ((1 << BODY_BITS) - 1)).astype(np.int64) - 1
-
-
-def _write(buffer: Any, values: NDArray[Any], part: slice) -> None:
-    """Bring some rows to the graphics card."""
-    if part.start < part.stop:
-        buffer.write(values[part].tobytes(), offset=part.start * values.strides[0])
 
 
 def _columns(matrix: Array) -> bytes:

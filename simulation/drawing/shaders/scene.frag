@@ -24,7 +24,7 @@ const int WINDOWS = 3;
 // The renderer fills these in:
 const int GATES = 3;      // windows towards the sun that a room has at most
 const bool SOFT = true;   // whether the shadow's edge is wide enough to be looked at closely
-const bool LOW = true;    // whether anything of this lies on the floor
+const bool LIES = true;   // whether anything of this lies on the floor
 uniform vec4 room[1 + 2 * (WINDOWS + GATES)];  // see scene.vert
 uniform bool indoors;
 const int LAMP = 9, WINDOW = 8, METAL = 6, GLASS = 7, TILES = 4, WALL_TILES = 13, PLANKS = 3, SKIN = 10;
@@ -101,7 +101,7 @@ void main() {
         shade -= 0.20 * near(place.y - walls.y) * (1.0 - normal.y);
         shade -= 0.20 * near(walls.w - place.y) * (1.0 + normal.y);
         shade = max(shade, 0.35);
-        if (LOW && place.z < 0.02 && normal.z > 0.9)
+        if (LIES && place.z < 0.02 && normal.z > 0.9)
             shade *= 1.0 - 0.55 * texture(floors, (place.xy - ground.xy) * ground.zw).r;
         // Where the way to the sun leaves the room: through a wall, or at last the ceiling.
         vec2 far = vec2(sun.x > 0.0 ? walls.z : walls.x, sun.y > 0.0 ? walls.w : walls.y);
