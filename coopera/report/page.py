@@ -74,10 +74,11 @@ def fitted(run: RunDir) -> str:
     """The page with as many pictures as fit beside its text, and with prompts and replies where these fit, too."""
     most = _most_bytes(len(run.hours_done()))
     packs = pack_days(run.hours(), run.evenings())
-    if sum(map(len, packs.values())) > most // 3:
-        packs = {}
+    packed = sum(map(len, packs.values()))
+    if packed > most // 3:
+        packs, packed = {}, 0
     frames = frames_of(run)
-    text, album = texts(run, packs), embed(frames, most - sum(map(len, packs.values())))
+    text, album = texts(run, packs), embed(frames, most - packed)
     html = fill(text, album)
     if album.kept and (over := len(html.encode()) - most) > 0:
         html = fill(text, embed(frames, max(album.size - over, 0)))

@@ -86,11 +86,10 @@ class _Kit:
         is not to be among them.
         """
         if (gates, soft, lies) not in self._scenes:
-            chosen = {"int GATES = 3": f"int GATES = {gates}", "bool SOFT = true": f"bool SOFT = {str(soft).lower()}"}
-            chosen["bool LIES = true"] = f"bool LIES = {str(lies).lower()}"
             vertices, light = self._text["scene.vert"], self._text["scene.frag"]
-            for default, value in chosen.items():
-                vertices, light = vertices.replace(default, value), light.replace(default, value)
+            for name, default, value in (("GATES", 3, gates), ("SOFT", True, soft), ("LIES", True, lies)):
+                written, chosen = (f"{name} = {str(one).lower()};" for one in (default, value))
+                vertices, light = vertices.replace(written, chosen), light.replace(written, chosen)
             program = self.context.program(vertex_shader=vertices, fragment_shader=light)
             for number, name in enumerate(("shadows", "floors", "looks")):
                 if name in program:
@@ -164,7 +163,7 @@ class Renderer:
         context.enable_only(context.DEPTH_TEST)
         self._still.clear(depth=1.0)
         self._kit.shadow["lens"].write(_columns(self._sunlens))
-        self._fixed.draw(context, self._fixed.cast, np.flatnonzero(self._fixed.casts))
+        self._fixed.draw(self._fixed.cast, np.flatnonzero(self._fixed.casts))
 
     def close(self) -> None:
         """Give the graphics card's memory back; a second time does nothing."""
@@ -247,7 +246,7 @@ class Renderer:
             self._kit.shadow["lens"].write(_columns(self._sunlens))
             if self._moving is not None and len(begin):
                 near = (begin < (x1, y1)).all(axis=1) & (end > (x0, y0)).all(axis=1)
-                self._moving.draw(context, self._moving.cast, np.flatnonzero(near & self._moving.casts))
+                self._moving.draw(self._moving.cast, np.flatnonzero(near & self._moving.casts))
         self._all.scissor = None
 
     def _on_map(self, low: Array, high: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -275,9 +274,10 @@ class Renderer:
         self._floors.use(1)
         self._kit.looks.use(2)
         programs = [self._kit.scene(self._gates, soft=max(size) > _SMALL, lies=lies) for lies in (False, True)]
+        sunwards = _columns(_TO_UNIT @ self._sunlens)
         for program in programs:
             program["lens"].write(_columns(lens))
-            program["sunwards"].write(_columns(_TO_UNIT @ self._sunlens))
+            program["sunwards"].write(sunwards)
             program["sun"] = (*self._sun.tolist(), self._deep)
             program["eye"] = camera.eye
             program["shadowed"] = self.shadow
@@ -287,16 +287,16 @@ class Renderer:
             if store is not None:
                 seen = in_view(self.scenery.scene, camera, lens, store, rooms)
                 for program, some in zip(programs, (seen[~store.lies[seen]], seen[store.lies[seen]]), strict=True):
-                    self._draw_rooms(context, store, program, some)
+                    self._draw_rooms(store, program, some)
         self._read_tile(context, target, tile, found, reach)
 
-    def _draw_rooms(self, context: Any, store: Stored, program: Any, chosen: NDArray[np.int64]) -> None:
+    def _draw_rooms(self, store: Stored, program: Any, chosen: NDArray[np.int64]) -> None:
         """Draw stretches by a program room by room, the room of the first one first."""
         rooms = store.room[chosen]
         for room in dict.fromkeys(rooms.tolist()):
             program["indoors"] = room >= 0
             program["room"].write(self._rooms[room].tobytes())
-            store.draw(context, store.seen(program), chosen[rooms == room])
+            store.draw(store.seen(program), chosen[rooms == room])
 
     def _read_tile(
         self,

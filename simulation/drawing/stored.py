@@ -21,7 +21,8 @@ class Stored:
         """Bring a batch there; `shadow` is the program that casts shadows."""
         self._context = context
         self.vertices = context.buffer(batch.vertices.tobytes())
-        self.faces, self._held = context.buffer(batch.faces.tobytes()), batch.vertices
+        self.faces = context.buffer(batch.faces.tobytes())
+        self._held = batch.vertices
         self._seen: dict[int, Any] = {}
         self.cast = context.vertex_array(shadow, [(self.vertices, "3f 20x", "at")], self.faces)
         self.set(batch.pieces)
@@ -56,9 +57,9 @@ class Stored:
         self.closed = np.array([piece.closed for piece in pieces], dtype=bool)
         self.lies = np.array([piece.lies for piece in pieces], dtype=bool)
 
-    def draw(self, context: Any, array: Any, chosen: NDArray[np.int64]) -> None:
+    def draw(self, array: Any, chosen: NDArray[np.int64]) -> None:
         """Draw some stretches, in this order, but the closed ones first: half of their triangles cost little then."""
-        closed = self.closed[chosen]
+        context, closed = self._context, self.closed[chosen]
         for some, flags in (
             (chosen[closed], context.DEPTH_TEST | context.CULL_FACE),
             (chosen[~closed], context.DEPTH_TEST),
