@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,9 +16,23 @@ settings.load_profile("coopera")
 
 
 @pytest.fixture(scope="session")
-def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """One data folder for real runs, so that a text is encoded once for all of them."""
-    return tmp_path_factory.getbasetemp() / "data"
+def vectors(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One cache of texts' vectors for all processes of these tests, so that a real run's text is encoded once."""
+    own = tmp_path_factory.getbasetemp()
+    return (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "vectors.sqlite"
+
+
+@pytest.fixture(scope="session")
+def data_dir(tmp_path_factory: pytest.TempPathFactory, vectors: Path) -> Path:
+    """One data folder for real runs."""
+    return with_vectors(tmp_path_factory.getbasetemp() / "data", vectors)
+
+
+def with_vectors(data: Path, vectors: Path) -> Path:
+    """Make a data folder whose cache of vectors is that of all tests."""
+    data.mkdir()
+    (data / "embeddings.sqlite").symlink_to(vectors)
+    return data
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from tests.conftest import with_vectors
 from tests.pages import ROOT, SERVER, Block, blocks, furnish
 from tests.serving import serving
 
@@ -67,14 +68,14 @@ def run_page(found: list[Block], folder: Path, data_dir: Path) -> None:
 
 
 @pytest.mark.parametrize("found", pages(long=False))
-def test_what_a_page_says_can_be_done(found: list[Block], tmp_path: Path) -> None:
-    run_page(found, tmp_path, tmp_path / "data")
+def test_what_a_page_says_can_be_done(found: list[Block], tmp_path: Path, vectors: Path) -> None:
+    run_page(found, tmp_path, with_vectors(tmp_path / "data", vectors))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("found", pages(long=True))
-def test_what_a_page_says_can_be_done_in_a_long_while(found: list[Block], tmp_path: Path) -> None:
-    run_page(found, tmp_path, tmp_path / "data")
+def test_what_a_page_says_can_be_done_in_a_long_while(found: list[Block], tmp_path: Path, vectors: Path) -> None:
+    run_page(found, tmp_path, with_vectors(tmp_path / "data", vectors))
 
 
 @pytest.mark.parametrize("block", list(blocks("yaml", "json")), ids=lambda block: block.place)
