@@ -65,18 +65,26 @@ class Listener(BaseCallbackHandler):
             self._hear(Heard(about["metadata"]["langgraph_node"], data))
 
 
-def listened_to(work: Callable[[Listener], object]) -> Generator[Heard]:
+def listened_to(work: Callable[[Listener], object], after: Callable[[Heard], None]) -> Generator[Heard]:
     """Do work in a thread of its own, and yield what its listener hears; the error that ends it is raised here.
 
     Ctrl-C reaches whoever waits here, not the work. To close this is to wait until the work has ended.
+
+    Args:
+        work: The work.
+        after: Is told each thing first, in the work's thread, which goes on when it returns; it must not fail.
     """
     heard: SimpleQueue[Heard | None] = SimpleQueue()
     failed: list[BaseException] = []
     over = threading.Event()
 
+    def hear(one: Heard) -> None:
+        after(one)
+        heard.put(one)
+
     def done() -> None:
         try:
-            work(Listener(heard.put))
+            work(Listener(hear))
         except BaseException as err:  # noqa: BLE001 - it is raised where it is waited for
             failed.append(err)
         finally:

@@ -49,7 +49,7 @@ from coopera.rundir.stopping import Stop
 from coopera.simulation.homes.scene import load_scene
 from coopera.studies.assemble import model_specs, open_services
 from coopera.studies.catalogues import find_person, resolve
-from coopera.studies.events import Event, Listener, listened_to
+from coopera.studies.events import Event, Heard, Listener, listened_to
 from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 from coopera.studies.own_files import home_files
 from coopera.studies.remembered import bring_to_the_trace
@@ -376,11 +376,13 @@ def _run_on(
         thread: RunnableConfig = {**THREAD, "callbacks": [*callbacks, listener]}
         graph.invoke(given, thread, context=services, durability="async")
 
+    def after(heard: Heard) -> None:
+        if heard.node == "day":  # between the days, when the work holds least that will be garbage
+            give_back()
+
     now: dict[str, Any] = {"day": 0, "hour": None, "success": pool(scored).f1}
-    with lasting(), closing(listened_to(work)) as events, run.stopped_by_failure():
+    with lasting(), closing(listened_to(work, after)) as events, run.stopped_by_failure():
         for node, said in events:
-            if node == "day":
-                give_back()
             if said is not None:
                 now |= {"day": said["day"], "hour": said["hour"]}
                 if said["success"]:

@@ -4,11 +4,14 @@ import gc
 import os
 import subprocess
 import sys
+import threading
 import weakref
+from pathlib import Path
 
 import pytest
 from threadpoolctl import threadpool_info
 
+from coopera import Config, run_study
 from coopera.studies.heap import clear_up, give_back, lasting, steady_heap
 
 HEAPS = """
@@ -177,6 +180,19 @@ def test_what_becomes_garbage_after_the_evening_that_it_outlived_goes_in_the_end
         for _ in range(100):
             give_back()
         assert left() is None
+
+
+def test_memory_is_given_back_between_the_days_while_the_work_waits(
+    tmp_path: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at: list[tuple[str, int]] = []
+
+    def look() -> None:
+        at.append((threading.current_thread().name, len(list((tmp_path / "run").glob("trace/day-*/evening.json")))))
+
+    monkeypatch.setattr("coopera.studies.study.give_back", look)
+    run_study(Config(days=3, hours=1, pictures="none", out=tmp_path / "run", data_dir=data_dir))
+    assert at == [("study", 1), ("study", 2), ("study", 3)]
 
 
 def test_what_some_runs_of_a_process_left_is_let_go_of_before_the_next_ones() -> None:
