@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SIMILAR = 0.6  # PAPER App. C.3: the threshold of type 2
-REMEMBERED = 512
-"""Vectors kept; 1.5 MB of MiniLM's."""
+REMEMBERED = 128
+"""Vectors kept; 0.4 MB of MiniLM's."""
 
 
 class Classes(Protocol):

@@ -23,8 +23,7 @@ from coopera.memory.minilm import Vector
 _LOG = logging.getLogger(__name__)
 _HUGGING_FACE = "Hugging Face "
 _IN_RAM = 65_536  # vectors kept in RAM where there is no file; 100 MB of MiniLM's
-_BEFORE_DISK = 2048  # those in RAM where a file holds all
-_PER_QUERY = 500
+_BEFORE_DISK = 1024  # those in RAM where a file holds all: some evenings' texts
 _UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
 
@@ -104,13 +103,15 @@ class CachedEmbeddings(Embeddings):
         for text in asked:
             if text not in found:
                 with self._encoding:
-                    made = self._ram.get(text)
+                    with self._lock:
+                        made = self._ram.get(text)
                     found[text] = self._made(text) if made is None else made
         return [found[text] for text in texts]
 
     def _there(self, texts: Sequence[str]) -> dict[str, Vector]:
-        """Return the vectors that are in RAM or on disk."""
-        found = {text: self._ram[text] for text in texts if text in self._ram}
+        """Return the vectors that are in RAM or on disk; those asked for last are the last to leave RAM."""
+        found = {text: vector for text in texts if (vector := self._ram.pop(text, None)) is not None}
+        self._ram |= found
         if self._disk is not None and (missing := [text for text in texts if text not in found]):
             found |= (read := self._disk.read(missing))
             self._remember(read)
@@ -150,17 +151,16 @@ class _Disk:
             raise self._broken(err) from err
 
     def read(self, texts: Sequence[str]) -> dict[str, Vector]:
-        """Return the vectors that are there, by text."""
-        by_key = {self._key(text): text for text in texts}
-        keys = list(by_key)
+        """Return the vectors that are there, by text.
+
+        They are asked for one by one: sqlite3 keeps a compiled statement for each number of keys in one question.
+        """
         found: dict[str, Vector] = {}
         try:
-            for start in range(0, len(keys), _PER_QUERY):
-                some = keys[start : start + _PER_QUERY]
-                marks = ",".join("?" * len(some))
-                rows = self._db().execute(f"SELECT key, vector FROM vectors WHERE key IN ({marks})", some)
-                for key, blob in rows:
-                    found[by_key[key]] = np.frombuffer(blob, "<f4")
+            for text in texts:
+                row = self._db().execute("SELECT vector FROM vectors WHERE key = ?", (self._key(text),)).fetchone()
+                if row is not None:
+                    found[text] = np.frombuffer(row[0], "<f4")
         except (OSError, sqlite3.Error, ValueError) as err:
             raise self._broken(err) from err
         return found

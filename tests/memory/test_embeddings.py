@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +95,24 @@ def test_a_text_is_encoded_once_and_then_found_on_disk(tmp_path: Path) -> None:
     with CachedEmbeddings(encode_length, "lengths", tmp_path / "deep" / "cache.sqlite") as second:
         np.testing.assert_array_equal(second.array(["three", "one"]), first.array(["three", "one"]))
     assert second.misses == 0
+
+
+def test_what_was_asked_for_last_stays_in_ram_and_all_else_is_read_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("coopera.memory.embeddings._BEFORE_DISK", 2)
+    path = tmp_path / "cache.sqlite"
+    with CachedEmbeddings(encode_length, "lengths", path) as embeddings:
+        embeddings.array(["tea"])
+        embeddings.array(["bread"])
+        embeddings.array(["tea"])
+        embeddings.array(["marmalade"])
+        with closing(sqlite3.connect(path)) as database, database:
+            database.execute("DELETE FROM vectors")
+        embeddings.array(["tea", "marmalade"])
+        assert embeddings.misses == 3
+        embeddings.array(["bread"])
+        assert embeddings.misses == 4
 
 
 def test_a_closed_cache_is_opened_again_by_the_next_text(tmp_path: Path) -> None:
