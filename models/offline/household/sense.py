@@ -21,7 +21,7 @@ _WHEN = re.compile(
     r"(?<=\w) (?:after|before) (?:breakfast|lunch|dinner|supper|a meal|meals|eating|food|work|school|bed|bedtime)\b",
     re.IGNORECASE,
 )
-REMEMBERED, VECTORS = 4096, 256  # texts and pairs of texts kept; vectors, 0.4 MB of MiniLM's
+REMEMBERED, VECTORS = 2048, 256  # texts and pairs of texts kept; vectors, 0.4 MB of MiniLM's
 
 
 class Embed(Protocol):
