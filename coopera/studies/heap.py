@@ -54,7 +54,8 @@ def give_back() -> None:
 
     Left to Python, such garbage gathers for days, among what stays, since a run holds so much. What is there after an
     evening (libraries, weights, homes, what was learned) is therefore no longer looked through, until the run ends
-    (`lasting`) or all is looked through once more. Of what had outlived twenty evenings nothing had become garbage.
+    (`lasting`) or all is looked through once more. So it is to be called between the days: what the next one works with
+    by then would be counted among what stays, and is garbage by its evening.
     """
     global _evenings
     if _evenings:  # on the first, all would be looked through, and there is little to find
