@@ -183,7 +183,7 @@ def test_what_becomes_garbage_after_the_evening_that_it_outlived_goes_in_the_end
 
 
 def test_memory_is_given_back_between_the_days_while_the_work_waits(
-    tmp_path: Path, data_dir: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, letters: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     at: list[tuple[str, int]] = []
 
@@ -191,7 +191,7 @@ def test_memory_is_given_back_between_the_days_while_the_work_waits(
         at.append((threading.current_thread().name, len(list((tmp_path / "run").glob("trace/day-*/evening.json")))))
 
     monkeypatch.setattr("coopera.studies.study.give_back", look)
-    run_study(Config(days=3, hours=1, pictures="none", out=tmp_path / "run", data_dir=data_dir))
+    run_study(Config(days=3, hours=1, pictures="none", out=tmp_path / "run", data_dir=letters))
     assert at == [("study", 1), ("study", 2), ("study", 3)]
 
 
