@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -79,10 +78,7 @@ def fitted(run: RunDir) -> str:
     if packed > most // 3:
         packs, packed = {}, 0
     frames = frames_of(run)
-    with ThreadPoolExecutor(1) as beside:  # pictures are made small by threads that do not hold the interpreter
-        embedded = beside.submit(embed, frames, most - packed)
-        text = texts(run, packs)
-    album = embedded.result()
+    text, album = texts(run, packs), embed(frames, most - packed)
     html = fill(text, album)
     if album.kept and (over := len(html.encode()) - most) > 0:
         html = fill(text, embed(frames, max(album.size - over, 0)))
