@@ -23,7 +23,7 @@ from coopera.memory.minilm import Vector
 _LOG = logging.getLogger(__name__)
 _HUGGING_FACE = "Hugging Face "
 _IN_RAM = 65_536  # vectors kept in RAM where there is no file; 100 MB of MiniLM's
-_BEFORE_DISK = 1024  # those in RAM where a file holds all: some evenings' texts
+_BEFORE_DISK = 1024  # those in RAM where a file holds all; 1.5 MB of MiniLM's
 _UNIT_ERROR = 1e-6  # how far float32 norms of unit vectors are from 1
 _PATIENCE = 60.0  # seconds that a process waits for another one's write
 

@@ -305,7 +305,7 @@ def _label(text: str, most: int | None = None) -> str:
     return slug if slug[:1].isalpha() else f"thing_{slug}".strip("_")
 
 
-@lru_cache(maxsize=256)  # those of some days; each evening's are new
+@lru_cache(maxsize=256)  # a long life has new ones every day
 def from_box(name: str, known: BoxThing) -> SceneObject:
     """A thing out of the magic box as an object like any other; its class is what it counts as."""
     shape = shape_of(known.text)
