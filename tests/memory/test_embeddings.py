@@ -115,6 +115,28 @@ def test_what_was_asked_for_last_stays_in_ram_and_all_else_is_read_again(
         assert embeddings.misses == 4
 
 
+def test_a_cache_takes_little_more_room_than_its_vectors_and_one_of_another_page_size_is_gone_on_with(
+    tmp_path: Path,
+) -> None:
+    texts = [f"cup {number}" for number in range(300)]
+
+    def encode(text: str) -> Vector:
+        return np.full(384, len(text) / np.sqrt(384), np.float32)
+
+    for name in ("new", "old"):
+        file = tmp_path / f"{name}.sqlite"
+        if name == "old":
+            with closing(sqlite3.connect(file)) as made:
+                made.execute("PRAGMA page_size=4096")
+                made.execute("CREATE TABLE vectors(key BLOB PRIMARY KEY, vector BLOB) WITHOUT ROWID")
+        with CachedEmbeddings(encode, "len", file) as embeddings:
+            embeddings.array(texts)
+        with CachedEmbeddings(encode, "len", file) as again:
+            assert np.array_equal(again.array(texts), np.stack([encode(text) for text in texts]))
+            assert again.misses == 0
+    assert (tmp_path / "new.sqlite").stat().st_size < 1.5 * 300 * 384 * 4
+
+
 def test_a_closed_cache_is_opened_again_by_the_next_text(tmp_path: Path) -> None:
     path = tmp_path / "cache.sqlite"
     embeddings = CachedEmbeddings(encode_length, "lengths", path)
