@@ -20,6 +20,7 @@ from coopera.memory.embeddings import as_array
 from coopera.models.classifiers.text import sentences
 
 Floats = npt.NDArray[np.float64]
+Vectors = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int32]
 Said = TypeVar("Said", str, tuple[str, ...])
 
@@ -34,8 +35,8 @@ class Batch:
 
     texts: Sequence[str]
     """Length u, each once."""
-    vectors: Floats
-    """(u, d), unit norm."""
+    vectors: Vectors
+    """(u, d), unit norm, float32."""
     candidate: Ints
     intention: Ints
     profile: Ints
@@ -66,11 +67,6 @@ class Batch:
 COLUMNS = tuple(field.name for field in fields(Batch) if field.name not in ("texts", "vectors"))
 
 
-def table_of(texts: Sequence[str], embeddings: Embeddings) -> Floats:
-    """Return the vectors of texts, shape (u, d)."""
-    return as_array(embeddings, texts).astype(np.float64)
-
-
 def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
     """Look up every text's vector, each text once."""
     table: dict[str, int] = {}
@@ -92,7 +88,7 @@ def read(examples: Sequence[Example], embeddings: Embeddings) -> Batch:
     texts = list(table)
     return Batch(
         texts=texts,
-        vectors=table_of(texts, embeddings),
+        vectors=as_array(embeddings, texts),
         candidate=candidate,
         intention=intention,
         profile=profile,
@@ -111,6 +107,36 @@ class _Shared:
 
     rows: Floats
     of: npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class _Means:
+    """Mean vectors of the texts of n examples, the equal ones once: `rows()[of]` has shape (n, d).
+
+    A classifier keeps them for all that it learned from, so the rows are worked out anew each time: what they are made
+    of is a third as large.
+
+    Attributes:
+        vectors: The batch's, shape (u, d), float32.
+        texts: Which of them, shape (m, k); -1 for none.
+        weights: What each counts, shape (m, k).
+        centre: What is taken off.
+        of: Which row is whose, shape (n,).
+    """
+
+    vectors: Vectors
+    texts: Ints
+    weights: Floats
+    centre: Floats | float
+    of: npt.NDArray[np.int64]
+
+    def rows(self) -> Floats:
+        """The means less the centre, shape (m, d)."""
+        found = np.zeros((len(self.texts), self.vectors.shape[1]))
+        for texts, weights in zip(self.texts.T, self.weights.T, strict=True):
+            there = texts >= 0
+            found[there] += weights[there, None] * self.vectors[texts[there]]
+        return found - self.centre
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,9 +160,9 @@ class _People:
 class Points:
     """What the similarity of n examples is computed from; see `Similarity.points`."""
 
-    candidate: _Shared
-    intention: _Shared
-    after: _Shared
+    candidate: _Means
+    intention: _Means
+    after: _Means
     hour: _Shared
     rank: _Shared
     people: _People
@@ -179,9 +205,9 @@ class Similarity:
     def points(self, batch: Batch) -> Points:
         """Prepare examples for `gram`."""
         return Points(
-            candidate=_shared(batch, batch.candidate[:, None], self.centre[0]),
-            intention=_shared(batch, batch.intention[:, None], self.centre[1]),
-            after=_shared(batch, batch.intentions, 0.0),
+            candidate=_means(batch, batch.candidate[:, None], self.centre[0]),
+            intention=_means(batch, batch.intention[:, None], self.centre[1]),
+            after=_means(batch, batch.intentions, 0.0),
             hour=_once(batch.hour / self.hours),
             rank=_once(np.where(batch.rank < 0, np.inf, np.log2(1 + np.abs(batch.rank)) / self.rank)),
             people=self._people(batch),
@@ -194,9 +220,9 @@ class Similarity:
         What is equal is compared once, and the rows are made a few at a time, so that they stay in the cache.
         """
         hours = np.exp((a.hour.rows - b.hour.rows.T) ** 2 / -2)
-        candidates = _rbf(a.candidate.rows, b.candidate.rows, self.width)[:, b.candidate.of]
-        before = _rbf(a.after.rows, b.after.rows, self.width)[:, b.after.of]
-        aims = _rbf(a.intention.rows, b.intention.rows, self.width)[:, b.intention.of] if self.task else candidates
+        candidates = _rbf(a.candidate.rows(), b.candidate.rows(), self.width)[:, b.candidate.of]
+        before = _rbf(a.after.rows(), b.after.rows(), self.width)[:, b.after.of]
+        aims = _rbf(a.intention.rows(), b.intention.rows(), self.width)[:, b.intention.of] if self.task else candidates
         when, ranks = 1.0 + hours[:, b.hour.of], _rank_alike(a.rank.rows, b.rank.rows)[:, b.rank.of]
         who = ((1.0 + self._same_person(a.people, b.people)) / 2)[:, b.people.of]
         alike = np.empty((len(a), len(b)))
@@ -219,11 +245,11 @@ class Similarity:
         return alike
 
     def _people(self, batch: Batch) -> _People:
-        who = _shared(batch, batch.profile, 0.0)
+        who = _means(batch, batch.profile, 0.0)
         traits = np.unique(batch.big_five, axis=0, return_inverse=True)[1].reshape(-1)
         names = np.unique(batch.person, return_inverse=True)[1]
         _, first, of = np.unique(np.stack([who.of, traits, names]), axis=1, return_index=True, return_inverse=True)
-        profile, big_five = who.rows[who.of[first]], batch.big_five[first] / self.traits
+        profile, big_five = who.rows()[who.of[first]], batch.big_five[first] / self.traits
         return _People(profile, big_five, batch.person[first], of.reshape(-1))
 
     def _same_person(self, a: _People, b: _People) -> Floats:
@@ -237,8 +263,8 @@ class Similarity:
 
 def centre_of(batch: Batch) -> Floats:
     """Return the mean vectors of the distinct candidates and of the distinct intentions, shape (2, d)."""
-    means = [_rows(batch, np.unique(column)).mean(axis=0) for column in (batch.candidate, batch.intention)]
-    return np.stack(means)
+    padded = np.vstack([batch.vectors.astype(np.float64), np.zeros((1, batch.vectors.shape[1]))])
+    return np.stack([padded[np.unique(column)].mean(axis=0) for column in (batch.candidate, batch.intention)])
 
 
 def _once(values: Floats) -> _Shared:
@@ -247,25 +273,20 @@ def _once(values: Floats) -> _Shared:
     return _Shared(unique[:, None], of)
 
 
-def _rows(batch: Batch, indices: Ints) -> Floats:
-    """Return the vectors at some indices, zeros for -1."""
-    padded = np.vstack([batch.vectors, np.zeros((1, batch.vectors.shape[1]))])
-    return padded[indices]
-
-
-def _shared(batch: Batch, indices: Ints, centre: Floats | float) -> _Shared:
-    """Return the mean vector of each row's texts, earlier ones counting more, less a centre; zeros where are none."""
+def _means(batch: Batch, indices: Ints, centre: Floats | float) -> _Means:
+    """The mean vector of each row's texts, earlier ones counting more, less a centre; zeros where are none."""
     unique, of = np.unique(indices, axis=0, return_inverse=True)
     weights = (unique >= 0) * _FADING ** np.arange(unique.shape[1])
     total = weights.sum(axis=1, keepdims=True)
     weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
-    return _Shared(np.einsum("nk,nkd->nd", weights, _rows(batch, unique)) - centre, of.reshape(-1))
+    return _Means(batch.vectors, unique, weights, centre, of.reshape(-1))
 
 
 def _matches(batch: Batch) -> Floats:
     """Return how well each candidate fits what is known: cosines with the recalled and the profile, shape (n, 6)."""
     cosines = np.zeros((len(batch.vectors) + 1, len(batch.vectors) + 1))
-    cosines[:-1, :-1] = batch.vectors @ batch.vectors.T
+    vectors = batch.vectors.astype(np.float64)
+    cosines[:-1, :-1] = vectors @ vectors.T
     aim = np.where(batch.intention >= 0, batch.intention, batch.candidate)
     parts = []
     for what, known in ((aim, batch.intentions), (batch.candidate, batch.tasks), (aim, batch.profile)):

@@ -22,7 +22,7 @@ from coopera.core.lazy import made_once
 from coopera.memory.embeddings import as_array
 from coopera.models.classifiers.blend import Blend, blend, read_blend
 from coopera.models.classifiers.calibration import Scale, scale
-from coopera.models.classifiers.features import COLUMNS, Batch, Floats, Points, Similarity, centre_of, read, table_of
+from coopera.models.classifiers.features import COLUMNS, Batch, Floats, Points, Similarity, centre_of, read
 from coopera.models.classifiers.state import read_manifest, replace_bytes, write_manifest
 from coopera.models.classifiers.text import Inputs, Lesson, lesson
 
@@ -192,7 +192,7 @@ class KernelClassifier:
         if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
             raise CooperaError(f"{path}: the classifier is damaged (its texts are none)")
         columns = {name: kept[name] for name in COLUMNS}
-        vectors = table_of(texts, self._embeddings) if table == "texts" else kept[table].astype(np.float64)
+        vectors = as_array(self._embeddings, texts) if table == "texts" else kept[table]
         if {len(column) for column in columns.values()} != {len(weights)} or centre.shape != (2, vectors.shape[1]):
             raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
         similarity = self._similarity(centre)
