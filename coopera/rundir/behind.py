@@ -10,8 +10,8 @@ from typing import Generic, TypeVar
 
 T = TypeVar("T")
 _AHEAD = 3
-"""So many hours may wait to be written. What takes pictures then has something to do when an hour asks for few; a run
-that is killed lives so many hours again, which were short ones if their pictures took longer."""
+"""So many hours and evenings may wait to be written. What takes pictures then has something to do when an hour asks for
+few; a run that is killed lives so many hours again, which were short ones if their pictures took longer."""
 
 
 class Behind(Generic[T]):
@@ -23,22 +23,22 @@ class Behind(Generic[T]):
         self._writing: deque[tuple[Future[None], T]] = deque()
         self._popping = threading.Lock()
 
-    def write(self, what: T, job: Callable[[], None], after: Callable[[], None] | None) -> None:
-        """Do a job, which writes `what`, now or once `after` has returned; what was given before is written first.
+    def write(self, what: T, job: Callable[[], None], after: Callable[[], None] | None = None) -> None:
+        """Do a job, which writes `what`, once what was given before is written, and `after` has returned.
 
-        It waits where too much is to be written. What went wrong with something given before is raised, and this job
-        left.
+        Where there is nothing to wait for it is done at once; where too much waits, this waits. What went wrong with
+        something given before is raised, and this job left.
         """
-        self._settle(0 if after is None else _AHEAD - 1)
-        if after is None:
+        self._settle(_AHEAD - 1)
+        before = self._last()
+        if before is None and after is None:
             job()
             return
 
-        before = self._writing[-1][0] if self._writing else None
-
         def both() -> None:
             if before is None or before.exception() is None:  # nothing stands after what is missing
-                after()
+                if after is not None:
+                    after()
                 job()
 
         self._writing.append((self._pool.submit(both), what))
@@ -66,6 +66,10 @@ class Behind(Generic[T]):
                     if err := first[0].exception():
                         self._writing.clear()
                         raise err
+
+    def _last(self) -> Future[None] | None:
+        with self._popping:
+            return self._writing[-1][0] if self._writing else None
 
     def _to_settle(self, left: int) -> tuple[Future[None], T] | None:
         """The first thing, where it is done or where more than so much is being written."""

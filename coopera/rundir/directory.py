@@ -53,7 +53,7 @@ class RunDir(Trace):
         self._rows: dict[tuple[int, int], str] = {}
         self._stop = Stop(stop)
         self._made: list[Path] = []
-        self._behind = Behind[HourRecord]()
+        self._behind = Behind[HourRecord | Evening]()
 
     @classmethod
     def create(
@@ -243,7 +243,7 @@ class RunDir(Trace):
     def write_hour(self, record: HourRecord, after: Callable[[], None] | None = None) -> None:
         """Write trace/day-DD/hour-HH.json, the hour before it first; with `after`, once that has returned.
 
-        The work may go on meanwhile, and reads the hour by its day; an evening is written when its hours are.
+        The work may go on meanwhile, and reads the hour by its day.
         """
         self._stop.check()
 
@@ -267,19 +267,26 @@ class RunDir(Trace):
     def read_day(self, day: int) -> list[HourRecord]:
         """The hours of a day, in order, also those that wait to be written; what went wrong with one is raised."""
         self._stop.check()
-        waiting = {record.hour: as_read(record) for record in self._behind.waiting() if record.day == day}
+        hours = [record for record in self._behind.waiting() if isinstance(record, HourRecord)]
+        waiting = {record.hour: as_read(record) for record in hours if record.day == day}
         written = {record.hour: record for record in super().read_day(day)}
         return [record for _, record in sorted((written | waiting).items())]
 
     def write_evening(self, evening: Evening) -> None:
-        """Write trace/day-DD/evening.json after the day's hours, and bring metrics.csv up to date."""
+        """Write trace/day-DD/evening.json after the day's hours, bring metrics.csv up to date, and seal the day.
+
+        While hours wait to be written, the work may go on.
+        """
         self._stop.check()
-        self._behind.settle()
-        write_record(self.evening_file(evening.day), evening)
-        for record in told_in_the_evening(self.read_day(evening.day), [evening]):
-            self._rows[record.day, record.hour] = metrics_lines(record)
-        self._write_metrics()
-        self._seal(evening.day)
+
+        def write() -> None:
+            write_record(self.evening_file(evening.day), evening)
+            for record in told_in_the_evening(super(RunDir, self).read_day(evening.day), [evening]):
+                self._rows[record.day, record.hour] = metrics_lines(record)
+            self._write_metrics()
+            self._seal(evening.day)
+
+        self._behind.write(evening, write)
 
     def seal_days(self) -> None:
         """Seal what is finished and is not sealed yet: the run was killed in between, or begun by an older version."""
@@ -343,6 +350,7 @@ class RunDir(Trace):
 
     def finish(self) -> dict[str, Any]:
         """Write metrics.csv and summary.json, record that the run is finished, and return the summary."""
+        self._behind.settle()
         summary = self.write_figures()
         self.info["spent"] = self.spent().model_dump()
         self._end("finished", "")
