@@ -164,7 +164,7 @@ def _hours_of(config: Any) -> int:
 def _carry_out(
     work: Callable[[Callable[[Event], None]], dict[str, Any]],
     folder: Path,
-    config: Any,
+    config: Config,
     *,
     as_json: bool,
     done: Collection[tuple[int, int]] = (),
@@ -178,7 +178,7 @@ def _carry_out(
     try:
         # a live line and a person's typing would get in each other's way
         console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.attended else None
-        with Progress(_hours_of(config), console, done=done) as progress:
+        with _getting_ready(config), Progress(_hours_of(config), console, done=done) as progress:
 
             def farewell() -> None:
                 progress.close()
@@ -199,6 +199,21 @@ def _carry_out(
         typer.echo(json.dumps({**summary, "run": str(folder)}, sort_keys=True))
         return
     days_table(summary, folder)
+
+
+@contextmanager
+def _getting_ready(config: Config) -> Iterator[None]:
+    """Have the processes that take pictures begin while this one loads its libraries: either takes a second.
+
+    A robot that looks at pictures has none; only of the offline one is it known already that it does not.
+    """
+    if config.pictures == "none" or config.models.robot != "offline":
+        yield
+        return
+    from coopera.simulation.sight.studio import ready
+
+    with ready(config.renderer):
+        yield
 
 
 def _how_to_go_on(folder: Path) -> str:

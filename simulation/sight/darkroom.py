@@ -18,12 +18,18 @@ from coopera.core.household import AgentId
 from coopera.core.lazy import NEW_OBJECTS
 from coopera.simulation.acts.plans import Ground
 from coopera.simulation.bodies.elbowroom import Elbowroom
+from coopera.simulation.drawing.materials import pictures
+from coopera.simulation.drawing.renderer import get_ready
 from coopera.simulation.people.appearance import Appearance
 from coopera.simulation.people.skin import skinned
 from coopera.simulation.sight.recording import Filming
 from coopera.simulation.sight.studio import Closed, Filmed, Inhabited, Opened, cores
 from coopera.simulation.sight.watching import Watcher
 from coopera.simulation.ways.navigation import Navigator
+
+_NICE = 5
+"""The work that orders pictures goes before them: it is then ahead of them, and they have something to do when it has
+none for them, as in an evening."""
 
 
 def serve(pipes: list[int]) -> None:
@@ -33,7 +39,9 @@ def serve(pipes: list[int]) -> None:
     """
     gc.set_threshold(NEW_OBJECTS)  # a picture makes thousands
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asks for pictures says when it is over
+    os.nice(_NICE)
     Image.init()
+    pictures()
     mine, *others = pipes
     for pipe in others:
         if os.fork() == 0:
@@ -66,6 +74,8 @@ class _Darkroom:
     def work(self) -> None:
         """Do what is asked for, one after another, until it is over."""
         Thread(target=self._hear, daemon=True).start()
+        with suppress(CooperaError):  # who asks for pictures is told
+            get_ready()
         while (message := self._waiting.get()) is not None and not self._over:
             if isinstance(message, Opened):
                 self._open(message)
