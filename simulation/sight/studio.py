@@ -46,7 +46,9 @@ _ENDED = "The process that draws pictures ended before these were drawn."
 _WITH = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
 """A fork is to be made of one thread; a second heap, for the thread that draws, would be 8 MB more."""
 _PATIENCE = 5.0
-"""Seconds that the process may take to end; then it is ended."""
+"""Seconds that the processes may take to close a home; then they are ended."""
+_IDLE_PATIENCE = 0.2
+"""Seconds that they may take to end when they have no home, such as in the middle of their imports."""
 
 
 class Opened(NamedTuple):
@@ -229,7 +231,7 @@ class _Processes:
             pipe.ended = True  # before it hears that the other end is gone
             pipe.send(None)
         try:
-            self._first.wait(_PATIENCE)
+            self._first.wait(_IDLE_PATIENCE)
         except subprocess.TimeoutExpired:
             self._end()
             self._first.wait()
