@@ -141,7 +141,7 @@ def open_services(
         method = find_method(config.method)
         frames = config.frames if config.pictures in ("sampled", "video") else 0
         if frames and not ask.sees("robot"):
-            stack.enter_context(ready(config.renderer))
+            stack.enter_context(ready(config.renderer, people.values()))
         days = open_earlier_life(config)
         services = Services(
             ask=ask,

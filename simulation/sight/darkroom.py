@@ -9,6 +9,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from queue import SimpleQueue
 from threading import Thread
+from typing import get_args
 
 import scipy.interpolate  # noqa: F401 - people are made with it: a fork is to have it already
 from PIL import Image
@@ -20,7 +21,7 @@ from coopera.simulation.acts.plans import Ground
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.drawing.materials import pictures
 from coopera.simulation.drawing.renderer import get_ready
-from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.appearance import Appearance, Outfit
 from coopera.simulation.people.skin import skinned
 from coopera.simulation.sight.recording import Filming
 from coopera.simulation.sight.studio import Closed, Filmed, Inhabited, Opened, cores
@@ -35,6 +36,7 @@ none for them, as in an evening."""
 def serve(pipes: list[int]) -> None:
     """Do what is asked through pipes, by their numbers: a process for each, this one and forks of it.
 
+    The first message, through the first pipe, says who is expected.
     A process ends with its pipe's last message (None) or when the other end is gone; this one, when all have.
     """
     gc.set_threshold(NEW_OBJECTS)  # a picture makes thousands
@@ -42,22 +44,35 @@ def serve(pipes: list[int]) -> None:
     os.nice(_NICE)
     Image.init()
     pictures()
-    mine, *others = pipes
-    for pipe in others:
+    asked = [Connection(pipe) for pipe in pipes]
+    first = mine = asked[0]
+    with suppress(EOFError, OSError):  # who asks is gone, which shows again below
+        _make_people(first)
+    for other in asked[1:]:
         if os.fork() == 0:
-            for other in {*pipes} - {pipe}:
-                os.close(other)
-            mine, others = pipe, []
+            mine = other
             break
-    for other in others:
-        os.close(other)
+    for other in asked:
+        if other is not mine:
+            other.close()
     # Mesa's own threads would only take cores from the other processes; where there are many, some are left to it.
     os.environ.setdefault("LP_NUM_THREADS", str(max(0, cores() // 2 - 1)))
-    with Connection(mine) as asked:
-        _Darkroom(asked).work()
-    with suppress(ChildProcessError):
-        while others:
-            os.wait()
+    with mine:
+        _Darkroom(mine).work()
+    if mine is first:
+        with suppress(ChildProcessError):
+            while True:
+                os.wait()
+
+
+def _make_people(asked: Connection) -> None:
+    """Make who is expected as they are dressed for anything, until something else is asked for."""
+    for looks in asked.recv().looks:
+        for outfit in get_args(Outfit):
+            if asked.poll():
+                return
+            with suppress(CooperaError):  # who asks for pictures is told
+                skinned(looks, outfit)
 
 
 class _Darkroom:

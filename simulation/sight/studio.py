@@ -2,8 +2,8 @@
 
 Python does one thing at a time in a process, and half of what a picture costs is Python: beside the work of an hour it
 would take turns with it. A picture costs more than what an hour does meanwhile, so there are two. The second is a fork
-of the first, which has imported what they need: they share its memory. All homes of a process share the two; they end
-with the last of them.
+of the first, which has imported what they need and made the people who are expected: they share its memory. All homes
+of a process share the two; they end with the last of them.
 """
 
 from __future__ import annotations
@@ -25,12 +25,13 @@ from typing import NamedTuple
 
 from coopera.core.errors import SimulationError
 from coopera.core.household import AgentId
+from coopera.core.people import Persona
 from coopera.simulation.acts.plans import Ground, Step
 from coopera.simulation.bodies.robot import RobotBody
 from coopera.simulation.drawing.context import Renderer, chosen
 from coopera.simulation.homes.scene import Scene
 from coopera.simulation.motions.library import Library
-from coopera.simulation.people.appearance import Appearance
+from coopera.simulation.people.appearance import Appearance, appearance_of
 from coopera.simulation.sight.recording import Recording
 from coopera.simulation.sight.stances import Stances
 from coopera.simulation.sight.watching import Order, Watcher
@@ -48,7 +49,13 @@ _WITH = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
 _PATIENCE = 5.0
 """Seconds that the processes may take to close a home; then they are ended."""
 _IDLE_PATIENCE = 0.2
-"""Seconds that they may take to end when they have no home, such as in the middle of their imports."""
+"""Seconds that they may take to end where they have not had a home, such as in the middle of their imports."""
+
+
+class Expected(NamedTuple):
+    """Who will be drawn: the first message, to the first process, which makes them before there is a second."""
+
+    looks: tuple[Appearance, ...]
 
 
 class Opened(NamedTuple):
@@ -98,7 +105,7 @@ class Studio:
     def __init__(self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance]) -> None:
         """Have the processes get ready; `looks` says how people look, and may change."""
         self._home, self._looks = next(_numbers), looks
-        self._processes = _started(self._home)
+        self._processes = _started(tuple(looks.values()), self._home)
         self._processes.tell(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
 
     def take(self, recording: Recording, order: Order) -> Future[None]:
@@ -179,7 +186,7 @@ class Films:
 class _Processes:
     """The processes, and who waits for what of them; if one of them ends, all are at an end."""
 
-    def __init__(self) -> None:
+    def __init__(self, looks: tuple[Appearance, ...]) -> None:
         pairs = [socket.socketpair() for _ in range(min(_AT_ONCE, cores()))]
         theirs = [pair[1].fileno() for pair in pairs]
         given = [sys.executable, "-I", "-c", _BEGIN, json.dumps(theirs), json.dumps(sys.path)]
@@ -194,6 +201,7 @@ class _Processes:
         for _, one in pairs:
             one.close()
         self._pipes = [_Pipe(Connection(ours.detach()), self._end) for ours, _ in pairs]
+        self._pipes[0].send(Expected(looks))
         self.homes: set[int] = set()
 
     @property
@@ -221,17 +229,17 @@ class _Processes:
             self._end()
         with _one_at_a_time:
             self.homes.discard(home)
-            self.end_if_idle()
+            self.end_if_idle(_PATIENCE)
 
-    def end_if_idle(self) -> None:
-        """End the processes where they have no home."""
+    def end_if_idle(self, patience: float) -> None:
+        """End the processes where they have no home, within so many seconds."""
         if self.homes:
             return
         for pipe in self._pipes:
             pipe.ended = True  # before it hears that the other end is gone
             pipe.send(None)
         try:
-            self._first.wait(_IDLE_PATIENCE)
+            self._first.wait(patience)
         except subprocess.TimeoutExpired:
             self._end()
             self._first.wait()
@@ -270,7 +278,7 @@ class _Pipe:
             self._give_up()
         return awaited
 
-    def send(self, message: Opened | Inhabited | Filmed | Closed | None) -> None:
+    def send(self, message: Expected | Opened | Inhabited | Filmed | Closed | None) -> None:
         """Send something; whether it arrives is told by the answer."""
         with self._sending:
             try:
@@ -322,19 +330,19 @@ def possible(renderer: Renderer) -> bool:
 
 
 @contextmanager
-def ready(renderer: Renderer) -> Iterator[None]:
+def ready(renderer: Renderer, people: Iterable[Persona] = ()) -> Iterator[None]:
     """Begin the processes, if there can be any, before there is a home: that takes a second.
 
-    They end if there is none.
+    They end if there is none. The people are made, while there is nothing else to do.
     """
     if possible(renderer):
-        _started()
+        _started(tuple(appearance_of(one.profile, one.id, one.appearance) for one in people))
     try:
         yield
     finally:
         with _one_at_a_time:
             if _are_ready():
-                _processes[0].end_if_idle()
+                _processes[0].end_if_idle(_IDLE_PATIENCE)
 
 
 def _are_ready() -> bool:
@@ -342,11 +350,11 @@ def _are_ready() -> bool:
     return bool(_processes) and not _processes[0].ended
 
 
-def _started(home: int | None = None) -> _Processes:
+def _started(looks: tuple[Appearance, ...], home: int | None = None) -> _Processes:
     """The processes of this one that take pictures, begun where there are none; a home keeps them from ending."""
     with _one_at_a_time:
         if not _are_ready():
-            _processes[:] = [_Processes()]
+            _processes[:] = [_Processes(looks)]
         if home is not None:
             _processes[0].homes.add(home)
         return _processes[0]

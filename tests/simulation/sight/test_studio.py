@@ -5,6 +5,8 @@ import select
 import signal
 import subprocess
 import sys
+from contextlib import ExitStack
+from multiprocessing import Pipe
 from pathlib import Path
 
 import pytest
@@ -12,8 +14,10 @@ import pytest
 from coopera.core.errors import SimulationError
 from coopera.core.household import HUMAN, ROBOT
 from coopera.simulation.drawing.context import problem
-from coopera.simulation.sight import studio
+from coopera.simulation.people.appearance import Appearance, appearance_of
+from coopera.simulation.sight import darkroom, studio
 from coopera.simulation.world import World
+from tests.fakes import MARA
 from tests.simulation.flat import bring, flat, move
 
 pytestmark = pytest.mark.skipif(bool(problem()), reason=f"nothing can be drawn with OpenGL here: {problem()}")
@@ -71,6 +75,45 @@ def test_the_homes_of_a_process_share_those_that_take_pictures_which_end_with_th
     assert process.poll() is None
     second.close()
     assert process.poll() == 0
+
+
+def test_processes_that_were_got_ready_for_somebody_take_the_same_pictures_and_end_without_a_home(
+    tmp_path: Path,
+) -> None:
+    looks = dict[str, bytes]()
+    for name in ("ready", "not ready"):
+        with ExitStack() as stack:
+            if name == "ready":
+                stack.enter_context(studio.ready("gl", [MARA]))
+                process = studio._processes[0]._first
+            with World(flat(), frame_size=(96, 72), renderer="gl") as world:
+                world.inhabit(HUMAN, MARA)
+                assert world.perform(HUMAN, SITS, record=True).ok
+                world.frames(1, tmp_path / name, wait=False)
+                wait_for(world)
+        looks[name] = (tmp_path / name / "human-0.webp").read_bytes()
+    assert looks["ready"] == looks["not ready"]
+    with studio.ready("gl", [MARA]):
+        assert studio._processes[0]._first is not process
+        process = studio._processes[0]._first
+    assert process.poll() is not None
+
+
+def test_people_are_made_as_long_as_nothing_else_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    ours, theirs = Pipe()
+    made = list[str]()
+
+    def make(looks: Appearance, outfit: str) -> None:
+        made.append(outfit)
+        if len(made) == 2:
+            ours.send(None)
+
+    monkeypatch.setattr(darkroom, "skinned", make)
+    ours.send(studio.Expected((appearance_of(MARA.profile, MARA.id),)))
+    with ours, theirs:
+        darkroom._make_people(theirs)
+        assert made == ["day", "bath"]
+        assert theirs.recv() is None, "what is asked for is left for who does it"
 
 
 def forks(pid: int) -> list[int]:
