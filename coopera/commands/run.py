@@ -210,7 +210,7 @@ def _getting_ready(config: Config, people: Iterable[Persona]) -> Iterator[None]:
 
     A robot that looks at pictures has none; only of the offline one is it known already that it does not.
     """
-    if config.pictures == "none" or config.models.robot != "offline":
+    if config.pictures not in ("sampled", "video") or config.models.robot != "offline":
         yield
         return
     from coopera.simulation.sight.studio import ready
