@@ -25,7 +25,7 @@ from coopera.simulation.acts.skills import set_open, switch
 from coopera.simulation.bodies.elbowroom import Elbowroom
 from coopera.simulation.bodies.robot import load_robot
 from coopera.simulation.drawing.context import Renderer
-from coopera.simulation.drawing.lens import Camera
+from coopera.simulation.drawing.lens import Camera, checked_size
 from coopera.simulation.drawing.view import View
 from coopera.simulation.goals import predicates
 from coopera.simulation.homes.scene import Scene
@@ -83,12 +83,13 @@ class World:
 
         Raises:
             SimulationError: If the home has no room for them to stand in.
-            ConfigError: If there is no such robot, its files cannot be used, or an agent's id cannot be used.
+            ConfigError: If there is no such robot, its files cannot be used, an agent's id cannot be used, or there can
+                be no pictures of that size.
         """
         agents = [PersonAgent(), RobotAgent(body=robot)] if agents is None else agents
         check_agents(agents)
         self.scene = scene.id
-        self.frame_size, self.labels = frame_size, labels
+        self.frame_size, self.labels = checked_size(frame_size), labels
         self.renderer = renderer
         self.errors = errors or PerceptErrors()
         self.layout = scene
@@ -339,10 +340,10 @@ class World:
 
         Raises:
             SimulationError: If there is no such robot.
-            ConfigError: If the renderer gl is not to be had.
+            ConfigError: If the renderer gl is not to be had, or there can be no picture of that size.
         """
         through = through if isinstance(through, Camera) else self.state.the("robot", through)
-        return view(self._watching().drawn, self._ground, self.state, through, size or self.frame_size)
+        return view(self._watching().drawn, self._ground, self.state, through, checked_size(size or self.frame_size))
 
     @property
     def recording(self) -> Recording:

@@ -9,10 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from coopera.core.errors import ConfigError
 from coopera.simulation.shapes.rotations import Array
 
 Point3 = tuple[float, float, float]
 NEAR, FAR = 0.05, 40.0
+MOST = 8192
+"""Pixels that a picture may have a side: those of an 8k screen have 7,680."""
 
 
 class Camera(NamedTuple):
@@ -22,6 +25,17 @@ class Camera(NamedTuple):
     target: Point3
     fov: float = 58.0
     up: Point3 = (0.0, 0.0, 1.0)
+
+
+def checked_size(size: tuple[int, int]) -> tuple[int, int]:
+    """A picture's width and height in pixels, as they were given.
+
+    Raises:
+        ConfigError: If there can be no such picture.
+    """
+    if not all(isinstance(side, (int, np.integer)) and 1 <= side <= MOST for side in size):
+        raise ConfigError(f"frame_size: a picture has 1 to {MOST} pixels a side, not {size[0]} x {size[1]}.")
+    return size
 
 
 def view_matrix(camera: Camera) -> Array:

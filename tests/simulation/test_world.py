@@ -6,11 +6,13 @@ import math
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
-from coopera.core.errors import SimulationError
+from coopera.core.errors import ConfigError, SimulationError
 from coopera.core.household import HUMAN, ROBOT, HandOver, Outcome
 from coopera.core.protocols import Home
 from coopera.simulation.acts.plans import Walk
@@ -193,6 +195,7 @@ _REST = """
 import hashlib, json, sys
 sys.path.insert(0, {root!r})
 from pathlib import Path
+from typing import Any
 import numpy as np
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
@@ -312,3 +315,17 @@ def test_what_was_planned_for_its_seconds_is_not_planned_again_unless_the_home_h
         assert world.perform(ROBOT, back).ok
         assert world.state is not stale.state
         assert world.on("mug", "dining_table")
+
+
+@pytest.mark.parametrize("size", [(0, 240), (320, -1), (320, 8193), (320.5, 240)])
+def test_a_size_that_no_picture_can_have_is_refused_in_a_sentence(size: Any) -> None:
+    with pytest.raises(ConfigError, match=r"frame_size: a picture has 1 to 8192 pixels a side, not"):
+        World(flat(), frame_size=size)
+
+
+def test_a_picture_may_be_of_a_single_pixel(tmp_path: Path) -> None:
+    with World(flat(), frame_size=(1, 1)) as world:
+        assert world.perform(HUMAN, move("sofa_1", "book", "sit and read"), record=True).ok
+        for path in world.frames(1, tmp_path):
+            with Image.open(path) as picture:
+                assert picture.size == (1, 1)
