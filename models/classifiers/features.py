@@ -114,7 +114,7 @@ class _Means:
     """Mean vectors of the texts of n examples, the equal ones once: `rows()[of]` has shape (n, d).
 
     A classifier keeps them for all that it learned from, so the rows are worked out anew each time: what they are made
-    of is a third as large.
+    of is half as large in a long life.
 
     Attributes:
         vectors: The batch's, shape (u, d), float32.
