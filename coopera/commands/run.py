@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -30,7 +30,6 @@ from coopera.core.naming import printable
 
 if TYPE_CHECKING:
     from coopera.config.schema import Config
-    from coopera.core.people import Persona
     from coopera.graphs.players.real_person import Interview
     from coopera.studies.events import Event
 
@@ -50,7 +49,7 @@ def run(
 ) -> None:
     """Let people live their days while a robot learns to help them."""
     from coopera.config.schema import load_config
-    from coopera.studies.catalogues import find_person, resolve
+    from coopera.studies.catalogues import resolve
 
     chosen = load_config(study or _recorded(flags.get("models", {})), flags)
     config = resolve(chosen)
@@ -69,8 +68,8 @@ def run(
         with asked(config, host, port, name) as ask_person:
             return run_study(config, on_event=on_event, ask_person=ask_person)
 
-    people = [find_person(config, person) for person in config.humans or []]
-    _carry_out(work, config.out, config, people, as_json=as_json)
+    with _getting_ready(config):
+        _carry_out(work, config.out, config, as_json=as_json)
 
 
 def resume(
@@ -97,7 +96,7 @@ def resume(
         with asked(found.config, host, port, name) as ask_person:
             return resume_study(run, on_event=on_event, budget=raised, ask_person=ask_person)
 
-    _carry_out(work, run, found.config, found.people().values(), as_json=as_json, done=found.hours_done())
+    _carry_out(work, run, found.config, as_json=as_json, done=found.hours_done())
 
 
 @contextmanager
@@ -166,8 +165,7 @@ def _hours_of(config: Any) -> int:
 def _carry_out(
     work: Callable[[Callable[[Event], None]], dict[str, Any]],
     folder: Path,
-    config: Config,
-    people: Iterable[Persona],
+    config: Any,
     *,
     as_json: bool,
     done: Collection[tuple[int, int]] = (),
@@ -181,7 +179,7 @@ def _carry_out(
     try:
         # a live line and a person's typing would get in each other's way
         console = PlainConsole(stderr=True, highlight=False, force_terminal=False) if config.attended else None
-        with _getting_ready(config, people), Progress(_hours_of(config), console, done=done) as progress:
+        with Progress(_hours_of(config), console, done=done) as progress:
 
             def farewell() -> None:
                 progress.close()
@@ -205,7 +203,7 @@ def _carry_out(
 
 
 @contextmanager
-def _getting_ready(config: Config, people: Iterable[Persona]) -> Iterator[None]:
+def _getting_ready(config: Config) -> Iterator[None]:
     """Have the processes that take pictures begin while this one loads its libraries: either takes a second.
 
     A robot that looks at pictures has none; only of the offline one is it known already that it does not.
@@ -214,8 +212,9 @@ def _getting_ready(config: Config, people: Iterable[Persona]) -> Iterator[None]:
         yield
         return
     from coopera.simulation.sight.studio import ready
+    from coopera.studies.catalogues import find_person
 
-    with ready(config.renderer, people):
+    with ready(config.renderer, [find_person(config, person) for person in config.humans or []]):
         yield
 
 

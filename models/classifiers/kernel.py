@@ -192,7 +192,7 @@ class KernelClassifier:
         if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
             raise CooperaError(f"{path}: the classifier is damaged (its texts are none)")
         columns = {name: kept[name] for name in COLUMNS}
-        vectors = as_array(self._embeddings, texts) if table == "texts" else kept[table]
+        vectors = as_array(self._embeddings, texts) if table == "texts" else kept[table].astype(np.float32)
         if {len(column) for column in columns.values()} != {len(weights)} or centre.shape != (2, vectors.shape[1]):
             raise CooperaError(f"{path}: the classifier is damaged (its arrays do not fit together)")
         similarity = self._similarity(centre)

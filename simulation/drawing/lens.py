@@ -14,7 +14,7 @@ from coopera.simulation.shapes.rotations import Array
 
 Point3 = tuple[float, float, float]
 NEAR, FAR = 0.05, 40.0
-MOST = 8192
+_MOST = 8192
 """Pixels that a picture may have a side: those of an 8k screen have 7,680."""
 
 
@@ -33,8 +33,8 @@ def checked_size(size: tuple[int, int]) -> tuple[int, int]:
     Raises:
         ConfigError: If there can be no such picture.
     """
-    if not all(isinstance(side, (int, np.integer)) and 1 <= side <= MOST for side in size):
-        raise ConfigError(f"frame_size: a picture has 1 to {MOST} pixels a side, not {size[0]} x {size[1]}.")
+    if not all(isinstance(side, (int, np.integer)) and 1 <= side <= _MOST for side in size):
+        raise ConfigError(f"frame_size: a picture has 1 to {_MOST} pixels a side, not {size[0]} x {size[1]}.")
     return size
 
 

@@ -105,7 +105,7 @@ class Studio:
     def __init__(self, ground: Ground, renderer: Renderer, looks: Mapping[AgentId, Appearance]) -> None:
         """Have the processes get ready; `looks` says how people look, and may change."""
         self._home, self._looks = next(_numbers), looks
-        self._processes = _started(tuple(looks.values()), self._home)
+        self._processes = _started(self._home)
         self._processes.tell(Opened(self._home, ground.scene, ground.motions, ground.people, ground.robots, renderer))
 
     def take(self, recording: Recording, order: Order) -> Future[None]:
@@ -336,7 +336,7 @@ def ready(renderer: Renderer, people: Iterable[Persona] = ()) -> Iterator[None]:
     They end if there is none. The people are made, while there is nothing else to do.
     """
     if possible(renderer):
-        _started(tuple(appearance_of(one.profile, one.id, one.appearance) for one in people))
+        _started(looks=tuple(appearance_of(one.profile, one.id, one.appearance) for one in people))
     try:
         yield
     finally:
@@ -350,7 +350,7 @@ def _are_ready() -> bool:
     return bool(_processes) and not _processes[0].ended
 
 
-def _started(looks: tuple[Appearance, ...], home: int | None = None) -> _Processes:
+def _started(home: int | None = None, looks: tuple[Appearance, ...] = ()) -> _Processes:
     """The processes of this one that take pictures, begun where there are none; a home keeps them from ending."""
     with _one_at_a_time:
         if not _are_ready():

@@ -195,7 +195,6 @@ _REST = """
 import hashlib, json, sys
 sys.path.insert(0, {root!r})
 from pathlib import Path
-from typing import Any
 import numpy as np
 from coopera.simulation.world import World
 from tests.simulation.flat import bring, flat, move, put
