@@ -1,12 +1,12 @@
 """Can a reader name a motion from four frames? Draws shuffled sheets without captions, and keeps the key apart.
 
-python -m benchmarks.blind_motions draw OUT [--seed N]     # OUT/sheets/01.png ..., OUT/key.yaml (not for the reader)
-python -m benchmarks.blind_motions score OUT ANSWERS       # ANSWERS: a YAML mapping of sheet number to words
+python -m benchmarks.blind_motions draw OUT [--all] [--seed N] # OUT/sheets/01.png, OUT/key.yaml (not for the reader)
+python -m benchmarks.blind_motions score OUT ANSWERS           # ANSWERS: a YAML mapping of sheet number to words
 
 A sheet shows one motion at four moments, from two sides. The eight motions that a reader once failed to name are there,
-and five others. The reader sees the sheets alone and writes in own words what the person does. An answer counts where
-it shares its meaning with the caption: `score` prints both side by side, and counts those that name the caption or one
-of the words beside it in the table below; a person judges the rest.
+and five others, or (`--all`) every one. The reader sees the sheets alone and writes in own words what the person does.
+An answer counts where it shares its meaning with the caption: `score` prints both side by side, and counts those that
+have the caption or one of the words beside it in the table below; a person judges the rest.
 """
 
 from __future__ import annotations
@@ -42,9 +42,8 @@ OTHERS = {
 """Captions, and parts of words that name them, separated by commas."""
 
 
-def draw(out: Path, seed: int) -> None:
+def draw(out: Path, captions: list[str], seed: int) -> None:
     """Write the sheets in a shuffled order, and the key beside them."""
-    captions = [*ONCE_MISSED, *OTHERS]
     random.Random(seed).shuffle(captions)
     (out / "sheets").mkdir(parents=True, exist_ok=True)
     for number, caption in enumerate(captions, start=1):
@@ -60,7 +59,7 @@ def score(out: Path, answers: Path) -> None:
     words, right = ONCE_MISSED | OTHERS, 0
     for number, caption in sorted(key.items()):
         answer = str(said.get(number, "")).lower()
-        named = any(word in answer for word in words[caption].split(","))
+        named = any(word in answer for word in words.get(caption, caption).split(","))
         right += named
         print(f"{'right' if named else 'judge'}  {number:2}  {caption:22} {answer}")
     print(f"{right} of {len(key)} named")
@@ -73,9 +72,11 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("answers", type=Path, nargs="?")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--all", action="store_true", help="every motion, not thirteen")
     args = parser.parse_args()
     if args.what == "draw":
-        draw(args.out, args.seed)
+        captions = [motion.caption for motion in load_library().motions] if args.all else [*ONCE_MISSED, *OTHERS]
+        draw(args.out, captions, args.seed)
     elif args.answers is None:
         parser.error("score takes a file of answers")
     else:

@@ -16,20 +16,27 @@ from benchmarks.motions_at_home import usual_things
 from coopera.core.affordances import affordances
 from coopera.core.household import HUMAN, FreeMotion, SceneId
 from coopera.simulation import World
-from coopera.simulation.acts.plans import Play
+from coopera.simulation.acts.planning import planned
+from coopera.simulation.acts.plans import Plan, Play
 from coopera.simulation.homes.catalogue import catalogue
 from coopera.simulation.homes.scene import Room, Scene, SceneObject
 from coopera.simulation.motions.library import Motion
-from coopera.simulation.sight.recording import Filming, Moment, Shot
+from coopera.simulation.sight.recording import Filming, Moment, Recording
 from coopera.simulation.sight.stage import Camera, Stage
 from coopera.simulation.sight.timing import TICKS
 from coopera.simulation.state.agents import PersonAgent
+from coopera.simulation.state.home_state import PersonState
 
 VIEWS, BESIDE = (62.0, -38.0), (118.0, -100.0)
 """Where the cameras stand, in degrees from where the person looks, to the left; and where before tall furniture."""
 _TALL = 1.05
-_FILMED = 8.0
-"""A motion is filmed for so many seconds at least."""
+_CLEAR = {
+    "shower": (-38.0, -62.0),
+    "wardrobe": (-105.0, -145.0),
+    "dishwasher": (95.0, -120.0),
+    "washing_machine": (95.0, -120.0),
+}
+"""Where they stand at furniture of which a wall or a door hides who stands there from elsewhere."""
 _THINGS = {
     "pour a drink": "wine bottle",
     "set the table": "plate",
@@ -50,6 +57,7 @@ _THINGS = {
     "play the piano": "sheet music",
     "brush teeth": "toothbrush",
     "carry a box": "cardboard box",
+    "load the machine": "plate",
 }
 """What is in hand, where it is not the first thing that people usually have."""
 _PLACES = {
@@ -71,34 +79,40 @@ _PLACES = {
     "feed the pet": "rug",
     "dust the shelves": "bookshelf",
     "fold clothes": "dining_table",
+    "put on clothes": "rug",
 }
+_TURNED = {"bed": math.pi, "dishwasher": math.pi / 2, "washing_machine": math.pi / 2}
+"""Furniture whose front is not where people come from otherwise (radians)."""
 _AROUND: dict[str, list[str]] = {"pour a drink": ["glass"]}
 """What else is there, on the furniture before one."""
 
 
 class Take(NamedTuple):
-    """A motion as somebody makes it in the studio."""
+    """A motion as `person` makes it in the studio, at the end of `recording`."""
 
     motion: Motion
-    world: World
     stage: Stage
-    shot: Shot
+    recording: Recording
+    person: PersonState
 
     @property
     def views(self) -> tuple[float, float]:
         """Where the cameras stand."""
-        target = next(piece for piece in self.world.layout.fixed if piece.id == 1)
-        return BESIDE if target.size[2] > _TALL and self.world.state.person().place != target.xy else VIEWS
+        target = next(piece for piece in self.stage.scene.fixed if piece.id == 1)
+        if target.cls in _CLEAR:
+            return _CLEAR[target.cls]
+        return BESIDE if target.size[2] > _TALL and self.person.place != target.xy else VIEWS
 
     def moment(self, share: float) -> Moment:
         """What is seen after a share of the motion's period."""
-        first = self.shot.ticks - round(max(_FILMED, 2 * self.motion.keys.period) * TICKS)
-        return self.shot.at(first + round(share * self.motion.keys.period * TICKS))
+        shot = self.recording.shots[-1]
+        assert shot.begun is not None
+        return shot.at(shot.begun + round(share * self.motion.keys.period * TICKS))
 
     def picture(self, share: float, view: float, size: tuple[int, int]) -> Image.Image:
         """The person after a share of the period, from so many degrees beside where they look."""
-        person = self.world.state.person()
-        self.stage.show(self.world.state, self.moment(share))
+        person = self.person
+        self.stage.show(self.recording.state, self.moment(share))
         low = person.posture in ("lie", "floor")
         angle, away = person.yaw + math.radians(view), 2.2 if low else 2.1
         x, y = person.place[0] + 0.3 * math.cos(person.yaw), person.place[1] + 0.3 * math.sin(person.yaw)
@@ -122,7 +136,7 @@ def studio(motion: Motion, furniture: str = "") -> Scene:
     cls = furniture or _PLACES.get(motion.caption) or (places[0] if places else "rug")
     if motion.posture == "floor":
         cls = "rug"
-    first = _object(1, cls, (0.0, 0.0, 0.0), 0.0)
+    first = _object(1, cls, (0.0, 0.0, 0.0), _TURNED.get(cls, 0.0))
     pieces = [first]
     kind = catalogue().fixed[cls]
     depth, top = first.size[1], first.size[2]
@@ -148,19 +162,22 @@ def take(motion: Motion) -> Iterator[Take]:
     """Somebody who makes a motion in the studio, with a usual thing in hand.
 
     Raises:
-        RuntimeError: If that is refused.
+        UnableError: If that is refused.
     """
     with World(studio(motion), agents=[PersonAgent()]) as world:
-        outcome = world.perform(HUMAN, usual_act(motion, world))
-        if not outcome.ok:
-            raise RuntimeError(f"{motion.caption}: {outcome.reason}")
+        plan = planned(world._ground, world.state, HUMAN, usual_act(motion, world), None)
         stage = Stage(world.layout, [HUMAN], {})
         try:
-            person = world.state.person()
-            film = Filming(world._ground, world.state, HUMAN, HUMAN).film([Play(HUMAN, person, motion)], HUMAN)
-            yield Take(motion, world, stage, film.shots[-1])
+            yield Take(motion, stage, *_filmed(world, plan))
         finally:
             stage.close()
+
+
+def _filmed(world: World, plan: Plan) -> tuple[Recording, PersonState]:
+    """An act up to its motion, and who makes that."""
+    number, play = next((k, step) for k, step in enumerate(plan.steps) if isinstance(step, Play))
+    before = world.state.model_copy(update={"box": plan.state.box})
+    return Filming(world._ground, before, HUMAN, HUMAN).film(plan.steps[: number + 1], HUMAN), play.person
 
 
 def strip(motion: Motion, shares: Sequence[float], size: tuple[int, int]) -> Image.Image:

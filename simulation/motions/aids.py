@@ -48,7 +48,7 @@ def held_or_laid(aid: Aid, setting: Setting, share: float, *, eats: bool) -> Gri
     first, last = aid.when
     if share < first:
         return None
-    if aid.hand == "both":
+    if aid.hand == "both" and share <= last:
         return Grip("both")
     if aid.hand is not None and share <= last:
         return Grip(aid.hand, surface=working_height(setting) + (_THICK if eats else 0.0), eaten=eats, flat=True)

@@ -29,6 +29,8 @@ _LOW_THING = 0.1
 """What is no higher than this can be laid flat under a hand to wipe with."""
 _TOES = 0.05
 """The middle of a foot is this far ahead of its ankle."""
+_WAIST = -0.28
+"""The lower hem of what is on the torso, from the chest's middle."""
 _GRASP = 0.16
 """Two hands hold a thing between them that is at most this much narrower than they are apart."""
 _END = 0.07
@@ -287,6 +289,8 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return np.array((0.0, -0.75, 0.0)), AHEAD
     if grip.hold == "head":
         return _at_head(frames, size)
+    if grip.hold == "torso":
+        return frames.point("chest", 0.0, 0.0, _WAIST), frames.turn["chest"] @ AHEAD
     if grip.hold == "feet":
         ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
         return ankles + np.array((_TOES, 0.0, -ANKLE)), AHEAD

@@ -20,7 +20,7 @@ from coopera.core.people import Frozen
 from coopera.simulation.shapes.rotations import Array
 
 Posture: TypeAlias = Literal["stand", "sit", "lie", "floor"]
-Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside", "feet", "flat"]
+Hold: TypeAlias = Literal["right", "left", "both", "head", "floor", "surface", "beside", "feet", "flat", "torso"]
 Base: TypeAlias = Literal["crossed", "kneel", "prone", "supine", "crouch"]
 Frame: TypeAlias = Literal["surface", "mouth", "head", "chest", "hips", "body"]
 Triple: TypeAlias = tuple[float, float, float]
@@ -59,7 +59,7 @@ class HandPath(Frozen):
 class Aid(Frozen):
     """A small thing that belongs to a motion and is no thing of the home, such as the fork that one eats with.
 
-    Within the shares `when` of the period it is in the `hand` (in both throughout); afterwards it lies `at` a place,
+    Within the shares `when` of the period it is in the `hand` ; afterwards it lies `at` a place,
     which is x, y, z and a turn in degrees in the surface's frame (or, `floor`, in the body's, above what bears it).
     Without a hand it lies there just then. It is left out where the thing in hand is one of its kind, and where that is
     not held as `only` says.

@@ -190,15 +190,49 @@ def _arc(kit: Kit, up: float) -> None:
 
 
 def garment(kit: Kit) -> None:
-    """Draw a garment that hangs from the shoulders: body, sleeves, collar and buttons."""
+    """Draw a jumper that is held up by its shoulders: body, neck and sleeves."""
     w, d, h = kit.w, kit.d, kit.h
-    kit.box((0, 0, 0), (w * 0.66, d, h * 0.94))
-    kit.box((0, d * 0.1, h * 0.86), (w * 0.2, d, h * 0.1), shade(kit.colour, 0.55))
+    ribbing = shade(kit.colour, 0.7)
+    for k, wide in enumerate((0.5, 0.48, 0.46, 0.48)):
+        kit.box((0, 0, h * (0.06 + 0.22 * k)), (w * wide, d, h * 0.23))
+    kit.box((0, 0, 0), (w * 0.46, d * 1.1, h * 0.07), ribbing)
+    kit.box((0, d * 0.08, h * 0.9), (w * 0.2, d, h * 0.08), ribbing)
+    _sleeves(kit)
+
+
+def worn_garment(kit: Kit) -> None:
+    """Draw the same jumper around a body."""
+    w, d, h = kit.w, kit.d, kit.h
+    ribbing = shade(kit.colour, 0.7)
+    for low, tall, colour in ((0.0, 0.08, ribbing), (0.08, 0.84, kit.colour)):
+        kit.box((0, 0, low * h), (w * 0.28, d * 0.8, tall * h), colour)
+        for side in (-1, 1):
+            kit.tube((side * w * 0.14, 0, low * h), d * 0.4, tall * h, colour)
+    kit.rod((0, 0, h * 0.88), d * 0.3, w * 0.62, axis="x")
+    kit.tube((0, 0, h * 0.94), w * 0.11, h * 0.14, ribbing)
+    _sleeves(kit)
+
+
+def _sleeves(kit: Kit) -> None:
     for side in (-1, 1):
-        kit.box((side * w * 0.41, 0, h * 0.5), (w * 0.18, d, h * 0.42), shade(kit.colour, 0.85))
-        kit.box((side * w * 0.17, d * 0.2, h * 0.2), (w * 0.16, d, h * 0.16), shade(kit.colour, 0.7))
-    for k in range(4):
-        kit.ball((0, d * 0.55, h * (0.2 + 0.17 * k)), 0.013, DARK)
+        shoulder, wrist = (side * kit.w * 0.24, 0.0, kit.h * 0.86), (side * kit.w * 0.45, 0.0, kit.h * 0.44)
+        kit.bar(shoulder, wrist, kit.w * 0.085)
+        kit.ball(wrist, kit.w * 0.088, shade(kit.colour, 0.7))
+
+
+def hung_garment(kit: Kit) -> None:
+    """Draw a shirt on a hanger."""
+    w, d, h = kit.w, kit.d, kit.h
+    for k, wide in enumerate((0.52, 0.5, 0.5, 0.54)):
+        kit.box((0, 0, h * 0.2 * k), (w * wide, d, h * 0.21))
+    for side in (-1, 1):
+        kit.bar((side * w * 0.25, 0.0, h * 0.74), (side * w * 0.36, 0.0, h * 0.3), w * 0.08, shade(kit.colour, 0.85))
+        kit.bar((0, 0, h * 0.9), (side * w * 0.27, 0, h * 0.8), 0.012, DARK)
+    kit.box((0, d * 0.1, h * 0.76), (w * 0.18, d, h * 0.05), WHITE)
+    for k in range(3):
+        kit.ball((0, d * 0.5, h * (0.16 + 0.2 * k)), 0.013, WHITE)
+    kit.bar((0, 0, h * 0.88), (0, 0, h * 0.96), 0.008, STEEL)
+    kit.bar((0, 0, h * 0.97), (w * 0.06, 0, h), 0.008, STEEL)
 
 
 def exercise_mat(kit: Kit) -> None:
@@ -237,6 +271,6 @@ STAGED: dict[str, Recipe] = {
             dishes,
         ),
         *(sliced_food, open_book, knitting, steam, exercise_mat, puzzle),
-        *(rope_over, rope_under, garment),
+        *(rope_over, rope_under, garment, worn_garment, hung_garment),
     )
 }

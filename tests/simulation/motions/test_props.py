@@ -92,6 +92,25 @@ def test_a_blanket_is_spread_once_it_is_put_down() -> None:
     assert "staged spread blanket" in late[1]
 
 
+def test_who_dresses_holds_a_garment_up_draws_it_over_the_head_and_then_wears_it() -> None:
+    ways = [seen("put on clothes", "shirt", share=share, grip=Grip("both")) for share in (0.1, 0.4, 0.8)]
+    assert [[grip.hold for grip in props.values()] for _, props in ways] == [["both"], ["head"], ["torso"]]
+    assert not any(grip for grip, _ in ways)
+    assert not seen("put on clothes", "hat", grip=Grip("both"))[1]
+
+
+@pytest.mark.parametrize(("top", "hangs"), [(None, True), (TABLE, False)])
+def test_a_garment_hangs_where_the_hands_left_it_and_stays_in_hand_at_a_radiator(top, hangs) -> None:
+    early, late = (seen("hang up clothes", "shirt", top, share, Grip("both"))[1] for share in (0.3, 0.7))
+    assert early["staged garment hung"].hold == "both"
+    assert (late["staged garment hung"].laid is not None) == hangs
+
+
+def test_dishes_go_into_a_rack_and_laundry_does_not() -> None:
+    assert "staged dish rack" in seen("load the machine", "plate", grip=Grip("both"))[1]
+    assert "staged dish rack" not in seen("load the machine", "shirt", grip=Grip("both"))[1]
+
+
 @pytest.mark.parametrize(("thing", "other"), [("reading glasses", True), ("book", True), ("magazine", False)])
 def test_who_reads_has_something_open_in_both_hands(thing, other) -> None:
     grip, props = seen("sit and read", thing, grip=Grip("both"))
