@@ -274,7 +274,7 @@ def _looks(config: Config) -> bool:
 
 def _pictures(config: Config, call: ModelCall) -> int:
     """Frames from two views, where the robot's own model may look at them."""
-    looks = call.prompt == "robot/intentions" and config.pictures == "sampled"
+    looks = call.prompt == "robot/intentions" and config.takes_pictures
     return 2 * config.frames if looks else 0
 
 

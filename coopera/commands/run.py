@@ -208,7 +208,7 @@ def _getting_ready(config: Config) -> Iterator[None]:
 
     A robot that looks at pictures has none; only of the offline one is it known already that it does not.
     """
-    if config.pictures not in ("sampled", "video") or config.models.robot != "offline":
+    if not config.takes_pictures or config.models.robot != "offline":
         yield
         return
     from coopera.simulation.sight.studio import ready

@@ -345,6 +345,11 @@ class Config(Frozen):
         return self.played_by in ("me", "web")
 
     @property
+    def takes_pictures(self) -> bool:
+        """Whether pictures are sampled, of a video or without one."""
+        return self.pictures in ("sampled", "video")
+
+    @property
     def day_hours(self) -> list[int]:
         """The hours of each day, such as [9, 10, …, 21]."""
         return list(range(FIRST_HOUR, FIRST_HOUR + self.hours))

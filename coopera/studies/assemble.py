@@ -139,7 +139,7 @@ def open_services(
         door = open_ask(config, prompts=prompts, embeddings=embeddings, root=run.root, check=run.check, meter=meter)
         ask = _Interruptible(stack.enter_context(door), run.check)
         method = find_method(config.method)
-        frames = config.frames if config.pictures in ("sampled", "video") else 0
+        frames = config.frames if config.takes_pictures else 0
         if frames and not ask.sees("robot"):
             stack.enter_context(ready(config.renderer, people.values()))
         days = open_earlier_life(config)

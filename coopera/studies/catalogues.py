@@ -95,7 +95,7 @@ def resolve(config: Config, catalogues: Catalogues | None = None) -> Config:
                 "scenes": list(scenes),
                 "days": config.days or days,
                 "out": config.out or next_folder(Path("runs")),
-                "renderer": chosen(config.renderer) if config.pictures in ("sampled", "video") else config.renderer,
+                "renderer": chosen(config.renderer) if config.takes_pictures else config.renderer,
             }
         )
     )

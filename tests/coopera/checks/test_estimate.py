@@ -69,3 +69,14 @@ def test_the_model_in_the_box_is_foretold_unopened_brief_and_without_tokens_for_
     assert (small["calls"], small["tokens_out"]) == (brief["calls"], brief["tokens_out"])
     assert small["tokens_in"] < brief["tokens_in"]
     assert small["unpriced"] == []
+
+
+def test_a_robot_that_looks_at_a_days_video_is_foretold_the_frames_of_it(letters: Path, tmp_path: Path) -> None:
+    def pictures(taken: str) -> int:
+        models = Models(human="offline", robot="openai:m+images")
+        server = {"base_url": "http://127.0.0.1:9/v1", "data_dir": letters, "out": tmp_path / taken}
+        config = Config(days=1, hours=1, pictures=taken, frames=4, models=models, **server)
+        return estimate(resolve(config))["roles"]["robot"]["pictures"]
+
+    assert pictures("video") == pictures("sampled") == 8
+    assert pictures("none") == 0
