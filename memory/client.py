@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import sqlite3
+import threading
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
 _PATIENCE = 10.0  # seconds to wait for a server's answer when connecting
 _REQUEST_PATIENCE = 60.0
+_THREAD = "tokio-rt-worker"
+_LOOKS = (0.0, 0.001, *[0.01] * 20)
+"""After which pauses one looks at threads that should rest (seconds)."""
 _PAGES = 100
 """Pages of 4 kB of its database that each connection of Chroma's keeps in RAM; by SQLite's own measure, 2 MB each."""
 
@@ -102,11 +107,39 @@ def connect(url: str) -> ClientAPI:
 
 
 def disconnect(client: ClientAPI) -> None:
-    """Close a client with its connections."""
+    """Close a client with its connections, but not what would never close.
+
+    Chroma's pool of connections (sqlx-core 0.8.6) rarely comes to count itself without end, from which closing it never
+    returns, nor lets Ctrl-C through: https://github.com/launchbadge/sqlx/issues/3645. Such a pool stays until the
+    process ends. What was written is on disk.
+    """
     pools = _sessions(client)
+    bindings = getattr(getattr(client, "_server", None), "bindings", None)
+    if bindings is not None and _never_rests():
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(bindings))  # so that nothing, not even Python's end, drops it
     client.close()  # type: ignore[attr-defined]  # Chroma's base class lacks it
     for pool in pools:
         pool.close()
+
+
+def _never_rests() -> bool:
+    """Whether one of the pool's threads runs whenever one looks, though nobody asks anything of it (Linux alone)."""
+    busy: set[Path] | None = None
+    for pause in _LOOKS:
+        threading.Event().wait(pause)
+        running = {task for task in Path("/proc/self/task").glob("*") if _runs(task)}
+        busy = running if busy is None else busy & running
+        if not busy:
+            return False
+    return True
+
+
+def _runs(task: Path) -> bool:
+    try:
+        name, _, rest = (task / "stat").read_text(encoding="utf-8").partition(" (")[2].rpartition(") ")
+    except OSError:  # it has ended
+        return False
+    return name == _THREAD and rest.startswith("R")
 
 
 def _sessions(client: ClientAPI) -> list[httpx.Client]:
