@@ -27,7 +27,7 @@ from typing import Any, NamedTuple, NoReturn
 from benchmarks.fuzzing import READERS
 from benchmarks.fuzzing.kit import Reader, Target
 from benchmarks.fuzzing.mutations import blend
-from coopera.core.errors import LONGEST
+from coopera.core.errors import LONGEST, ConfigError
 
 MOST_SECONDS = 10
 MOST_BYTES = 2**30
@@ -56,7 +56,11 @@ def main() -> int:
     warnings.simplefilter("ignore")
     found: dict[str, Any] = {}
     for name in names:
-        found[name] = one = _tried(name, READERS[name], options)
+        try:
+            found[name] = one = _tried(name, READERS[name], options)
+        except ConfigError as err:  # as where a library is missing
+            print(f"{name:16} not tried: {err}", flush=True)
+            continue
         counted = f"{one['inputs']:6} inputs {one['read']:6} read {one['refused']:6} refused {one['others']:4} others"
         print(f"{name:16} {counted}, slowest {one['slowest']:.2f} s, {one['seconds']:.0f} s", flush=True)
     print(json.dumps({"seed": options.seed, "readers": found}))
