@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from functools import partial
@@ -11,6 +13,7 @@ from typing import Any
 from langchain_core.embeddings import Embeddings
 
 from coopera.config.schema import Config
+from coopera.core.errors import ConfigError
 from coopera.core.hour import CandidateKind, ModelCall
 from coopera.core.household import SceneId
 from coopera.core.lazy import made_once
@@ -56,8 +59,21 @@ def open_embeddings(config: Config) -> CachedEmbeddings:
     """The bundled sentence encoder, with a cache that all runs share; those of one process have it in RAM, too.
 
     To be used in a `with` statement: whoever has opened it closes the file.
+
+    Raises:
+        ConfigError: If the data folder cannot be made or written.
     """
-    return _embeddings(config.data_dir.resolve() / "embeddings.sqlite")
+    folder = config.data_dir.resolve()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if not os.access(folder, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as err:
+        raise ConfigError(
+            f"{folder}: the data folder cannot be written ({err.strerror}); name another one (data_dir of a study, or "
+            "COOPERA_DATA_DIR in the environment)."
+        ) from err
+    return _embeddings(folder / "embeddings.sqlite")
 
 
 @made_once(2)

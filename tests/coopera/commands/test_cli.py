@@ -252,3 +252,15 @@ def test_trace_and_report_read_a_run(coopera: Cli, tmp_path: Path) -> None:
     assert coopera("trace", "run", "--day", 0, "--hour", 10, "--json").json["hour"] == 10
     done = coopera("report", "run", "--json").json
     assert (tmp_path / "run" / "report.html").stat().st_size == done["bytes"]
+
+
+def test_a_data_folder_that_cannot_be_written_is_told_as_one_and_leaves_no_run(
+    coopera: Cli, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("no folder")
+    monkeypatch.setenv("COOPERA_DATA_DIR", str(tmp_path / "file"))
+    said = coopera("run", "--days", 1, "--hours", 1, "--pictures", "none", "--out", "run")
+    assert said.code == 2
+    assert "file: the data folder cannot be written" in said.err
+    assert "COOPERA_DATA_DIR" in said.err
+    assert not (tmp_path / "run").exists()
