@@ -281,7 +281,10 @@ class Filming:
         self._finish(agent, Placed(*person.place, person.yaw, pose_at(motion, 0.0, setting)), held(0.0), moved)
 
     def _dress(self, step: Dress) -> None:
-        """What is worn and held changes; where a motion did it, that is seen at the motion's end."""
+        """What is worn and held changes; where a motion did it, that is seen at the motion's end.
+
+        Of what pictures show in place of the thing, such as a garment on the body, nothing changes any more.
+        """
         self.worn = {**self.worn, step.agent: step.worn}
         self.held = _with(self.held, step.agent, Held(step.thing) if step.thing else None)
         if not self.recording.shots or step.agent != self._actor:
@@ -290,7 +293,11 @@ class Filming:
 
         def at(tick: int) -> Moment:
             moment = last.at(tick)
-            return moment if tick < last.ticks - BACK else moment._replace(worn=worn, held=held)
+            if tick < last.ticks - BACK:
+                return moment
+            own = moment.held.get(step.agent)
+            stays = own is not None and own.drawn is not None and own.drawn.grip is None
+            return moment._replace(worn=worn, held=_with(held, step.agent, own) if stays else held)
 
         self.recording.shots[-1] = replace(last, at=at)
 

@@ -157,3 +157,13 @@ def test_the_camera_across_the_room_is_close_to_hands_at_work_and_has_all_of_who
     camera = home._watcher._view(home._recording, home._recording.shots[-1])
     tall = 2 * math.tan(math.radians(camera.fov) / 2) * math.dist(camera.eye, camera.target)
     assert lowest < tall < highest
+
+
+def test_what_was_put_on_is_seen_on_the_body_until_the_act_is_over(home) -> None:
+    assert home.perform(HUMAN, move("bed_1", "shirt", "put on clothes"), record=True).ok
+    shot = home._recording.shots[-1]
+    end = shot.at(shot.ticks - 1)
+    assert "shirt" in str(end.worn[HUMAN])
+    assert [one.grip.hold for one in end.held[HUMAN].drawn.props] == ["torso"]
+    assert HUMAN not in shot.at(0).worn
+    assert home.state.person().thing is None
