@@ -9,6 +9,7 @@ from shutil import rmtree
 from benchmarks.fuzzing import mutations as change
 from benchmarks.fuzzing.kit import ROOT, Reader, Target, of_file
 from coopera.evaluation.results import from_csv
+from coopera.memory import minilm
 from coopera.models.recorded import Past
 from coopera.report.page import fill, frames_of, texts
 from coopera.report.pictures import embed
@@ -27,6 +28,16 @@ def _run(name: str, read: Callable[[Path], object], *more: str) -> Callable[[Pat
         return Target(root / name, seeds, lambda: read(root))
 
     return ready
+
+
+def _with_encoder(ready: Callable[[Path], Target]) -> Callable[[Path], Target]:
+    """The same with the encoder of texts loaded, which is larger than what an input may take."""
+
+    def loaded(folder: Path) -> Target:
+        minilm.shared().encode("a text")
+        return ready(folder)
+
+    return loaded
 
 
 def _hour(root: Path) -> object:
@@ -70,8 +81,8 @@ READERS: dict[str, Reader] = {
     "hour": Reader(_run(_HOUR, _hour), change.in_json),
     "evening": Reader(_run(_EVENING, _evening), change.in_json),
     "export": Reader(_run(_HOUR, _export), change.in_json),
-    "report": Reader(_run(_HOUR, _report), change.in_json),
-    "report-evening": Reader(_run(_EVENING, _report), change.in_json),
+    "report": Reader(_with_encoder(_run(_HOUR, _report)), change.in_json),
+    "report-evening": Reader(_with_encoder(_run(_EVENING, _report)), change.in_json),
     "run-json": Reader(_run("run.json", _run_json), change.in_json),
     "recorded": Reader(_run(_HOUR, _recorded), change.in_json),
     "results": Reader(of_file("hours.csv", [_HOURS], _results), change.in_cells),
