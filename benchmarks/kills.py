@@ -8,7 +8,8 @@ end as likely as all hours together: the process dies right before it opens, ren
 with a rollback the checkpoints are harmed besides: copied without their -wal, put back to an older copy, deleted, or
 cut short. What a trial must leave is every file of the uninterrupted run, memories and checkpoints included
 (`benchmarks.run_contents`), or a refusal in one sentence; but the harmed checkpoints of a finished run may be gone,
-since nothing needs them. Trials that leave anything else stay in --out.
+since nothing needs them, and a memory that a resume said it had found damaged is kept beside the one made anew. Trials
+that leave anything else stay in --out.
 
 The same seed draws the same trials; the moment at which a drawn time strikes depends on the machine.
 """
@@ -58,6 +59,10 @@ _DRAWN = ("one person",) * 7 + ("with pictures", "two people, who is not told", 
 """Of ten trials, so many are of a sort."""
 
 
+_REBUILT, _DAMAGED = "rebuilt from its texts without loss (kept:", "memory.damaged"
+_KEPT = "(a memory was found damaged, and said so; it was rebuilt without loss and is kept)"
+
+
 @dataclass(slots=True)
 class Whole:
     """The uninterrupted run of a sort: how long it took, what it did to its files, and what it left."""
@@ -80,7 +85,9 @@ class Trial:
     verdict: str = ""
     """"equal", "refused" or "different"."""
     said: str = ""
-    """The sentence of a refusal, or what differs."""
+    """The sentence of a refusal, or what differs, or that a memory was found damaged and is kept beside its own."""
+    heard: str = ""
+    """All that its commands said on standard error."""
 
 
 def main() -> None:
@@ -142,16 +149,26 @@ def tried(trial: Trial, whole: Whole, out: Path, seed: int) -> Trial:
     code = _life(trial, folder, None)
     said = (folder / "said").read_text()
     if code == 0:
-        wrong = differences(whole.left, looked_into(trial.sort, folder))
+        left = looked_into(trial.sort, folder)
+        kept = _REBUILT in trial.heard and _without_damaged(left)
+        wrong = differences(whole.left, left)
         if trial.harm and not (folder / "run" / "checkpoints.sqlite").exists():
             wrong.remove("checkpoints: state")  # a finished run's, which a resume removes where they are damaged
-        trial.verdict, trial.said = ("different", "; ".join(wrong)) if wrong else ("equal", "")
+        trial.verdict, trial.said = ("different", "; ".join(wrong)) if wrong else ("equal", _KEPT if kept else "")
     else:
         one_sentence = code in {1, 2} and said.count("coopera: ") == 1 and "Traceback" not in said
         trial.verdict, trial.said = "refused" if one_sentence else "different", said[-2000:]
     if trial.verdict == "equal":
         shutil.rmtree(folder)
     return trial
+
+
+def _without_damaged(left: Contents) -> bool:
+    """Leave a memory out that was found damaged and is kept; whether there is one."""
+    kept = [(kind, name) for kind in left for name in left[kind] if kind.endswith("other files") and _DAMAGED in name]
+    for kind, name in kept:
+        del left[kind][name]
+    return bool(kept)
 
 
 def _roll_back(trial: Trial, whole: Whole, folder: Path, rng: np.random.Generator) -> None:
@@ -194,6 +211,7 @@ def _life(trial: Trial, folder: Path, moment: Moment | None) -> int:
     else:
         arguments = ["resume", "run"]
     code = live(arguments, folder, moment)
+    trial.heard += (folder / "said").read_text()
     if code == -signal.SIGKILL and moment is not None:
         trial.struck.append(where(folder / "run", SORTS[trial.sort]))
     return code
@@ -277,6 +295,7 @@ def show(done: Sequence[Trial], seed: int, seconds: float) -> None:
         print(f"\nrefused: {sentence}")
     verdicts = Counter(one.verdict for one in done)
     data = {"trials": len(done), "kills": sum(struck.values()), "seed": seed, "seconds": round(seconds)}
+    data["rebuilt"] = sum(one.said == _KEPT for one in done)
     print(json.dumps({**data, **{name: verdicts[name] for name in ("equal", "refused", "different")}}))
     sys.exit(verdicts["different"] > 0)
 
