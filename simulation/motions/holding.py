@@ -13,10 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from coopera.core.affordances import affordances
-from coopera.simulation.bodies.humanoid import ANKLE, MOUTH, SIDES, Frames, Side, forward
+from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, Side, forward
 from coopera.simulation.motions.library import HandPath, Hold, Motion, Triple
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
 from coopera.simulation.motions.vessels import OVER, grasp, lip, tipped
+from coopera.simulation.motions.worn import AHEAD, on_body
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
@@ -27,10 +28,6 @@ _FINE = 0.125
 _BULKY = 0.35
 _LOW_THING = 0.1
 """What is no higher than this can be laid flat under a hand to wipe with."""
-_TOES = 0.05
-"""The middle of a foot is this far ahead of its ankle."""
-_WAIST = -0.28
-"""The lower hem of what is on the torso, from the chest's middle."""
 _GRASP = 0.16
 """Two hands hold a thing between them that is at most this much narrower than they are apart."""
 _END = 0.07
@@ -55,10 +52,6 @@ _MOMENTS, _BITE = 6, 0.08
 """What is eaten out of the hand is so far from its middle (metres)."""
 _HANDLE = np.array((-0.6, -0.8))
 """Where the handle of a pan points: back, and to the right hand."""
-AHEAD = np.array(((0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
-"""A thing whose front looks away from the body."""
-_BEHIND = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
-"""A flat thing upright behind the head, such as a towel."""
 
 
 class Worktop(NamedTuple):
@@ -287,13 +280,8 @@ def held_at(pose: Array, size: Size, grip: Grip = CARRIED) -> tuple[Array, Array
         return _long_tool(right, left, size)
     if grip.hold == "beside" and max(size) > _BULKY:
         return np.array((0.0, -0.75, 0.0)), AHEAD
-    if grip.hold == "head":
-        return _at_head(frames, size)
-    if grip.hold == "torso":
-        return frames.point("chest", 0.0, 0.0, _WAIST), frames.turn["chest"] @ AHEAD
-    if grip.hold == "feet":
-        ankles = (frames.place["right_ankle"] + frames.place["left_ankle"]) / 2
-        return ankles + np.array((_TOES, 0.0, -ANKLE)), AHEAD
+    if (worn := on_body(frames, grip.hold, size)) is not None:
+        return worn
     if grip.hold == "both":
         if size[0] > _LONG:
             return _across(right, left, size)
@@ -324,13 +312,6 @@ def _at_mouth(frames: Frames, hand: Array, size: Size) -> Array:
     """A small thing at the side of the hand that is towards the mouth, and at the mouth once the hand is near."""
     way = frames.point("head", *MOUTH) - hand
     return np.asarray(hand + _unit(way) * min(_BITE, 0.6 * float(np.linalg.norm(way))) - (0.0, 0.0, size[2] / 2))
-
-
-def _at_head(frames: Frames, size: Size) -> tuple[Array, Array]:
-    """Headphones on the head, or a flat thing behind it, such as a towel."""
-    if size[2] < _LOW_THING:
-        return frames.point("head", -0.08, 0.0, 0.05), frames.turn["head"] @ _BEHIND
-    return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ AHEAD
 
 
 def _unit(line: Array) -> Array:
