@@ -64,7 +64,7 @@ def main() -> int:
         counted = f"{one['inputs']:6} inputs {one['read']:6} read {one['refused']:6} refused {one['others']:4} others"
         print(f"{name:16} {counted}, slowest {one['slowest']:.2f} s, {one['seconds']:.0f} s", flush=True)
     print(json.dumps({"seed": options.seed, "readers": found}))
-    return int(any(one["others"] for one in found.values()))
+    return int(bool(set(names) - set(found)) or any(one["others"] for one in found.values()))
 
 
 def _options() -> argparse.Namespace:

@@ -201,11 +201,8 @@ def _place(step: str) -> str:
     """In which part of a run it does this to a file."""
     if re.search(r"adapters/|evening\.json|metrics\.csv", step):
         return "evening"
-    return (
-        "end"
-        if re.search(r"summary\.json|seal-end\.json|run\.json|report\.html|rows\.json|results/", step)
-        else "hours"
-    )
+    of_the_end = r"summary\.json|seal-end\.json|run\.json|report\.html|rows\.json|results/"
+    return "end" if re.search(of_the_end, step) else "hours"
 
 
 def _life(trial: Trial, folder: Path, moment: Moment | None) -> int:

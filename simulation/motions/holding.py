@@ -17,7 +17,7 @@ from coopera.simulation.bodies.humanoid import MOUTH, SIDES, Frames, Side, forwa
 from coopera.simulation.motions.library import HandPath, Hold, Motion, Triple
 from coopera.simulation.motions.poses import Setting, pose_at, working_height
 from coopera.simulation.motions.vessels import OVER, grasp, lip, tipped
-from coopera.simulation.motions.worn import AHEAD, on_body
+from coopera.simulation.motions.worn import AHEAD, FLAT, on_body
 from coopera.simulation.shapes.kit import Size
 from coopera.simulation.shapes.rotations import Array, about_z
 
@@ -26,8 +26,6 @@ _BIG = 0.17
 _LONG = 0.7
 _FINE = 0.125
 _BULKY = 0.35
-_LOW_THING = 0.1
-"""What is no higher than this can be laid flat under a hand to wipe with."""
 _GRASP = 0.16
 """Two hands hold a thing between them that is at most this much narrower than they are apart."""
 _END = 0.07
@@ -165,7 +163,7 @@ def _hold(motion: Motion, names: Iterable[str], size: Size, *, laid: bool) -> Ho
     if hold == "surface" and not laid and lies(motion, names, size) and motion.keys.left is not None:
         return "left"
     if hold == "flat":
-        return "left" if size[2] > _LOW_THING else "right"
+        return "left" if size[2] > FLAT else "right"
     if (hold == "floor" and size[0] <= _LONG) or (hold == "feet" and max(size[:2]) <= _BIG):
         return "right"
     return hold

@@ -11,8 +11,8 @@ from coopera.simulation.shapes.rotations import Array
 
 _WORN = {"hat": 0.05, "headphones": -0.06}
 """What is worn on the head, and its base above the head's middle (metres)."""
-_LOW = 0.1
-"""What is no higher than this is flat, such as a towel."""
+FLAT = 0.1
+"""What is no higher than this is flat, such as a towel or a cloth."""
 _WAIST = -0.28
 """The lower hem of what is on the torso, from the chest's middle."""
 _TOES = 0.05
@@ -36,7 +36,7 @@ def on_body(frames: Frames, hold: Hold, size: Size) -> tuple[Array, Array] | Non
 
     On the head are headphones, or a flat thing behind it, such as a towel.
     """
-    if hold == "head" and size[2] < _LOW:
+    if hold == "head" and size[2] < FLAT:
         return frames.point("head", -0.08, 0.0, 0.05), frames.turn["head"] @ _BEHIND
     if hold == "head":
         return frames.point("head", 0.0, 0.0, 0.11 - 0.5 * size[2]), frames.turn["head"] @ AHEAD
