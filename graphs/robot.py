@@ -103,6 +103,7 @@ class RobotState(RobotInput, total=False):
     told: list[ToldHour]  # likewise: what was told of earlier days, oldest first
     seen: str  # by imagine_intentions: what the robot's model says it saw
     intentions: list[IntentionCandidate]  # by imagine_intentions; verdicts by classify_intentions
+    alike: dict[str, list[float]]  # by imagine_intentions: how like each of these is to that of each told hour
     imagined: Annotated[list[Imagined], operator.add]  # by each imagine_tasks, in any order
     tasks: list[TaskCandidate]  # by classify_tasks; in the order of their intentions, without repeats
     outcomes: list[Outcome]  # by act, one per accepted task
@@ -115,6 +116,7 @@ class TaskRequest(TypedDict):
     seen: str
     recalled: list[Recalled]
     told: list[ToldHour]
+    alike: list[float]  # how like the intention is to that of each told hour
     intention: IntentionCandidate
     rank: int
 
@@ -182,20 +184,21 @@ def observe(state: RobotInput, runtime: Runtime[RobotContext]) -> dict[str, Any]
 
 
 def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
-    """Say what is seen, and propose what the person may be up to. Reads `recalled`; writes `intentions` and `seen`.
+    """Say what is seen, and propose what the person may be up to.
 
-    A robot that looked at the pictures now recalls by what it saw in them, for all that comes after: it writes
-    `recalled` and `told` again.
+    Reads `recalled` and `told`; writes `intentions`, `alike` and `seen`. A robot that looked at the pictures now
+    recalls by what it saw in them, for all that comes after: it writes `recalled` and `told` again.
 
     Raises:
         ModelOutputError: If no reply could be read; the hour is then unscored, not wrong.
     """
     ctx, view = runtime.context, runtime.context.view
     clock, seen = view.clock, view.observation
-    if ctx.method.intentions == "given":
-        return {"intentions": [IntentionCandidate(text=state["true_intention"])]}
-    if ctx.method.intentions == "skipped":
-        return {"intentions": [IntentionCandidate(text=in_words(seen) or "what the pictures show")]}
+    if ctx.method.intentions != "inferred":
+        seems = in_words(seen) or "what the pictures show"
+        text = state["true_intention"] if ctx.method.intentions == "given" else seems
+        [alike] = likeness(view, state["told"], [text])
+        return {"intentions": [IntentionCandidate(text=text)], "alike": {text: alike}}
     count = ctx.method.n_intentions or Numbers.ROBOT_INTENTIONS[view.collab]
     reply = view.ask(
         "robot/intentions",
@@ -215,7 +218,9 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
     )
     replies = reply.intentions[:count]
     again = _recall(ctx, reply.seen) if in_words(seen, reply.seen) != in_words(seen) else {}
-    evidence = evidence_of(ctx.method, view, again.get("told", state["told"]), replies)
+    told = again.get("told", state["told"])
+    compared = likeness(view, told, [item.intention for item in replies])
+    evidence = evidence_of(ctx.method, told, compared, replies)
     candidates = {
         item.intention: IntentionCandidate(
             text=item.intention,
@@ -229,7 +234,8 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         )
         for item, known in reversed(list(zip(replies, evidence, strict=True)))
     }
-    return {"intentions": list(reversed(candidates.values())), "seen": reply.seen, **again}
+    alike = {item.intention: of_one for item, of_one in zip(replies, compared, strict=True)}
+    return {"intentions": list(reversed(candidates.values())), "alike": alike, "seen": reply.seen, **again}
 
 
 def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
@@ -265,6 +271,7 @@ def one_per_accepted(state: RobotState, runtime: Runtime[RobotContext]) -> list[
                 seen=in_words(runtime.context.view.observation, state.get("seen", "")),
                 recalled=state["recalled"],
                 told=state["told"],
+                alike=state["alike"][intention.text],
                 intention=intention,
                 rank=rank,
             ),
@@ -282,8 +289,7 @@ def imagine_tasks(state: TaskRequest, runtime: Runtime[RobotContext]) -> dict[st
     ctx, view, intention = runtime.context, runtime.context.view, state["intention"]
     home, direct = view.home, ctx.method.intentions == "skipped"
     in_hand = held(view.observation) if ctx.method.skips_held else None
-    [alike] = likeness(view, state["told"], [intention.text])
-    weights = weights_for(state["told"], alike)
+    weights = weights_for(state["told"], state["alike"])
     count = Numbers.DIRECT_TASKS if direct else how_many(ctx.method, view, state["told"], weights)
     extra: dict[str, Any] = {"in_hand": in_hand.thing if in_hand else None, "seen": state["seen"] or None}
     if view.collab == 1:

@@ -12,7 +12,7 @@ from coopera.core.replies import ImaginedIntention
 from coopera.graphs.robots.evidence import of_intentions, of_task
 from coopera.graphs.robots.method import Method, Numbers
 from coopera.graphs.robots.robot_view import RobotView
-from coopera.graphs.robots.told import ToldHour, best_hours, held, likeness, same, shares, uses_of
+from coopera.graphs.robots.told import ToldHour, best_hours, held, same, shares, uses_of
 
 WORTH_A_TRY = 0.15
 """The share of like told hours from which a thing adds to the number of tasks that are imagined."""
@@ -38,12 +38,11 @@ def like_hours(method: Method, told: Sequence[ToldHour], weights: Sequence[float
 
 
 def evidence_of(
-    method: Method, view: RobotView, told: Sequence[ToldHour], replies: Sequence[ImaginedIntention]
+    method: Method, told: Sequence[ToldHour], alike: Sequence[Sequence[float]], replies: Sequence[ImaginedIntention]
 ) -> list[dict[str, float]]:
-    """What speaks for each imagined intention; nothing where the method does not count."""
+    """What speaks for each imagined intention, given how like each is to those told; nothing where nobody counts."""
     if not method.evidence:
         return [{} for _ in replies]
-    alike = likeness(view, told, [item.intention for item in replies])
     return of_intentions(told, alike, [item.probability for item in replies])
 
 
