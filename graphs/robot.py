@@ -234,8 +234,12 @@ def imagine_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dic
         )
         for item, known in reversed(list(zip(replies, evidence, strict=True)))
     }
-    alike = {item.intention: of_one for item, of_one in zip(replies, compared, strict=True)}
-    return {"intentions": list(reversed(candidates.values())), "alike": alike, "seen": reply.seen, **again}
+    return {
+        "intentions": list(reversed(candidates.values())),
+        "alike": {item.intention: alike for item, alike in zip(replies, compared, strict=True)},
+        "seen": reply.seen,
+        **again,
+    }
 
 
 def classify_intentions(state: RobotState, runtime: Runtime[RobotContext]) -> dict[str, Any]:
