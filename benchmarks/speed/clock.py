@@ -8,7 +8,6 @@ texts work in threads of their own, while the one that asked waits: theirs is th
 from __future__ import annotations
 
 import functools
-import statistics
 import threading
 import time
 from collections import defaultdict
@@ -19,9 +18,8 @@ from unittest.mock import patch
 
 from chromadb.api.rust import RustBindingsAPI
 from langgraph.checkpoint.sqlite import SqliteSaver
-from langgraph.graph import START, StateGraph
+from langgraph.graph import StateGraph
 from langgraph.pregel import Pregel
-from typing_extensions import TypedDict
 
 from coopera import Config
 from coopera.graphs import day, hour, life
@@ -41,7 +39,6 @@ ROOMS = {"coopera.graphs.human": "person", "coopera.graphs.players": "person", "
 """The stage that a node of a module belongs to; the others (start, hour, record, end) are LangGraph's "between"."""
 FRAMEWORK = ("LangGraph", "checkpoints", "trace", "memory")
 _PICTURES = ("frames", "film")
-_PACE = ("pace", "pace")
 _TRACE = ("write_hour", "write_evening", "read_hour", "read_evening", "read_day", "seal_days")
 
 
@@ -107,30 +104,21 @@ class Clock:
 
 
 class Lived:
-    """What a study took: seconds by (stage, kind) after each day, the work between nodes included.
-
-    `pace` is what the same twenty nodes that do nothing take after each day: a machine gets slower and faster by a
-    quarter within minutes, and by this a life that grows slower is told from a machine that does.
-    """
+    """What a study took: seconds by (stage, kind) after each day, the work between nodes included."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock, self._began = clock, time.process_time()
-        self._idle = _idle()
         self.days: list[dict[tuple[str, str], float]] = []
-        self.pace: list[float] = []
 
     def note(self, event: Mapping[str, Any]) -> None:
         """Take in the end of a node."""
         if event["node"] == "day":
             self.days.append(self.now())
-            with self._clock.within(*_PACE):
-                self.pace.append(statistics.median(self._idle() for _ in range(5)))
 
     def now(self) -> dict[tuple[str, str], float]:
         """Seconds so far; what no wrapped function accounts for is LangGraph's, with what it leaves to threads."""
         found = dict(self._clock.seconds)
         rest = time.process_time() - self._began - sum(found.values())
-        found.pop(_PACE, None)
         found["between", "LangGraph"] = found.get(("between", "LangGraph"), 0.0) + max(rest, 0.0)
         return found
 
@@ -154,24 +142,6 @@ def lived(config: Config) -> Lived:
         stack.enter_context(patch.object(study, "_run_on", begin))
         study.run_study(config, on_event=lambda event: watch[0].note(event))
     return watch[0]
-
-
-class _Nothing(TypedDict):
-    """A state without keys."""
-
-
-def _idle() -> Callable[[], float]:
-    """What has twenty nodes of LangGraph do nothing, and returns the seconds of processor it took."""
-    graph = StateGraph(_Nothing).add_sequence([(str(number), lambda state: {}) for number in range(20)])
-    idle = graph.add_edge(START, "0").compile(checkpointer=False)
-
-    def pace() -> float:
-        began = time.thread_time()
-        for _ in idle.stream(_Nothing()):  # `invoke` is counted as a life's
-            pass
-        return time.thread_time() - began
-
-    return pace
 
 
 def _forget_graphs() -> None:

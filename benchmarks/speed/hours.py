@@ -54,7 +54,6 @@ def main() -> None:
                     round(1000 * sum(_of_day(watch.days, n, kind) for kind in FRAMEWORK) / given.hours, 1)
                     for n in range(len(watch.days))
                 ],
-                "pace": [round(1000 * spent, 2) for spent in watch.pace],
             }
         )
     )
