@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
+
 from coopera.core.clock import Clock, hour_label
 from coopera.core.hour import CandidateKind, Recalled
 from coopera.core.time_use import day_type
@@ -77,20 +79,27 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
         return []
     texts, hours, [relevances] = stream.relevances([query], now.day * 24 - 1, (now.day - DAYS) * 24)
     recency = {hour: weight(now, hour) for hour in set(hours)}
-    best: dict[str, tuple[float, int, float]] = {}
-    # thousands, oldest first, most of them said before
-    for text, hour, relevance in zip(texts, hours, relevances, strict=True):
-        score = relevance * recency[hour]
-        known = best.get(text)
-        if known is None or score >= known[0]:
-            best[text] = (score, hour, relevance)
-    chosen = sorted(best.items(), key=lambda one: (-one[1][0], -one[1][1], one[0]))[:most]
-    return [
+    scores = np.array(relevances) * np.array([recency[hour] for hour in hours])
+    best: dict[str, int] = {}  # where each text scores highest, the newest of equals; most are said again and again
+    least = 0.0
+    for place in np.lexsort((np.arange(len(scores)), scores))[::-1].tolist():
+        if len(best) >= most and scores[place] < least:
+            break
+        if best.setdefault(texts[place], place) == place:
+            least = scores[place]
+    told = [
         Recalled(
-            kind=kind, text=text, hour=hour, relevance=relevance, recency=recency[hour], score=score, source="told"
+            kind=kind,
+            text=text,
+            hour=hours[place],
+            relevance=relevances[place],
+            recency=recency[hours[place]],
+            score=float(scores[place]),
+            source="told",
         )
-        for text, (score, hour, relevance) in chosen
+        for text, place in best.items()
     ]
+    return sorted(told, key=_rank)[:most]
 
 
 def weight(now: Clock, hour: int, width: float = NARROW) -> float:

@@ -103,8 +103,8 @@ def likeness(view: RobotView, told: Sequence[ToldHour], intentions: Sequence[str
 
 def best_hours(told: Sequence[ToldHour], weights: Sequence[float], most: int) -> list[tuple[ToldHour, float]]:
     """The hours of most weight with their weights, the newer of equals first; none without weight."""
-    ranked = sorted(zip(told, weights, strict=True), key=lambda pair: (-round(pair[1], 9), -pair[0].now))
-    return [(hour, weight) for hour, weight in ranked[:most] if weight > 0.01]
+    some = [pair for pair in zip(told, weights, strict=True) if pair[1] > 0.01]
+    return sorted(some, key=lambda pair: (-round(pair[1], 9), -pair[0].now))[:most]
 
 
 def as_told(hours: Iterable[tuple[ToldHour, float]], now: Clock, *, without: Use | None = None) -> list[dict[str, Any]]:
@@ -162,10 +162,15 @@ def share(used: Sequence[int], weights: Sequence[float], *, usual: float, patien
 def shares(
     told: Sequence[ToldHour], weights: Sequence[float], without: Use | None, *, places: bool
 ) -> dict[Use, float]:
-    """The share of the hours, by weight, in which each thing was used, with `places` each at each place."""
+    """The share of the hours, by weight, in which each thing was used, with `places` each at each place.
+
+    What was used in hours without weight alone is left out.
+    """
     total = sum(weights) or 1.0
     found: dict[Use, float] = defaultdict(float)
     for hour, weight in zip(told, weights, strict=True):
+        if not weight:
+            continue
         kept = [use for use in hour.uses if without is None or not same(use, without)]
         for use in dict.fromkeys(kept if places else (Use(use.thing) for use in kept)):
             found[use] += weight / total
