@@ -1,4 +1,4 @@
-"""Every command and code block of README and docs/ is run, as it stands, in short (`COOPERA_AT_MOST`)."""
+"""Commands and code blocks of README and docs, and examples, are run as they stand, in short (`COOPERA_AT_MOST`)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ STANDS_FOR = {
 }
 NEEDS = {"trace_with_mlflow.py": "mlflow"}
 """Examples with a package that is no extra of ours."""
-SHORT = "days=1,hours=1,episodes=1,settings=2,methods=2,seeds=1"
+SHORT, EXAMPLE = "days=1,hours=1,episodes=1,settings=1,methods=2,seeds=1", "days=2,hours=2"
 
 
 def pages(*, long: bool) -> list[object]:
@@ -95,7 +95,11 @@ def test_a_block_that_is_not_run_says_why() -> None:
 def test_an_example_runs(example: Path, tmp_path: Path, data_dir: Path) -> None:
     if example.name in NEEDS:
         pytest.importorskip(NEEDS[example.name])
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "COOPERA_DATA_DIR": str(data_dir)}
+    environment = os.environ | {
+        "PYTHONPATH": str(ROOT),
+        "COOPERA_AT_MOST": EXAMPLE,
+        "COOPERA_DATA_DIR": str(data_dir),
+    }
     done = subprocess.run(
         [sys.executable, example], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
         stdin=subprocess.DEVNULL,
