@@ -12,7 +12,6 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, TypeAlias
 
 from coopera.core.clock import Clock
@@ -128,7 +127,6 @@ def held(seen: Observation) -> Use | None:
     return Use(plain(thing)) if thing else None
 
 
-@lru_cache(maxsize=4096)  # an hour's offers, each with the things of sixty days
 def same(one: Use | None, other: Use) -> bool:
     """Whether an act is about the same thing and, where both name one, the same place."""
     if one is None or one.thing.lower() != other.thing.lower():
@@ -136,22 +134,23 @@ def same(one: Use | None, other: Use) -> bool:
     return one.place is None or other.place is None or one.place.lower() == other.place.lower()
 
 
-Uses: TypeAlias = Mapping[Use, Sequence[int]]
-"""In which told hours each thing was used, by their places in order of time."""
+Uses: TypeAlias = Mapping[str, Mapping[Use, Sequence[int]]]
+"""In which told hours each thing was used, by their places in order of time: first by its name in small letters."""
 
 
 def uses_of(told: Sequence[ToldHour]) -> Uses:
     """Look once at what was used in the told hours, for all that is asked of them now."""
-    found: dict[Use, list[int]] = defaultdict(list)
+    found: dict[str, dict[Use, list[int]]] = defaultdict(lambda: defaultdict(list))
     for place, hour in enumerate(told):
         for use in dict.fromkeys(hour.uses):
-            found[use].append(place)
+            found[use.thing.lower()][use].append(place)
     return found
 
 
 def used_in(uses: Uses, use: Use) -> list[int]:
     """The places of the told hours in which a thing was used, ascending."""
-    return sorted({place for one, places in uses.items() if same(one, use) for place in places})
+    alike = uses.get(use.thing.lower(), {})
+    return sorted({place for one, places in alike.items() if same(one, use) for place in places})
 
 
 def share(used: Sequence[int], weights: Sequence[float], *, usual: float, patience: float) -> float:
