@@ -16,6 +16,7 @@ from coopera.graphs import RobotContext, build_robot_graph
 from coopera.graphs.hour import robot_view
 from coopera.graphs.robot import robot_hour
 from coopera.graphs.robots.evidence import of_intentions
+from coopera.graphs.robots.method import Numbers
 from coopera.graphs.robots.recall import recall_weeks, weight
 from coopera.graphs.robots.told import ToldHour, share, told_hours, used_in, uses_of
 from tests.fakes import MARA, FakeHome, ScriptedAsk, TableClassifier, placing, type2_answers
@@ -211,6 +212,29 @@ def test_a_text_that_was_told_often_is_recalled_once_as_of_its_best_hour(make_se
     assert [one.text for one in recalled] == ["Cook a meal", "Read"]
     assert recalled[0].hour == 3 * 24 + 10
     assert recalled[0].score == recalled[0].relevance * weight(Clock(day=4, hour=10), 3 * 24 + 10)
+
+
+def test_what_was_told_is_ranked_as_if_each_text_had_been_scored_at_all_of_its_hours(
+    make_services: MakeServices,
+) -> None:
+    told = {
+        24 * day + hour: (
+            f"Cook meal {(day + hour) % 5}",
+            [f"stir a pot at the stove with the spoon {day % 9} in hand"],
+        )
+        for day in range(20)
+        for hour in (8, 12)  # alike at 10
+    }
+    view = robot(make_services, day=20, hour=10, told=told).view
+    for kind, stream in (("intention", view.history.intentions), ("task", view.history.tasks)):
+        texts, hours, [alike] = stream.relevances(["Cook"], 20 * 24 - 1)
+        columns = zip(alike, hours, texts, strict=True)
+        scored = sorted((-one * weight(view.clock, hour), -hour, text) for one, hour, text in columns)
+        best = {text: (text, -hour, -score) for score, hour, text in reversed(scored)}
+        ranked = sorted(best.values(), key=lambda one: (-one[2], -one[1], one[0]))
+        recalled = [one for one in recall_weeks(view, "Cook") if one.kind == kind]
+        assert [(one.text, one.hour, one.score) for one in recalled] == ranked[: len(recalled)]
+        assert len(recalled) == min(len(ranked), Numbers.RECALL_WEEKS[kind])
 
 
 def test_a_guess_is_marked_as_one_in_prompts_and_in_the_trace(make_services: MakeServices) -> None:
