@@ -50,7 +50,7 @@ def _today(view: RobotView, query: str) -> list[Recalled]:
 
 def _best(recalled: Iterable[Recalled]) -> list[Recalled]:
     """Merge recalls of several stores: again three intentions and five tasks, best and then newest first."""
-    ranked = sorted(recalled, key=lambda memory: (-memory.score, -memory.hour, memory.text))
+    ranked = sorted(recalled, key=_rank)
     intentions = [memory for memory in ranked if memory.kind == "intention"]
     tasks = [memory for memory in ranked if memory.kind == "task"]
     return intentions[: Numbers.RECALL_INTENTIONS] + tasks[: Numbers.RECALL_TASKS]

@@ -74,6 +74,7 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     uses = [tuple(use for text in done if (use := use_of(text)) is not None) for _, _, done in hours]
     used = [(now, done) for (now, _, _), done in zip(hours, uses, strict=True)]
     counts = still_counts(things_of(used)) if turns else {}
+    has, near = held(view.observation), _near(view.observation)
     return [
         ToldHour(
             now,
@@ -81,7 +82,7 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
             done,
             those,
             near=weight_of(clock, now, NARROW) * counts.get(now // 24, 1.0),
-            looks=_looks(view.observation, saw, those),
+            looks=_looks(has, near, saw, those),
             wide=weight_of(clock, now, WIDE) * counts.get(now // 24, 1.0),
         )
         for (now, text, done), those in zip(hours, uses, strict=True)
@@ -176,13 +177,17 @@ def shares(
     return found
 
 
-def _looks(seen: Observation, saw: str, uses: Sequence[Use]) -> float:
-    """How well a told hour fits what is seen now: by the thing in hand, else by the furniture."""
+def _near(seen: Observation) -> list[str]:
+    """The furniture near the person, in words."""
+    return [plain(name) for name in seen.percept.near] if seen.percept else []
+
+
+def _looks(has: Use | None, near: Sequence[str], saw: str, uses: Sequence[Use]) -> float:
+    """How well a told hour fits what is seen now: by the thing that the person has, else by the furniture near them."""
     if not uses:
         return OTHER_PLACE
-    if (now := held(seen)) is not None:
-        return SAME_FIRST if same(uses[0], now) else SAME_ANY if any(same(use, now) for use in uses) else OTHER_THING
-    near = [plain(name) for name in seen.percept.near] if seen.percept else []
+    if has is not None:
+        return SAME_FIRST if same(uses[0], has) else SAME_ANY if any(same(use, has) for use in uses) else OTHER_THING
     if near:
         return SAME_PLACE if uses[0].place in near else OTHER_PLACE
     return _mentioned(saw, uses) if saw else SAME_FIRST
