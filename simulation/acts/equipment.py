@@ -83,6 +83,8 @@ def gather(
             return
         if thing.name == in_hand or not _is_wanted(plan.state, thing, wanted, at.target):
             continue
+        if not free_places(ground.scene, plan.state, thing, at.target, relation):  # there are no more once it is taken
+            continue
         mark = plan.mark()
         try:
             empty_hand(ground, plan, agent, watch)
