@@ -190,5 +190,7 @@ class Held:
 
     def different(self) -> tuple[Vector, npt.NDArray[np.int64]]:
         """Return each different one once, shape (m, d), and which of these each of the n is, shape (n,)."""
-        places, of = np.unique(self.places, return_inverse=True)
-        return self.table.rows[places], of
+        rows = self.table.rows  # once, since others may make room meanwhile
+        there = np.zeros(len(rows), np.bool_)
+        there[self.places] = True
+        return rows[there], (np.cumsum(there) - 1)[self.places]

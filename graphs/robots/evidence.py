@@ -56,8 +56,9 @@ def of_intentions(
 
 def of_task(
     act: Act,
-    told: Sequence[ToldHour],
     uses: Uses,
+    looked: Sequence[float],
+    near: Sequence[float],
     intentions: Sequence[tuple[float, Sequence[float]]],
     own: int,
     collab: Collab,
@@ -66,8 +67,9 @@ def of_task(
 
     Args:
         act: The task.
-        told: The told hours.
-        uses: What was used in them (`uses_of`).
+        uses: What was used in the told hours (`uses_of`).
+        looked: How much each of them says of what is wanted now.
+        near: How much it counts at this hour of this day, whatever was seen.
         intentions: For each intention that tasks were imagined for, how probable it is, and how much each told hour
             counts for it (`weights_for`). Alike ones may both be right, so their chances may sum to more than 1.
         own: Which of these is the candidate's own.
@@ -75,10 +77,7 @@ def of_task(
     """
     used, usual = used_in(uses, _use(act)), USUAL_TASK[collab]
     within = [share(used, weights, usual=usual, patience=PATIENCE) for _, weights in intentions]
-    sight, hour = (
-        share(used, weights, usual=ELSEWHERE, patience=PATIENCE)
-        for weights in ([one.speaks for one in told], [one.near for one in told])
-    )
+    sight, hour = (share(used, weights, usual=ELSEWHERE, patience=PATIENCE) for weights in (looked, near))
     total = sum(p for p, _ in intentions)
     meant = sum(p * s for (p, _), s in zip(intentions, within, strict=True)) / max(1.0, total)
     prior = meant + max(0.0, 1.0 - total) * sight  # if it is none of these intentions, it is an hour like this one
@@ -93,7 +92,7 @@ def of_task(
 
 def weights_for(told: Sequence[ToldHour], alike: Sequence[float]) -> list[float]:
     """How much each told hour counts for what an intention needs."""
-    return [a * hour.wide * hour.looks**0.5 for hour, a in zip(told, alike, strict=True)]
+    return [a * hour.wide * hour.looks**0.5 if a else 0.0 for hour, a in zip(told, alike, strict=True)]
 
 
 def _use(act: Act) -> Use:

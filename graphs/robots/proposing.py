@@ -84,5 +84,8 @@ def with_evidence(
     chance = {one.text: one.probability or 0.0 for one in intentions}
     of = {batch["tasks"][0].intention: batch["weights"] for batch in imagined if batch["tasks"]}
     weighed, texts, uses = [(chance[text], weights) for text, weights in of.items()], list(of), uses_of(told)
-    found = [of_task(task.act, told, uses, weighed, texts.index(task.intention), view.collab) for task in superset]
+    looked, near = [hour.speaks for hour in told], [hour.near for hour in told]
+    found = [
+        of_task(task.act, uses, looked, near, weighed, texts.index(task.intention), view.collab) for task in superset
+    ]
     return [task.model_copy(update={"evidence": one}) for task, one in zip(superset, found, strict=True)]

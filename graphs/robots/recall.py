@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -78,8 +78,8 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
     if not now.day:
         return []
     texts, hours, [relevances] = stream.relevances([query], now.day * 24 - 1, (now.day - DAYS) * 24)
-    recency = {hour: weight(now, hour) for hour in set(hours)}
-    scores = np.array(relevances) * np.array([recency[hour] for hour in hours])
+    recency = weights(now, hours)
+    scores = np.array(relevances) * np.array(recency)
     best: dict[str, int] = {}  # where each text scores highest, the newest of equals; most are said again and again
     least = 0.0
     for place in np.lexsort((np.arange(len(scores)), scores))[::-1].tolist():
@@ -93,7 +93,7 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
             text=text,
             hour=hours[place],
             relevance=relevances[place],
-            recency=recency[hours[place]],
+            recency=recency[place],
             score=float(scores[place]),
             source="told",
         )
@@ -104,12 +104,26 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
 
 def weight(now: Clock, hour: int, width: float = NARROW) -> float:
     """How much a told hour (a global index) counts at this hour of this day, in (0, 1]."""
-    day, hour_of_day = divmod(hour, 24)
+    return weights(now, [hour], width)[0]
+
+
+def weights(now: Clock, hours: Sequence[int], width: float = NARROW) -> list[float]:
+    """The `weight` of each of many told hours: weeks of them share few days, and few times of day."""
+    fade = {day: _faded(now, day) for day in {hour // 24 for hour in hours}}
+    alike = [_alike(now, hour_of_day, width) for hour_of_day in range(24)]
+    return [fade[hour // 24] * alike[hour % 24] for hour in hours]
+
+
+def _faded(now: Clock, day: int) -> float:
+    """What is left of a told day, in (0, 1]."""
     fade = FADING ** (now.day - day)
-    if day_type(now.day) != day_type(day):
-        fade *= OTHER_KIND
+    return fade if day_type(now.day) == day_type(day) else fade * OTHER_KIND
+
+
+def _alike(now: Clock, hour_of_day: int, width: float) -> float:
+    """How much a time of day says about now, in (0, 1]."""
     any_hour = _AT_ANY_HOUR[width]
-    return fade * (any_hour + (1 - any_hour) * math.exp(-(((hour_of_day - now.hour) / width) ** 2) / 2))
+    return any_hour + (1 - any_hour) * math.exp(-(((hour_of_day - now.hour) / width) ** 2) / 2)
 
 
 def _rank(memory: Recalled) -> tuple[float, int, str]:

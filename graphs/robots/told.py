@@ -11,24 +11,26 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from functools import lru_cache
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from coopera.core.clock import Clock
 from coopera.core.hour import Observation
 from coopera.core.household import Use, plain, use_of
-from coopera.graphs.robots.recall import DAYS, NARROW, WIDE, as_memory
-from coopera.graphs.robots.recall import weight as weight_of
+from coopera.graphs.robots.recall import DAYS, NARROW, WIDE, as_memory, weights
 from coopera.graphs.robots.robot_view import RobotView
+from coopera.graphs.robots.turns import Uses as ThingsByHour
 from coopera.graphs.robots.turns import still_counts, things_of
+from coopera.memory import Texts
 
 SAME_FIRST, SAME_ANY, OTHER_THING = 1.0, 0.5, 0.05  # what the thing in hand says of an hour, by its part in it
 SAME_PLACE, OTHER_PLACE = 0.6, 0.15  # and the furniture, where the thing was not recognised
 UNLIKE, ALIKE = 0.3, 0.65  # cosines of intentions below and above which they are different, and the same
 
 
-@dataclass(frozen=True, slots=True)
-class ToldHour:
+class ToldHour(NamedTuple):
     """An hour of an account. `uses` are its tasks as things and places, in the order in which they were done.
 
     Attributes:
@@ -64,29 +66,48 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
             known of this one.
         turns: Whether hours from before a turn in the person's life count less (`graphs.robots.turns`).
     """
-    clock = view.clock
-    dawn, since = clock.day * 24, (clock.day - DAYS) * 24
-    tasks: dict[int, list[str]] = defaultdict(list)
-    for text, now in zip(*view.history.tasks.texts(since), strict=True):
-        tasks[now].append(text)
-    said = {now: text for text, now in zip(*view.history.intentions.texts(since), strict=True)}
-    hours = [(now, text, tuple(tasks[now])) for now, text in said.items() if now < dawn]
-    uses = [tuple(use for text in done if (use := use_of(text)) is not None) for _, _, done in hours]
-    used = [(now, done) for (now, _, _), done in zip(hours, uses, strict=True)]
-    counts = still_counts(things_of(used)) if turns else {}
+    clock, since = view.clock, (view.clock.day - DAYS) * 24
+    told = [_Columns.of(stream.texts(since)) for stream in view.history]
+    hours, things = _joined(*told, clock.day)
+    counts = still_counts(things) if turns else {}
     has, near = held(view.observation), _near(view.observation)
+    at = [hour[0] for hour in hours]
+    weighed = zip(hours, weights(clock, at, NARROW), weights(clock, at, WIDE), strict=True)
     return [
         ToldHour(
-            now,
-            text,
-            done,
-            those,
-            near=weight_of(clock, now, NARROW) * counts.get(now // 24, 1.0),
-            looks=_looks(has, near, saw, those),
-            wide=weight_of(clock, now, WIDE) * counts.get(now // 24, 1.0),
+            *hour,
+            near=narrow * counts.get(hour[0] // 24, 1.0),
+            looks=_looks(has, near, saw, hour[-1]),
+            wide=wide * counts.get(hour[0] // 24, 1.0),
         )
-        for (now, text, done), those in zip(hours, uses, strict=True)
+        for hour, narrow, wide in weighed
     ]
+
+
+_Hour: TypeAlias = tuple[int, str, tuple[str, ...], tuple[Use, ...]]
+"""What of a `ToldHour` is the same whenever one looks back at it: all but how much it says."""
+
+
+class _Columns(NamedTuple):
+    """`Texts` that can be a key."""
+
+    texts: tuple[str, ...]
+    hours: tuple[int, ...]
+
+    @classmethod
+    def of(cls, told: Texts) -> _Columns:
+        return cls(tuple(told.texts), tuple(told.hours))
+
+
+@lru_cache(maxsize=2)  # what was told before today stays so all day
+def _joined(intentions: _Columns, tasks: _Columns, day: int) -> tuple[tuple[_Hour, ...], ThingsByHour]:
+    """The hours before a day, oldest first, and by what was used in them the turns of a life are seen."""
+    done: dict[int, list[str]] = defaultdict(list)
+    for text, now in zip(*tasks, strict=True):
+        done[now].append(text)
+    wanted = {now: text for text, now in zip(*intentions, strict=True) if now < day * 24}
+    uses = {now: tuple(use for task in done[now] if (use := use_of(task)) is not None) for now in wanted}
+    return tuple((now, text, tuple(done[now]), uses[now]) for now, text in wanted.items()), things_of(uses.items())
 
 
 def likeness(view: RobotView, told: Sequence[ToldHour], intentions: Sequence[str]) -> list[list[float]]:
@@ -94,11 +115,10 @@ def likeness(view: RobotView, told: Sequence[ToldHour], intentions: Sequence[str
     if not told or not intentions:
         return [[] for _ in intentions]
     _, hours, relevances = view.history.intentions.relevances(intentions, view.clock.now, told[0].now)
-    cosines = [dict(zip(hours, of_one, strict=True)) for of_one in relevances]
-    return [
-        [min(1.0, max(0.0, (cosine.get(hour.now, 0.0) - UNLIKE) / (ALIKE - UNLIKE))) for hour in told]
-        for cosine in cosines
-    ]
+    place = {hour: at for at, hour in enumerate(hours)}
+    cosines = np.array(relevances)[:, [place[hour.now] for hour in told]]
+    alike: list[list[float]] = np.clip((cosines - UNLIKE) / (ALIKE - UNLIKE), 0.0, 1.0).tolist()
+    return alike
 
 
 def best_hours(told: Sequence[ToldHour], weights: Sequence[float], most: int) -> list[tuple[ToldHour, float]]:

@@ -120,9 +120,8 @@ def _by_day(seen: Observations, column: int, days: int) -> tuple[Ints, Floats, F
     """Return each row's key, and the counts of yes and of all before each day, (days + 1, keys)."""
     things = int(seen.thing.max()) + 1
     names, place = np.unique(seen.contexts[:, column] * things + seen.thing, return_inverse=True)
-    yes, met = (np.zeros((days + 1, len(names))) for _ in range(2))
-    np.add.at(yes, (seen.day + 1, place), seen.label)
-    np.add.at(met, (seen.day + 1, place), 1.0)
+    of_day, size = (seen.day + 1) * len(names) + place, (days + 1) * len(names)
+    yes, met = (np.bincount(of_day, counted, size).reshape(days + 1, -1) for counted in (seen.label, None))
     return place, yes.cumsum(0), met.cumsum(0)
 
 
