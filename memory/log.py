@@ -17,7 +17,7 @@ from coopera.memory.lately import Lately
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.questions import Texts
-from coopera.memory.rows import AS_DOCUMENTS, Record, Row, has_vector, restored, row
+from coopera.memory.rows import AS_DOCUMENTS, FORMAT, Record, Row, has_vector, hour_of, restored, row
 from coopera.memory.scan import AT_ONCE, BLOCK, Block
 from coopera.memory.vectors import Held, Places, Table, Vectors
 
@@ -63,7 +63,7 @@ class Log:
         self._starts: dict[int, int] = {}
         self._lately = Lately(_TEXTS_IN_RAM)
         self._waiting: list[Row] = []
-        self._as_documents = False
+        self._format = FORMAT
         self._reload()
 
     def __len__(self) -> int:
@@ -230,7 +230,7 @@ class Log:
         places = self._table.hold(vectors)
         ids = self._ids(range(self._length, self._length + len(texts)))
         records = [Record(*one) for one in zip(texts, hours, metadata, strict=True)]
-        rows = [row(*one, as_document=self._as_documents) for one in zip(ids, records, vectors, strict=True)]
+        rows = [row(*one, self._format) for one in zip(ids, records, vectors, strict=True)]
         self.keep(texts, vectors)
         self._waiting += rows
         added = enumerate(rows, self._length)
@@ -246,7 +246,7 @@ class Log:
             self._collection.add(
                 ids=ids,
                 embeddings=np.stack(vectors) if self._vectors is None else np.ones((len(rows), 1), np.float32),
-                documents=documents if self._as_documents else None,
+                documents=documents if self._format in AS_DOCUMENTS else None,
                 metadatas=entries,
             )
         if not self._exclusive:
@@ -298,7 +298,7 @@ class Log:
         with translated(self.where):
             self._collection = self._reach()
             self._numbering = Numbering.of(self._collection.metadata)
-            self._as_documents = self._collection.metadata.get("format") in AS_DOCUMENTS
+            self._format = self._collection.metadata["format"]
         length = self._find_length()
         if length == 0:
             return
@@ -341,20 +341,21 @@ class Log:
             )
         order = np.argsort(rows["ids"])
         metadatas: Any = rows["metadatas"]
-        hours = np.array([metadatas[place]["hour"] for place in order], np.int64)
+        hours = [hour_of(metadatas[place]) for place in order]
         if self._vectors is None:
             vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
         else:
             documents: Any = rows["documents"]
             vectors = self._vectors_of([(documents[place], metadatas[place]) for place in order], start)
         for offset, place in enumerate(order):
-            if not has_vector(metadatas[place], vectors[offset], int(hours[offset])):
+            if not has_vector(metadatas[place], vectors[offset], hours[offset]):
                 raise DamagedMemoryError(
                     self.where, f"the vector or hour of record {start + offset} is not what was written"
                 )
-        if (np.diff(hours) < 0).any():
+        known = np.array(hours, np.int64)
+        if (np.diff(known) < 0).any():
             raise DamagedMemoryError(self.where, f"the hours of records {start} to {stop - 1} go backwards")
-        return vectors, hours
+        return vectors, known
 
     def _vectors_of(self, stored: Sequence[tuple[str | None, Mapping[str, Any]]], start: int) -> Vector:
         """Return the vectors of stored texts, once each is known to be what was written."""

@@ -12,6 +12,8 @@ import sys
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 from coopera.core.errors import MemoryStoreError
 from coopera.memory.client import open_client
 from coopera.memory.folder import DamagedMemoryError
@@ -23,10 +25,11 @@ _HEADER = struct.Struct("<iQQQQQQiIQQQdQ")  # of the index library in Chroma 1.5
 
 
 def _check_index(folder: Path) -> None:
-    """Check what Chroma does not: damaged links make it write files without end.
+    """Check what Chroma does not: damaged links make it write files without end, or end the process that writes.
 
     Per element, link_lists.bin holds a length in bytes (uint32) and as many bytes of links; header.bin tells the
-    number of elements, their size, and the highest level that links may be of.
+    number of elements, their size, and the highest level that links may be of. Each element of data_level0.bin begins
+    with the number of its links on the lowest level (uint16, and two bytes of flags) and the elements they lead to.
 
     Raises:
         MemoryStoreError: If an index file cannot be what was written.
@@ -35,10 +38,16 @@ def _check_index(folder: Path) -> None:
         data = header.read_bytes()
         if len(data) != _HEADER.size:
             raise MemoryStoreError(f"{header} has {len(data)} bytes, where {_HEADER.size} were expected")
-        _, _, most, count, size, _, _, levels, _, links, *_ = _HEADER.unpack(data)
-        vectors = header.with_name("data_level0.bin").stat().st_size
-        if not count <= most or vectors not in (count * size, most * size):
-            raise MemoryStoreError(f"{header} tells of {count} vectors of {size} bytes, in a file of {vectors} bytes")
+        _, _, most, count, size, _, _, levels, _, links, lowest, *_ = _HEADER.unpack(data)
+        vectors = header.with_name("data_level0.bin")
+        held = vectors.stat().st_size
+        if not count <= most or held not in (count * size, most * size) or size < 4 * (lowest + 1):
+            raise MemoryStoreError(f"{header} tells of {count} vectors of {size} bytes, in a file of {held} bytes")
+        elements = np.fromfile(vectors, np.uint8, count * size).reshape(count, size)
+        linked, to = (np.ascontiguousarray(part) for part in np.split(elements[:, : 4 * (lowest + 1)], [4], axis=1))
+        used = np.arange(lowest) < linked.view("<u2")[:, :1]
+        if (linked.view("<u2")[:, 0] > lowest).any() or (used & (to.view("<u4") >= count)).any():
+            raise MemoryStoreError(f"{vectors} is damaged: its links lead nowhere")
         lists = header.with_name("link_lists.bin").read_bytes()
         place, longest = 0, max(0, levels) * 4 * (links + 1)
         for _ in range(count):

@@ -5,15 +5,31 @@ from __future__ import annotations
 import json
 import sys
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from coopera.memory.minilm import Vector
 
+FORMAT, FORMATS = 4, (1, 2, 3, 4)
+"""How new streams are written, and all that can be read; a stream keeps the format in which it was begun.
+
+A stream of format 1 has its vectors in its own collection, since then in that of all streams of its model.
+"""
 AS_DOCUMENTS = (1, 2)
-"""Formats of streams whose texts are documents of Chroma's."""
+"""Formats of streams whose texts are documents of Chroma's, and each check sum an entry.
+
+Chroma keeps an index of all pieces of documents, which nobody asks: a third of the time of a write, and two fifths of
+its space.
+"""
+_DIGITS = 9  # of an hour
+_IN_ENTRIES = 3
+"""The format of streams whose texts, hours and check sums are three entries.
+
+Chroma keeps an index of entries, too. What is written in its order needs a few of its pages; texts and check sums came
+anywhere in it, so that after a hundred days an evening's write took a quarter more of a processor.
+"""
 
 
 class Record(NamedTuple):
@@ -33,23 +49,24 @@ class Row(NamedTuple):
     entry: dict[str, str | int]
 
 
-def row(key: str, record: Record, vector: Vector, *, as_document: bool) -> Row:
-    """Return the row that stands for a record, under this id.
+def row(key: str, record: Record, vector: Vector, format_: int = FORMAT) -> Row:
+    """Return the row that stands for a record in a stream of this format, under this id.
 
-    `as_document`: whether the text is a document of Chroma's, as in older streams, and each check sum an entry. Chroma
-    keeps an index of all pieces of documents, and of each entry, which nobody asks: a third of the time of a write, and
-    two fifths of its space.
+    The one entry of a record without metadata begins with the hour, as does the index of such entries.
     """
     own_json = json.dumps(record.metadata, ensure_ascii=False, allow_nan=False) if record.metadata else ""
-    of_text, of_vector = _text_sum(record.text, record.hour, own_json), _vector_sum(vector, record.hour)
-    entry: dict[str, str | int] = {"hour": record.hour}
-    if as_document:
-        entry |= {"text_sum": of_text, "vector_sum": of_vector}
+    text, hour = record.text, record.hour
+    of_text, of_vector = _text_sum(text, hour, own_json), _vector_sum(vector, hour)
+    entry: dict[str, str | int]
+    if format_ in AS_DOCUMENTS:
+        entry = {"hour": hour, "text_sum": of_text, "vector_sum": of_vector}
+    elif format_ == _IN_ENTRIES:
+        entry = {"hour": hour, "text": text, "sums": f"{of_text:x} {of_vector:x}"}
     else:
-        entry |= {"text": record.text, "sums": f"{of_text:x} {of_vector:x}"}
+        entry = {"record": f"{hour:0{_DIGITS}d} {of_text:x} {of_vector:x} {text}"}
     if record.metadata:
         entry["metadata"] = own_json
-    return Row(key, record.text if as_document else None, vector, entry)
+    return Row(key, text if format_ in AS_DOCUMENTS else None, vector, entry)
 
 
 def restored(document: str | None, meta: Mapping[str, Any]) -> tuple[Record | None, bool]:
@@ -57,31 +74,57 @@ def restored(document: str | None, meta: Mapping[str, Any]) -> tuple[Record | No
 
     The record is None where there is none to be made out.
     """
-    text, hour, own_json = meta.get("text", document), meta.get("hour"), meta.get("metadata", "")
+    text, hour, of_text, _ = _parts(document, meta)
+    own_json = meta.get("metadata", "")
     if not isinstance(text, str) or not text or not isinstance(hour, int) or not isinstance(own_json, str):
         return None, False
     try:
         own = json.loads(own_json or "{}")
     except ValueError:
         own = {}
-    whole = _sums(meta)[0] == _text_sum(text, hour, own_json)
+    whole = of_text == _text_sum(text, hour, own_json)
     return Record(sys.intern(text), hour, own if isinstance(own, dict) else {}), whole  # said again, held once
 
 
-def has_vector(meta: Mapping[str, Any], vector: Vector, hour: int) -> bool:
+def hour_of(meta: Mapping[str, Any]) -> int | None:
+    """The hour of the record whose metadata these are; None where there is none to be made out."""
+    hour = _parts(None, meta).hour
+    return hour if isinstance(hour, int) else None
+
+
+def has_vector(meta: Mapping[str, Any], vector: Vector, hour: int | None) -> bool:
     """Whether this is the vector, and the hour, of the record whose metadata these are."""
-    return _sums(meta)[1] == _vector_sum(vector, hour)
+    same: bool = _parts(None, meta).of_vector == _vector_sum(vector, hour)
+    return same
 
 
-def _sums(meta: Mapping[str, Any]) -> tuple[int | None, int | None]:
-    """The check sums of a record: of all but the vector, and of vector and hour; None where there is none."""
-    if "sums" not in meta:
-        return meta.get("text_sum"), meta.get("vector_sum")
+class _Parts(NamedTuple):
+    """What a stored record says, unchecked; None where it does not say it."""
+
+    text: Any = None
+    hour: Any = None
+    of_text: Any = None
+    of_vector: Any = None
+
+
+def _parts(document: str | None, meta: Mapping[str, Any]) -> _Parts:
+    if "record" in meta:
+        try:
+            hour, *sums, text = str(meta["record"]).split(" ", 3)
+            return _Parts(text, int(hour), *_numbers(sums))
+        except ValueError:
+            return _Parts()
+    said = _Parts(meta.get("text", document), meta.get("hour"), meta.get("text_sum"), meta.get("vector_sum"))
+    return said if "sums" not in meta else _Parts(said.text, said.hour, *_numbers(str(meta["sums"]).split()))
+
+
+def _numbers(sums: Sequence[str]) -> Sequence[int | None]:
+    """The two check sums that are written as hexadecimal numbers; neither where one is not."""
     try:
-        text, vector = (int(part, 16) for part in str(meta["sums"]).split())
+        of_text, of_vector = (int(part, 16) for part in sums)
     except ValueError:
         return None, None
-    return text, vector
+    return of_text, of_vector
 
 
 def _text_sum(text: str, hour: int, own_json: str) -> int:
@@ -89,6 +132,6 @@ def _text_sum(text: str, hour: int, own_json: str) -> int:
     return zlib.crc32(f"{hour} {len(text)} {text}{own_json}".encode())
 
 
-def _vector_sum(vector: Vector, hour: int) -> int:
+def _vector_sum(vector: Vector, hour: int | None) -> int:
     """Return a check sum of a record's vector and hour."""
     return zlib.crc32(f"{hour} ".encode() + np.ascontiguousarray(vector, "<f4").tobytes())

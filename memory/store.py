@@ -18,6 +18,7 @@ from coopera.core.errors import ConfigError, MemoryStoreError
 from coopera.memory.client import connect, disconnect, open_client, translated
 from coopera.memory.damage import damage
 from coopera.memory.folder import DamagedMemoryError, check_folder, is_as_sealed, lock, seal, unseal, was_closed
+from coopera.memory.rows import FORMAT, FORMATS
 from coopera.memory.vectors import Vectors
 
 if TYPE_CHECKING:
@@ -42,11 +43,6 @@ _INDEX = {
         "sync_threshold": _QUEUE,
     }
 }
-_FORMAT, _FORMATS = 3, (1, 2, 3)
-"""A stream of format 1 has its vectors in its own collection, since then in that of all streams of its model.
-
-For texts see `rows.AS_DOCUMENTS`. A stream keeps the format in which it was begun.
-"""
 MAX_NAME = 200
 
 
@@ -191,7 +187,7 @@ class Store:
             collection = self._client.get_or_create_collection(
                 collection_name(name),
                 configuration=_INDEX,  # type: ignore[arg-type]
-                metadata={"stream": name, "model": model, "format": _FORMAT},
+                metadata={"stream": name, "model": model, "format": FORMAT},
                 embedding_function=None,
             )
         self._check(collection, name, model)
@@ -214,7 +210,7 @@ class Store:
                     collection = self._client.get_or_create_collection(
                         f"vectors-{_digest(model)}",
                         configuration=_INDEX,  # type: ignore[arg-type]
-                        metadata={"model": model, "format": _FORMAT},
+                        metadata={"model": model, "format": FORMAT},
                         embedding_function=None,
                     )
                 self._vectors[model] = Vectors(collection, self.where)
@@ -241,7 +237,7 @@ class Store:
         found = collection.metadata or {}
         space = (collection.configuration_json.get("hnsw") or {}).get("space")
         at = f"{self.where}: the memory stream {name!r}"
-        if found.get("stream") != name or found.get("format") not in _FORMATS:
+        if found.get("stream") != name or found.get("format") not in FORMATS:
             raise MemoryStoreError(f"{at} was not written by this version of coopera (format {found.get('format')!r})")
         if found.get("model") != model:
             raise MemoryStoreError(f"{at} was written with the embeddings {found.get('model')!r}, not {model!r}")

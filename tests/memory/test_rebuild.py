@@ -86,6 +86,11 @@ def row(position: int) -> str:
     return f"(SELECT id FROM embeddings WHERE embedding_id = '{position:012d}')"
 
 
+def written(position: int, record: str) -> Break:
+    """Put another record, as SQL, in the place of one."""
+    return sql(f"UPDATE embedding_metadata SET string_value = {record} WHERE key = 'record' AND id = {row(position)}")
+
+
 INDEX_FILES = ("data_level0.bin", "header.bin", "link_lists.bin", "index_metadata.pickle")
 SLOW_BREAKS = [
     pytest.param(index_file(name, change), id=f"{name} {change.__name__}")
@@ -157,9 +162,9 @@ def test_a_store_that_is_open_bears_no_seal(store: Path) -> None:
     assert (store / "closed.json").exists()
 
 
-def test_a_text_that_was_changed_behind_our_back_is_not_served(store: Path) -> None:
-    text = f"UPDATE embedding_metadata SET string_value = 'evil' WHERE key = 'text' AND id = {row(1199)}"
-    sql(text)(store)
+@pytest.mark.parametrize("record", ["000000003 1 1 evil", "000000003 1 evil", "evil", "soon 1 1 evil", "3 x y evil"])
+def test_a_text_that_was_changed_behind_our_back_is_not_served(store: Path, record: str) -> None:
+    written(1199, f"'{record}'")(store)
     with pytest.raises(DamagedMemoryError, match="the text of record 1199 is not what was written"):
         MemoryStream.open(store, "x", Letters())
 
@@ -176,8 +181,8 @@ def test_a_lost_vector_is_told_and_made_again_from_its_text(store: Path, whole: 
 
 @pytest.mark.slow
 def test_altered_and_missing_records_are_counted_and_the_rest_is_kept(store: Path) -> None:
-    sql(f"UPDATE embedding_metadata SET string_value = 'abc' WHERE key = 'text' AND id = {row(4)}")(store)
-    sql(f"UPDATE embedding_metadata SET int_value = 99999 WHERE key = 'hour' AND id = {row(699)}")(store)
+    written(4, "'000000000 1 1 abc'")(store)
+    written(699, "'000099999' || substr(string_value, 10)")(store)
     sql(f"DELETE FROM embeddings WHERE id = {row(299)}")(store)
     with pytest.raises(DamagedMemoryError, match="not numbered 0 to 1198"):
         answers(store)
@@ -220,8 +225,8 @@ def test_the_bundled_embeddings_are_found_by_their_name(tmp_path: Path) -> None:
     with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         stream.add(["make tea", "read"], 0)
         expected = stream.recall("drink", 1, 2)
-    sql(f"UPDATE embedding_metadata SET string_value = '1 1' WHERE key = 'sums' AND id = {row(0)}")(tmp_path / "m")
-    assert repair(tmp_path / "m") == [Repaired("x", 2, 0, 0)]
+    written(0, "'000000000 1 1 make tea'")(tmp_path / "m")
+    assert repair(tmp_path / "m") == [Repaired("x", 2, missing=0, altered=1)]
     with bundled(cache) as embeddings, MemoryStream.open(tmp_path / "m", "x", embeddings) as stream:
         assert stream.recall("drink", 1, 2) == expected
 

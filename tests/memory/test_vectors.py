@@ -45,19 +45,26 @@ def documents(folder: Path) -> int:
     return found
 
 
+def entries(folder: Path) -> int:
+    """How many entries Chroma keeps of all records, each of which is in an index of its own."""
+    with closing(sqlite3.connect(folder / "chroma.sqlite3")) as database:
+        found: int = database.execute("SELECT count(*) FROM embedding_metadata").fetchone()[0]
+    return found
+
+
 def test_what_is_said_again_and_again_has_its_vector_stored_once(tmp_path: Path) -> None:
     lived(tmp_path / "m")
     dimension = len(Letters().embed_query("a"))
     assert rows(tmp_path / "m") == {"stream": (12, 1), "vectors": (2, dimension)}
 
 
-@pytest.mark.parametrize("format_", [1, 2])
+@pytest.mark.parametrize("format_", [1, 2, 3])
 def test_a_stream_of_before_is_gone_on_with_as_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, format_: int
 ) -> None:
-    """At first each record had its vector in the stream's own collection, then its text was a document still."""
+    """At first each record had its vector in the stream's own collection, then a document, then three entries."""
     expected = lived(tmp_path / "new")
-    monkeypatch.setattr("coopera.memory.store._FORMAT", format_)
+    monkeypatch.setattr("coopera.memory.store.FORMAT", format_)
     assert lived(tmp_path / "old") == expected
     monkeypatch.undo()
     for folder in ("new", "old"):
@@ -72,7 +79,8 @@ def test_a_stream_of_before_is_gone_on_with_as_it_was(
     assert rows(tmp_path / "old") == (
         {"stream": (13, dimension)} if format_ == 1 else {"stream": (13, 1), "vectors": (3, dimension)}
     )
-    assert (documents(tmp_path / "old"), documents(tmp_path / "new")) == (13, 0)
+    assert (documents(tmp_path / "old"), documents(tmp_path / "new")) == (13 if format_ < 3 else 0, 0)
+    assert (entries(tmp_path / "old"), entries(tmp_path / "new")) == (13 * (4 if format_ < 3 else 3), 13)
     assert texts(tmp_path / "old") == texts(tmp_path / "new")
 
 
