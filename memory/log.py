@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -64,7 +65,18 @@ class Log:
         self._lately = Lately(_TEXTS_IN_RAM)
         self._waiting: list[Row] = []
         self._format = FORMAT
-        self._reload()
+        self._known = False
+        self.know()
+
+    def know(self) -> None:
+        """Read the log's end from the store, unless it is known: it is not after a store that failed failed again.
+
+        Raises:
+            MemoryStoreError: If the store fails, or if records are missing or damaged.
+        """
+        if not self._known:
+            with self.lock:
+                self._reload()
 
     def __len__(self) -> int:
         """Return the number of records."""
@@ -153,7 +165,9 @@ class Log:
                     self._write(some)
                     del self._waiting[: len(some)]
             except MemoryStoreError:
-                self._reload()
+                self._known = False
+                with suppress(MemoryStoreError):  # what is in it is found out once it answers
+                    self.know()
                 raise
 
     def cut(self, length: int) -> None:
@@ -289,6 +303,7 @@ class Log:
 
     def _reload(self) -> None:
         """Read the log's end from the store."""
+        self._known = False
         self.let_go()
         self._starts.clear()
         self._lately.clear()
@@ -299,15 +314,14 @@ class Log:
             self._collection = self._reach()
             self._numbering = Numbering.of(self._collection.metadata)
             self._format = self._collection.metadata["format"]
-        length = self._find_length()
-        if length == 0:
-            return
-        start = (length - 1) // BLOCK * BLOCK
-        vectors, hours = self._read(start, length)
-        self._tail = _empty(start)
-        self._tail.places[: length - start] = self._table.hold(vectors)
-        self._tail.hours[: length - start] = hours
-        self._length = length
+        if length := self._find_length():
+            start = (length - 1) // BLOCK * BLOCK
+            vectors, hours = self._read(start, length)
+            self._tail = _empty(start)
+            self._tail.places[: length - start] = self._table.hold(vectors)
+            self._tail.hours[: length - start] = hours
+            self._length = length
+        self._known = True
 
     def _find_length(self) -> int:
         """Count the records, and make sure that they are numbered without a hole."""

@@ -330,6 +330,7 @@ class MemoryStream:
             raise MemoryStoreError(
                 f"{self._where} was opened by process {self._store.pid}, before a fork; open it anew"
             )
+        self._log.know()
         return self._log
 
     @property

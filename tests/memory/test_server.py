@@ -88,7 +88,7 @@ def test_a_killed_server_has_lost_nothing_when_it_is_back(tmp_path: Path) -> Non
     server.send_signal(signal.SIGKILL)
     server.wait()
     with pytest.raises(MemoryStoreError, match="does not answer"):
-        stream.recall("a", 30, 5)
+        stream.add(["late"], 30)
     server = start(tmp_path, port)
     assert len(stream.recall("a", 30, 99)) == 40
     stream.close()
