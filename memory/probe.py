@@ -13,6 +13,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from coopera.core.errors import MemoryStoreError
 from coopera.memory.client import open_client
@@ -43,10 +44,7 @@ def _check_index(folder: Path) -> None:
         held = vectors.stat().st_size
         if not count <= most or held not in (count * size, most * size) or size < 4 * (lowest + 1):
             raise MemoryStoreError(f"{header} tells of {count} vectors of {size} bytes, in a file of {held} bytes")
-        elements = np.fromfile(vectors, np.uint8, count * size).reshape(count, size)
-        linked, to = (np.ascontiguousarray(part) for part in np.split(elements[:, : 4 * (lowest + 1)], [4], axis=1))
-        used = np.arange(lowest) < linked.view("<u2")[:, :1]
-        if (linked.view("<u2")[:, 0] > lowest).any() or (used & (to.view("<u4") >= count)).any():
+        if count and not _lead_somewhere(np.memmap(vectors, np.uint8, "r", shape=(count, size)), lowest):
             raise MemoryStoreError(f"{vectors} is damaged: its links lead nowhere")
         lists = header.with_name("link_lists.bin").read_bytes()
         place, longest = 0, max(0, levels) * 4 * (links + 1)
@@ -57,6 +55,13 @@ def _check_index(folder: Path) -> None:
                 break
         if place != len(lists):
             raise MemoryStoreError(f"{header.with_name('link_lists.bin')} is damaged near byte {place}")
+
+
+def _lead_somewhere(elements: npt.NDArray[np.uint8], most: int) -> bool:
+    """Whether each element has at most so many links, all of them to elements that there are."""
+    links = np.ascontiguousarray(elements[:, : 4 * (most + 1)])
+    counted, to = links.view("<u2")[:, :1], links.view("<u4")[:, 1:]
+    return bool((counted <= most).all() and (to < len(elements))[np.arange(most) < counted].all())
 
 
 def _main(folder: str, *, everything: bool) -> None:
