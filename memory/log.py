@@ -6,7 +6,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,7 @@ from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.questions import Texts
 from coopera.memory.rows import AS_DOCUMENTS, FORMAT, Record, Row, has_vector, hour_of, restored, row
-from coopera.memory.scan import AT_ONCE, BLOCK, Block
+from coopera.memory.scan import AT_ONCE, BLOCK, Block, Tail
 from coopera.memory.vectors import Held, Places, Table, Vectors
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Log:
         self._numbering = Numbering()
         self._length = 0
         self._table = vectors.table if vectors is not None else Table()
-        self._tail = _empty(0)
+        self._tail = Tail.empty(0)
         self._blocks: OrderedDict[int, Block] = OrderedDict()
         self._starts: dict[int, int] = {}
         self._lately = Lately(_TEXTS_IN_RAM)
@@ -217,7 +217,7 @@ class Log:
         if isinstance(block.vectors, Held):
             self._table.let_go(block.vectors.places)
 
-    def _block(self, tail: _Tail, filled: int) -> Block:
+    def _block(self, tail: Tail, filled: int) -> Block:
         return Block(tail.start, Held(self._table, tail.places[:filled]), tail.hours[:filled])
 
     def _read_records(self, positions: Sequence[int]) -> dict[int, Record]:
@@ -288,7 +288,7 @@ class Log:
             filled = self._length - self._tail.start
             if filled == BLOCK:
                 self._keep_block(self._tail.start // BLOCK, self._block(self._tail, filled))
-                self._tail = _empty(self._length)
+                self._tail = Tail.empty(self._length)
                 filled = 0
             self._tail.places[filled] = place
             self._tail.hours[filled] = hour
@@ -299,7 +299,7 @@ class Log:
         for block in (*self._blocks.values(), self._block(self._tail, self._length - self._tail.start)):
             self._let_go_of(block)
         self._blocks.clear()
-        self._tail = _empty(self._length)
+        self._tail = Tail.empty(self._length)
 
     def _reload(self) -> None:
         """Read the log's end from the store."""
@@ -309,7 +309,7 @@ class Log:
         self._lately.clear()
         self._waiting.clear()
         self._length = 0
-        self._tail = _empty(0)
+        self._tail = Tail.empty(0)
         with translated(self.where):
             self._collection = self._reach()
             self._numbering = Numbering.of(self._collection.metadata)
@@ -317,7 +317,7 @@ class Log:
         if length := self._find_length():
             start = (length - 1) // BLOCK * BLOCK
             vectors, hours = self._read(start, length)
-            self._tail = _empty(start)
+            self._tail = Tail.empty(start)
             self._tail.places[: length - start] = self._table.hold(vectors)
             self._tail.hours[: length - start] = hours
             self._length = length
@@ -394,15 +394,3 @@ class Log:
 
     def _hours_of_tail(self) -> npt.NDArray[np.int64]:
         return self._tail.hours[: self._length - self._tail.start]
-
-
-class _Tail(NamedTuple):
-    """The newest block, which is not full."""
-
-    start: int
-    places: Places
-    hours: npt.NDArray[np.int64]
-
-
-def _empty(start: int) -> _Tail:
-    return _Tail(start, np.zeros(BLOCK, np.int32), np.zeros(BLOCK, np.int64))

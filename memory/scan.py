@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from coopera.memory.minilm import Vector
-from coopera.memory.vectors import Held
+from coopera.memory.vectors import Held, Places
 
 BLOCK = 512
 """Records per block: what is read at once."""
@@ -39,6 +39,19 @@ class Block(NamedTuple):
     start: int
     vectors: Vector | Held
     hours: npt.NDArray[np.int64]
+
+
+class Tail(NamedTuple):
+    """The newest block, which is not full: with room for `BLOCK` records from start on."""
+
+    start: int
+    places: Places
+    hours: npt.NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, start: int) -> Tail:
+        """Return room for them, with nothing in it."""
+        return cls(start, np.zeros(BLOCK, np.int32), np.zeros(BLOCK, np.int64))
 
 
 class _Part(NamedTuple):
