@@ -18,7 +18,7 @@ from coopera.memory.lately import Lately
 from coopera.memory.minilm import Vector
 from coopera.memory.numbering import Numbering, position_of
 from coopera.memory.questions import Texts
-from coopera.memory.rows import AS_DOCUMENTS, FORMAT, Record, Row, has_vector, hour_of, restored, row
+from coopera.memory.rows import AS_DOCUMENTS, FORMAT, Record, Row, hour_of, restored, row
 from coopera.memory.scan import AT_ONCE, BLOCK, Block, Tail
 from coopera.memory.vectors import Held, Places, Table, Vectors
 
@@ -355,17 +355,16 @@ class Log:
             )
         order = np.argsort(rows["ids"])
         metadatas: Any = rows["metadatas"]
-        hours = [hour_of(metadatas[place]) for place in order]
         if self._vectors is None:
             vectors = np.ascontiguousarray(np.asarray(rows["embeddings"], np.float32)[order])
         else:
             documents: Any = rows["documents"]
             vectors = self._vectors_of([(documents[place], metadatas[place]) for place in order], start)
-        for offset, place in enumerate(order):
-            if not has_vector(metadatas[place], vectors[offset], hours[offset]):
-                raise DamagedMemoryError(
-                    self.where, f"the vector or hour of record {start + offset} is not what was written"
-                )
+        hours = [hour_of(metadatas[place], vector) for place, vector in zip(order, vectors, strict=True)]
+        if None in hours:
+            raise DamagedMemoryError(
+                self.where, f"the vector or hour of record {start + hours.index(None)} is not what was written"
+            )
         known = np.array(hours, np.int64)
         if (np.diff(known) < 0).any():
             raise DamagedMemoryError(self.where, f"the hours of records {start} to {stop - 1} go backwards")

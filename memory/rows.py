@@ -86,16 +86,10 @@ def restored(document: str | None, meta: Mapping[str, Any]) -> tuple[Record | No
     return Record(sys.intern(text), hour, own if isinstance(own, dict) else {}), whole  # said again, held once
 
 
-def hour_of(meta: Mapping[str, Any]) -> int | None:
-    """The hour of the record whose metadata these are; None where there is none to be made out."""
-    hour = _parts(None, meta).hour
-    return hour if isinstance(hour, int) else None
-
-
-def has_vector(meta: Mapping[str, Any], vector: Vector, hour: int | None) -> bool:
-    """Whether this is the vector, and the hour, of the record whose metadata these are."""
-    same: bool = _parts(None, meta).of_vector == _vector_sum(vector, hour)
-    return same
+def hour_of(meta: Mapping[str, Any], vector: Vector) -> int | None:
+    """The hour of the record whose metadata these are, if this is its vector; None where either is not as written."""
+    said = _parts(None, meta)
+    return said.hour if isinstance(said.hour, int) and said.of_vector == _vector_sum(vector, said.hour) else None
 
 
 class _Parts(NamedTuple):
@@ -132,6 +126,6 @@ def _text_sum(text: str, hour: int, own_json: str) -> int:
     return zlib.crc32(f"{hour} {len(text)} {text}{own_json}".encode())
 
 
-def _vector_sum(vector: Vector, hour: int | None) -> int:
+def _vector_sum(vector: Vector, hour: int) -> int:
     """Return a check sum of a record's vector and hour."""
     return zlib.crc32(f"{hour} ".encode() + np.ascontiguousarray(vector, "<f4").tobytes())

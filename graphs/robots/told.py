@@ -75,12 +75,15 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     weighed = zip(hours, weights(clock, at, NARROW), weights(clock, at, WIDE), strict=True)
     return [
         ToldHour(
-            *hour,
-            near=narrow * counts.get(hour[0] // 24, 1.0),
-            looks=_looks(has, near, saw, hour[-1]),
-            wide=wide * counts.get(hour[0] // 24, 1.0),
+            now,
+            text,
+            done,
+            uses,
+            near=narrow * counts.get(now // 24, 1.0),
+            looks=_looks(has, near, saw, uses),
+            wide=wide * counts.get(now // 24, 1.0),
         )
-        for hour, narrow, wide in weighed
+        for (now, text, done, uses), narrow, wide in weighed
     ]
 
 
