@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, cast
+from dataclasses import dataclass, field
+from typing import Any, cast
 
 from coopera.memory.questions import Texts
 from coopera.memory.rows import Record
@@ -13,12 +14,15 @@ PIECE = 512
 """Consecutive records that come and go together."""
 
 
-class _Piece(NamedTuple):
+@dataclass(slots=True)
+class _Piece:
     """A piece as columns by place: texts recur and are shared, so that a record takes 16 bytes, not some 300."""
 
-    texts: list[str | None]
-    hours: list[int]
-    own: dict[int, Mapping[str, Any]]
+    texts: list[str | None] = field(default_factory=lambda: [None] * PIECE)
+    hours: list[int] = field(default_factory=lambda: [0] * PIECE)
+    own: dict[int, Mapping[str, Any]] = field(default_factory=dict)
+    free: int = PIECE
+    """How many of its records are not here."""
 
 
 class Lately:
@@ -51,10 +55,12 @@ class Lately:
                 return None
             end = min(stop, (number + 1) * PIECE)
             part = slice(place, place + end - start)
+            if piece.free and None in piece.texts[part]:
+                return None
             texts += piece.texts[part]
             hours += piece.hours[part]
             start = end
-        return None if None in texts else Texts(cast(list[str], texts), hours)
+        return Texts(cast(list[str], texts), hours)
 
     def keep(self, records: Iterable[tuple[int, Record]]) -> None:
         """Keep records, by position."""
@@ -62,9 +68,10 @@ class Lately:
             number, place = divmod(position, PIECE)
             piece = self._pieces.get(number)
             if piece is None:
-                piece = self._pieces[number] = _Piece([None] * PIECE, [0] * PIECE, {})
+                piece = self._pieces[number] = _Piece()
                 if len(self._pieces) > self._most:
                     self._pieces.popitem(last=False)
+            piece.free -= piece.texts[place] is None
             piece.texts[place], piece.hours[place] = text, hour
             if own:
                 piece.own[place] = own

@@ -6,6 +6,9 @@ import operator
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from coopera.core.errors import ConfigError
 
 MAX_TEXT = 100_000
@@ -52,12 +55,12 @@ class Relevances(NamedTuple):
     Attributes:
         texts: As they were added.
         hours: Global hour index of each.
-        relevances: For each query, its cosine with each record, in [-1, 1].
+        relevances: The cosine of each query with each record, in [-1, 1], shape (queries, records).
     """
 
     texts: list[str]
     hours: list[int]
-    relevances: list[list[float]]
+    relevances: npt.NDArray[np.float64]
 
 
 def check_text(text: str, what: str) -> None:

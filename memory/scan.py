@@ -161,7 +161,14 @@ def top(rows: Rows, query: Vector, k: int, *, now: int, decay: float, since: int
     return Hits(window.best(), high - position)
 
 
-def every(rows: Rows, queries: Vector, *, now: int, since: int | None = None) -> Compared:
+def every(
+    rows: Rows,
+    queries: Vector,
+    *,
+    now: int,
+    since: int | None = None,
+    within: tuple[float, float] | None = None,
+) -> Compared:
     """Compare all records with since <= hour <= now to some queries; each cosine is the one that `top` gives.
 
     Args:
@@ -169,6 +176,7 @@ def every(rows: Rows, queries: Vector, *, now: int, since: int | None = None) ->
         queries: Unit vectors, shape (queries, d), float32.
         now: Last hour in question.
         since: First hour in question; None for no limit.
+        within: Bounds: a cosine below the first or above the second is given as that bound, which takes less.
     """
     low = 0 if since is None else rows.first_at(since)
     high = max(low, rows.first_at(now + 1))
@@ -178,7 +186,7 @@ def every(rows: Rows, queries: Vector, *, now: int, since: int | None = None) ->
         blocks = [rows.block(number) for number in numbers[first : first + AT_ONCE]]
         parts = [block.vectors[max(0, low - block.start) : high - block.start] for block in blocks]
         unlike, of = _different(_joined(parts))
-        cosines.append(_cosines(unlike, queries)[:, of])
+        cosines.append((_cosines(unlike, queries) if within is None else _clipped(unlike, queries, *within))[:, of])
     return Compared(low, np.concatenate(cosines, axis=1))
 
 
@@ -255,6 +263,15 @@ def _cosines(vectors: Vector, queries: Vector) -> npt.NDArray[np.float64]:
             np.multiply(part, query, out=products)
             of_query[start : start + _ROWS] = products.sum(1)
     return cosines
+
+
+def _clipped(vectors: Vector, queries: Vector, low: float, high: float) -> npt.NDArray[np.float64]:
+    """Return `_cosines`, clipped; those that float32 shows to lie outside the bounds are not reckoned in float64."""
+    cosines = (queries @ vectors.T).astype(np.float64)
+    for of_query, query in zip(cosines, queries, strict=True):
+        inside = np.flatnonzero((of_query > low - _MARGIN) & (of_query < high + _MARGIN))
+        of_query[inside] = _cosines(vectors[inside], query[None])[0]
+    return np.clip(cosines, low, high)
 
 
 def _joined(parts: Sequence[Vector | Held]) -> Vector | Held:

@@ -205,13 +205,21 @@ class MemoryStream:
             recalled.append(Recollection(record.text, hit.hour, hit.relevance, recency, score, record.metadata))
         return recalled
 
-    def relevances(self, queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
+    def relevances(
+        self,
+        queries: Sequence[str],
+        now: int,
+        since: int | None = None,
+        within: tuple[float, float] | None = None,
+    ) -> Relevances:
         """Return how relevant each record is, whatever its recency: what `recall` says of it, in a fifth of the time.
 
         Args:
             queries: Texts of 1 to 100,000 characters; several together take less than one after the other.
             now: Last hour in question.
             since: First hour in question; None for no limit.
+            within: For whom all below one number are alike, and all above another: such a relevance is given as the
+                nearest of the two, which takes less.
 
         Raises:
             ConfigError: If an argument is out of range.
@@ -225,12 +233,12 @@ class MemoryStream:
         since = since if since is None else whole(since, "the first hour of a comparison")
         log = self._open_log
         if not len(log):
-            return Relevances([], [], [[] for _ in queries])
+            return Relevances([], [], np.empty((len(queries), 0)))
         vectors = self._vectors(queries)
         with log.lock:
-            start, cosines = every(log, vectors, now=now, since=since)
+            start, cosines = every(log, vectors, now=now, since=since, within=within)
             texts, hours = log.texts(start, start + cosines.shape[1])
-        return Relevances(texts, hours, cosines.tolist())
+        return Relevances(texts, hours, cosines)
 
     def texts(self, since: int | None = None) -> Texts:
         """Return what `records` yields, without its metadata, in a tenth of the time.

@@ -79,7 +79,7 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
         return []
     texts, hours, [relevances] = stream.relevances([query], now.day * 24 - 1, (now.day - DAYS) * 24)
     recency = weights(now, hours)
-    scores = np.array(relevances) * np.array(recency)
+    scores = relevances * np.array(recency)
     best: dict[str, int] = {}  # where each text scores highest, the newest of equals; most are said again and again
     least = 0.0
     for place in np.lexsort((np.arange(len(scores)), scores))[::-1].tolist():
@@ -92,7 +92,7 @@ def _told(stream: Readable, kind: CandidateKind, query: str, now: Clock, most: i
             kind=kind,
             text=text,
             hour=hours[place],
-            relevance=relevances[place],
+            relevance=float(relevances[place]),
             recency=recency[place],
             score=float(scores[place]),
             source="told",

@@ -100,7 +100,13 @@ class Recall(Protocol):
 class Compare(Protocol):
     """How alike all of a memory stream is to some texts; see `coopera.memory.MemoryStream.relevances`."""
 
-    def __call__(self, queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
+    def __call__(
+        self,
+        queries: Sequence[str],
+        now: int,
+        since: int | None = None,
+        within: tuple[float, float] | None = None,
+    ) -> Relevances:
         """The records until the global hour `now`, oldest first, and for each query the likeness of each."""
         ...
 
@@ -143,8 +149,13 @@ class Readable:
         def texts(since: int | None = None) -> Texts:
             return stream.texts(since)
 
-        def relevances(queries: Sequence[str], now: int, since: int | None = None) -> Relevances:
-            return stream.relevances(queries, now, since=since)
+        def relevances(
+            queries: Sequence[str],
+            now: int,
+            since: int | None = None,
+            within: tuple[float, float] | None = None,
+        ) -> Relevances:
+            return stream.relevances(queries, now, since=since, within=within)
 
         return cls(recall, records, texts, relevances)
 

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, lru_cache
 from typing import Any, NamedTuple, TypeAlias
-
-import numpy as np
 
 from coopera.core.clock import Clock
 from coopera.core.hour import Observation
@@ -70,7 +68,7 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
     told = [_Columns.of(stream.texts(since)) for stream in view.history]
     hours, things = _joined(*told, clock.day)
     counts = still_counts(things) if turns else {}
-    has, near = held(view.observation), _near(view.observation)
+    looks = _looks(held(view.observation), _near(view.observation), saw)
     at = [hour[0] for hour in hours]
     weighed = zip(hours, weights(clock, at, NARROW), weights(clock, at, WIDE), strict=True)
     return [
@@ -80,7 +78,7 @@ def told_hours(view: RobotView, saw: str = "", *, turns: bool = False) -> list[T
             done,
             uses,
             near=narrow * counts.get(now // 24, 1.0),
-            looks=_looks(has, near, saw, uses),
+            looks=looks(uses),
             wide=wide * counts.get(now // 24, 1.0),
         )
         for (now, text, done, uses), narrow, wide in weighed
@@ -102,7 +100,7 @@ class _Columns(NamedTuple):
         return cls(tuple(told.texts), tuple(told.hours))
 
 
-@lru_cache(maxsize=2)  # what was told before today stays so all day
+@lru_cache(maxsize=1)  # what was told before today stays so all day
 def _joined(intentions: _Columns, tasks: _Columns, day: int) -> tuple[tuple[_Hour, ...], ThingsByHour]:
     """The hours before a day, oldest first, and by what was used in them the turns of a life are seen."""
     done: dict[int, list[str]] = defaultdict(list)
@@ -117,10 +115,11 @@ def likeness(view: RobotView, told: Sequence[ToldHour], intentions: Sequence[str
     """How like each intention is to that of each told hour, by meaning, in [0, 1]; the same words give 1."""
     if not told or not intentions:
         return [[] for _ in intentions]
-    _, hours, relevances = view.history.intentions.relevances(intentions, view.clock.now, told[0].now)
+    stream = view.history.intentions
+    _, hours, cosines = stream.relevances(intentions, view.clock.now, told[0].now, (UNLIKE, ALIKE))
     place = {hour: at for at, hour in enumerate(hours)}
-    cosines = np.array(relevances)[:, [place[hour.now] for hour in told]]
-    alike: list[list[float]] = np.clip((cosines - UNLIKE) / (ALIKE - UNLIKE), 0.0, 1.0).tolist()
+    of_told = cosines[:, [place[hour.now] for hour in told]]
+    alike: list[list[float]] = ((of_told - UNLIKE) / (ALIKE - UNLIKE)).tolist()
     return alike
 
 
@@ -164,10 +163,13 @@ Uses: TypeAlias = Mapping[str, Mapping[Use, Sequence[int]]]
 
 def uses_of(told: Sequence[ToldHour]) -> Uses:
     """Look once at what was used in the told hours, for all that is asked of them now."""
-    found: dict[str, dict[Use, list[int]]] = defaultdict(lambda: defaultdict(list))
+    places: dict[Use, list[int]] = defaultdict(list)
     for place, hour in enumerate(told):
         for use in dict.fromkeys(hour.uses):
-            found[use.thing.lower()][use].append(place)
+            places[use].append(place)
+    found: dict[str, dict[Use, list[int]]] = defaultdict(dict)
+    for use, used in places.items():
+        found[use.thing.lower()][use] = used
     return found
 
 
@@ -191,12 +193,17 @@ def shares(
     """
     total = sum(weights) or 1.0
     found: dict[Use, float] = defaultdict(float)
+
+    @cache  # the same few things are used in hour after hour
+    def counted(use: Use) -> Use | None:
+        if without is not None and same(use, without):
+            return None
+        return use if places else Use(use.thing)
+
     for hour, weight in zip(told, weights, strict=True):
-        if not weight:
-            continue
-        kept = [use for use in hour.uses if without is None or not same(use, without)]
-        for use in dict.fromkeys(kept if places else (Use(use.thing) for use in kept)):
-            found[use] += weight / total
+        for use in dict.fromkeys(map(counted, hour.uses)) if weight else ():
+            if use is not None:
+                found[use] += weight / total
     return found
 
 
@@ -205,15 +212,23 @@ def _near(seen: Observation) -> list[str]:
     return [plain(name) for name in seen.percept.near] if seen.percept else []
 
 
-def _looks(has: Use | None, near: Sequence[str], saw: str, uses: Sequence[Use]) -> float:
+def _looks(has: Use | None, near: Sequence[str], saw: str) -> Callable[[Sequence[Use]], float]:
     """How well a told hour fits what is seen now: by the thing that the person has, else by the furniture near them."""
-    if not uses:
-        return OTHER_PLACE
-    if has is not None:
-        return SAME_FIRST if same(uses[0], has) else SAME_ANY if any(same(use, has) for use in uses) else OTHER_THING
-    if near:
-        return SAME_PLACE if uses[0].place in near else OTHER_PLACE
-    return _mentioned(saw, uses) if saw else SAME_FIRST
+
+    @cache  # the same few things are used in hour after hour
+    def with_it(use: Use) -> bool:
+        return has is not None and same(use, has)
+
+    def looks(uses: Sequence[Use]) -> float:
+        if not uses:
+            return OTHER_PLACE
+        if has is not None:
+            return SAME_FIRST if with_it(uses[0]) else SAME_ANY if any(map(with_it, uses)) else OTHER_THING
+        if near:
+            return SAME_PLACE if uses[0].place in near else OTHER_PLACE
+        return _mentioned(saw, uses) if saw else SAME_FIRST
+
+    return looks
 
 
 def _mentioned(saw: str, uses: Sequence[Use]) -> float:

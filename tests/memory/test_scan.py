@@ -107,6 +107,11 @@ def check_arrays(case: Case) -> None:
         for one, of_one in zip((other, query), cosines.tolist(), strict=True):
             compared = [(start + place, cosine) for place, cosine in enumerate(of_one)]
             assert compared == all_of(vectors, case.hours, one, now, since)
+        near = cosines.ravel() - 1e-9  # float32 cannot tell on which side of these a cosine lies
+        low, high = sorted(rng.choice([*near, *-near, *rng.uniform(-1, 1, 3)], 2))
+        bounded = every(rows, np.stack((other, query)), now=now, since=since, within=(low, high))
+        assert bounded.start == start
+        assert bounded.cosines.tolist() == np.clip(cosines, low, high).tolist()
 
 
 def all_of(vectors: Vector, hours: list[int], query: Vector, now: int, since: int | None) -> list[tuple[int, float]]:
@@ -132,7 +137,7 @@ def check_stream(case: Case, folder: Path) -> None:
                 expected = brute_force(vectors, seen, query, k, now, case.decay, since)
                 assert [(int(f.text.split()[1]), f.relevance) for f in found] == expected
                 texts, of, [relevances] = stream.relevances([question], now, since)
-                compared = [(int(text.split()[1]), one) for text, one in zip(texts, relevances, strict=True)]
+                compared = [(int(text.split()[1]), one) for text, one in zip(texts, relevances.tolist(), strict=True)]
                 assert compared == all_of(vectors, seen, query, now, since)
                 assert of == [case.hours[place] for place, _ in compared]
                 if since is not None:

@@ -71,17 +71,28 @@ def test_a_pause_of_years_does_not_blur_the_order(stream: MemoryStream) -> None:
 
 
 def test_how_relevant_everything_is_is_told_in_order_of_time_whatever_its_age(stream: MemoryStream) -> None:
-    assert stream.relevances(["a"], now=9) == ([], [], [[]])
+    assert stream.relevances(["a", "b"], now=9).relevances.shape == (2, 0)
     stream.add(["a", "b"], 0)
     stream.add(["ab"], 5)
     stream.add(["a"], 7)
     recalled = {(one.text, one.hour): one.relevance for one in stream.recall("a", now=5, k=9)}
     texts, hours, relevances = stream.relevances(["a", "b"], now=5)
     assert (texts, hours) == (["a", "b", "ab"], [0, 0, 5])
-    assert relevances[0] == [recalled["a", 0], recalled["b", 0], recalled["ab", 5]]
-    assert relevances == [stream.relevances([one], now=5).relevances[0] for one in "ab"]
+    assert relevances[0].tolist() == [recalled["a", 0], recalled["b", 0], recalled["ab", 5]]
+    assert relevances.tolist() == [stream.relevances([one], now=5).relevances[0].tolist() for one in "ab"]
     assert stream.relevances(["a"], now=9, since=5)[:2] == (["ab", "a"], [5, 7])
-    assert stream.relevances(["a"], now=9, since=8) == ([], [], [[]])
+    texts, hours, relevances = stream.relevances(["a"], now=9, since=8)
+    assert (texts, hours, relevances.shape) == ([], [], (1, 0))
+
+
+def test_what_lies_without_the_bounds_is_as_relevant_as_the_nearest_of_them(stream: MemoryStream) -> None:
+    stream.add(["a", "b", "ab", "aab"], 0)
+    exact = stream.relevances(["a", "bb"], now=5).relevances
+    between, outside = np.sort(exact[0])[1:3], exact.mean()
+    for low, high in (between, (0.0, 1.0), (outside, outside)):
+        told = stream.relevances(["a", "bb"], now=5, within=(low, high))
+        assert told.texts == ["a", "b", "ab", "aab"]
+        assert told.relevances.tolist() == np.clip(exact, low, high).tolist()
 
 
 def test_recalling_changes_nothing(stream: MemoryStream) -> None:
