@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -29,6 +28,7 @@ with open(side, "a") as log:
         log.flush()
         os.fsync(log.fileno())
     say("opened")
+    print("opened", flush=True)
     while True:
         hour += int(rng.integers(0, 3))
         if rng.random() < 0.1:
@@ -61,9 +61,10 @@ def kill_while_writing(tmp_path: Path, kills: int) -> int:
     for kill in range(kills):
         side = tmp_path / f"side-{kill}.jsonl"
         command = [sys.executable, "-c", PROGRAM, str(folder), str(side), str(kill)]
-        with subprocess.Popen(command, cwd=Path(__file__).parents[2], stderr=subprocess.PIPE) as writer:
-            while writer.poll() is None and not (side.exists() and side.read_text().startswith('["opened"]')):
-                os.sched_yield()
+        pipe = subprocess.PIPE
+        with subprocess.Popen(command, cwd=Path(__file__).parents[2], stdout=pipe, stderr=pipe) as writer:
+            assert writer.stdout is not None
+            writer.stdout.readline()
             with_luck = float(rng.uniform(0.02, 1.5))
             try:
                 writer.wait(with_luck)
