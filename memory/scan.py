@@ -266,9 +266,13 @@ def _cosines(vectors: Vector, queries: Vector) -> npt.NDArray[np.float64]:
 
 
 def _clipped(vectors: Vector, queries: Vector, low: float, high: float) -> npt.NDArray[np.float64]:
-    """Return `_cosines`, clipped; those that float32 shows to lie outside the bounds are not reckoned in float64."""
-    cosines = (queries @ vectors.T).astype(np.float64)
+    """Return `_cosines`, clipped; those that float32 shows to lie outside the bounds are not reckoned in float64.
+
+    One query after the other: a product of two matrices would wake BLAS's threads, which take ten times as long.
+    """
+    cosines = np.empty((len(queries), len(vectors)))
     for of_query, query in zip(cosines, queries, strict=True):
+        of_query[:] = vectors @ query
         inside = np.flatnonzero((of_query > low - _MARGIN) & (of_query < high + _MARGIN))
         of_query[inside] = _cosines(vectors[inside], query[None])[0]
     return np.clip(cosines, low, high)
