@@ -75,6 +75,17 @@ def check_text(text: str, what: str) -> None:
         raise ConfigError(f"{what} must be valid Unicode, not {text!r:.80}") from err
 
 
+def check_bounds(within: tuple[float, float] | None) -> None:
+    """Refuse what are no two numbers, the lower one first."""
+    try:
+        low, high = within or (0.0, 0.0)
+        ordered = bool(float(low) <= float(high))
+    except (TypeError, ValueError):
+        ordered = False
+    if not ordered:
+        raise ConfigError(f"bounds of relevance must be two numbers, the lower one first, not {within!r:.80}")
+
+
 def whole(number: int, what: str) -> int:
     """Return a whole number as an int, whatever type of integer it is."""
     if isinstance(number, bool) or not hasattr(number, "__index__"):

@@ -22,7 +22,7 @@ from coopera.memory.embeddings import as_array, identity, unit
 from coopera.memory.folder import DamagedMemoryError
 from coopera.memory.log import Log
 from coopera.memory.minilm import Vector
-from coopera.memory.questions import Recollection, Relevances, Texts, check_text, whole
+from coopera.memory.questions import Recollection, Relevances, Texts, check_bounds, check_text, whole
 from coopera.memory.rebuild import heal
 from coopera.memory.rows import Record
 from coopera.memory.scan import every, top
@@ -229,12 +229,13 @@ class MemoryStream:
             raise ConfigError(f"queries must be a list of texts, not the text {queries!r:.80}")
         for query in queries:
             check_text(query, "a query")
+        check_bounds(within)
         now = whole(now, "the last hour of a comparison")
         since = since if since is None else whole(since, "the first hour of a comparison")
         log = self._open_log
         if not len(log):
             return Relevances([], [], np.empty((len(queries), 0)))
-        vectors = self._vectors(queries)
+        vectors = self._vectors(queries) if queries else np.empty((0, log.dimension or 0), np.float32)
         with log.lock:
             start, cosines = every(log, vectors, now=now, since=since, within=within)
             texts, hours = log.texts(start, start + cosines.shape[1])

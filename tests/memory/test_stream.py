@@ -81,6 +81,7 @@ def test_how_relevant_everything_is_is_told_in_order_of_time_whatever_its_age(st
     assert relevances[0].tolist() == [recalled["a", 0], recalled["b", 0], recalled["ab", 5]]
     assert relevances.tolist() == [stream.relevances([one], now=5).relevances[0].tolist() for one in "ab"]
     assert stream.relevances(["a"], now=9, since=5)[:2] == (["ab", "a"], [5, 7])
+    assert stream.relevances([], now=9).relevances.shape == (0, 4)
     texts, hours, relevances = stream.relevances(["a"], now=9, since=8)
     assert (texts, hours, relevances.shape) == ([], [], (1, 0))
 
@@ -88,8 +89,7 @@ def test_how_relevant_everything_is_is_told_in_order_of_time_whatever_its_age(st
 def test_what_lies_without_the_bounds_is_as_relevant_as_the_nearest_of_them(stream: MemoryStream) -> None:
     stream.add(["a", "b", "ab", "aab"], 0)
     exact = stream.relevances(["a", "bb"], now=5).relevances
-    between, outside = np.sort(exact[0])[1:3], exact.mean()
-    for low, high in (between, (0.0, 1.0), (outside, outside)):
+    for low, high in (np.sort(exact[0])[1:3], (0.0, 1.0), (0.5, 0.5)):
         told = stream.relevances(["a", "bb"], now=5, within=(low, high))
         assert told.texts == ["a", "b", "ab", "aab"]
         assert told.relevances.tolist() == np.clip(exact, low, high).tolist()
@@ -242,6 +242,10 @@ def test_with_real_embeddings_what_was_meant_is_recalled(tmp_path: Path) -> None
         (lambda s: s.relevances("a", 1), "a list of texts, not the text 'a'"),
         (lambda s: s.relevances(["a"], "now"), "whole number"),
         (lambda s: s.relevances(["a"], 1, since="monday"), "whole number, not 'monday'"),
+        (lambda s: s.relevances(["a"], 1, within=(0.6, 0.3)), r"the lower one first, not \(0.6, 0.3\)"),
+        (lambda s: s.relevances(["a"], 1, within=(0.3, float("nan"))), "bounds of relevance must be two numbers"),
+        (lambda s: s.relevances(["a"], 1, within=0.3), "bounds of relevance must be two numbers"),
+        (lambda s: s.relevances(["a"], 1, within=("low", "high")), "bounds of relevance must be two numbers"),
         (lambda s: s.latest(-1), "negative"),
     ],
 )
