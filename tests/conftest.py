@@ -15,6 +15,11 @@ settings.register_profile("coopera", deadline=None, derandomize=True)
 settings.load_profile("coopera")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with pages, whose tests take minutes: at the end one process would wait for the other's."""
+    items.sort(key=lambda item: item.path.name != "test_pages.py")
+
+
 @pytest.fixture(scope="session")
 def vectors(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """One cache of texts' vectors for all processes of these tests, so that a real run's text is encoded once."""
