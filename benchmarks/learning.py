@@ -32,6 +32,7 @@ from statistics import fmean
 from typing import Any, NamedTuple
 
 from coopera import Config, resume_study, run_study
+from coopera.config.at_most import at_most, smaller
 from coopera.config.schema import default_data_dir
 from coopera.core.hour import CandidateKind, Example
 from coopera.core.household import Collab
@@ -103,6 +104,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=Path("runs/learning"))
     args = parser.parse_args()
+    args.days = smaller(args.days, at_most().days)
     known: dict[str, Collab] = {"1": 1, "2": 2}
     types = [known[collab] for collab in args.collab.split(",")]
     methods = [f"{method}:kernel".split(":")[:2] for method in args.methods.split(",")]

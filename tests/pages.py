@@ -50,7 +50,7 @@ def blocks(*languages: str) -> Iterator[Block]:
 
 def furnish(folder: Path, base_url: str) -> None:
     """Put what the pages name into a folder: conversations, clips, prompts, a grid, goals, a home, our folders."""
-    for name in ("conversations.csv", "synthetic_persona_chat_valid.csv"):
+    for name in ("conversations.csv", "synthetic_persona_chat_valid.csv", "check.csv"):
         with (folder / name).open("w", newline="", encoding="utf-8") as file:
             rows = csv.writer(file)
             rows.writerow(["user 1 personas", "user 2 personas", "Best Generated Conversation"])

@@ -8,7 +8,7 @@ A documentation's commands can so be run as they stand, in seconds.
 from __future__ import annotations
 
 import os
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field, ValidationError
 
@@ -59,13 +59,12 @@ def at_most() -> AtMost:
 def cut(config: Config) -> Config:
     """Cut a resolved configuration."""
     most = at_most()
-    return config.model_copy(
-        update={
-            "days": smaller(config.days, most.days),
-            "hours": smaller(config.hours, most.hours),
-            "schedule": config.schedule[: most.days] if config.schedule else config.schedule,
-        }
-    )
+    update: dict[str, Any] = {"days": smaller(config.days, most.days), "hours": smaller(config.hours, most.hours)}
+    if config.schedule:
+        update["schedule"] = config.schedule[: most.days]
+        who, where = zip(*update["schedule"], strict=True)
+        update |= {"humans": list(dict.fromkeys(who)), "scenes": list(dict.fromkeys(where))}
+    return config.model_copy(update=update)
 
 
 def smaller(size: int | None, most: int | None) -> int | None:

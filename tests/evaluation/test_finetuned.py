@@ -8,6 +8,7 @@ from benchmarks.tiny_mistral import make_recipe
 from coopera.config.schema import Config, Models
 from coopera.core.clock import Clock
 from coopera.core.errors import ConfigError
+from coopera.core.hour import RobotHour
 from coopera.core.household import FreeMotion, HandOver
 from coopera.core.people import PersonId
 from coopera.evaluation.baselines import Occasion
@@ -42,8 +43,13 @@ def test_the_model_in_the_box_can_be_finetuned(tmp_path: Path) -> None:
     assert tuned_model(resolve(config)) == "smol"
 
 
+def answered(robot: RobotHour) -> bool:
+    """Whether the finetuned model said something, be it of use or not: a tiny one of random weights says anything."""
+    return len(robot.intentions) == 1 or any("the finetuned model's reply" in one for one in robot.fallbacks)
+
+
 @pytest.mark.slow
-def test_the_robots_own_model_proposes_after_its_first_evening(tmp_path: Path) -> None:
+def test_the_robots_own_model_is_asked_after_its_first_evening(tmp_path: Path) -> None:
     base = random_llama(tmp_path / "llama")
     recipe = make_recipe(tmp_path / "recipe.yaml", base, learning_rate=0.02, epochs=5)
     config = Config(
@@ -60,7 +66,8 @@ def test_the_robots_own_model_proposes_after_its_first_evening(tmp_path: Path) -
     run = RunDir.open(tmp_path / "run")
     first, later = ([hour.robot for hour in run.read_day(day) if hour.robot] for day in (0, 1))
     assert [robot.intentions for robot in first] == [[], []]
-    assert all(len(robot.intentions) == 1 and not robot.fallbacks for robot in later)
+    assert not any(answered(robot) for robot in first)
+    assert all(answered(robot) for robot in later)
     evening = run.read_evening(0)
     assert evening is not None
     assert evening.learned["lessons"] == 2

@@ -24,7 +24,8 @@ def test_the_environment_cuts_a_run(monkeypatch: pytest.MonkeyPatch, tmp_path: P
 def test_the_environment_cuts_a_schedule_with_its_days(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv(VARIABLE, "days=1")
     cut = resolve(Config(schedule=[["amara", "maple"], ["bruno", "maple"]], out=tmp_path / "run"))
-    assert (cut.days, cut.schedule) == (1, [("amara", "maple")])
+    assert (cut.days, cut.schedule, cut.humans) == (1, [("amara", "maple")], ["amara"])
+    assert resolve(cut) == cut
 
 
 def test_the_environment_cuts_a_benchmark(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
