@@ -13,6 +13,7 @@ from typing import Any, Literal
 import yaml
 from pydantic import ValidationError
 
+from coopera.benchmark.stated import FILE as STATED
 from coopera.benchmark.stated import Statement, endpoint_of, read_statements, standing, state, statement
 from coopera.config.at_most import at_most, smaller
 from coopera.config.declared import in_words_of_today
@@ -125,7 +126,7 @@ def claimed_folder(bench: Benchmark, *, restate: bool = False) -> Iterator[State
         ConfigError: If it cannot be written or holds something else, another endpoint among it.
         RunError: If another process works in it.
     """
-    if not (bench.root / "grid.yaml").is_file() and bench.root.is_dir() and set(os.listdir(bench.root)) - {"lock"}:
+    if _holds_something_else(bench.root):
         raise ConfigError(f"out: {bench.root} is not empty and holds no benchmark; choose another folder.")
     try:
         bench.root.mkdir(parents=True, exist_ok=True)
@@ -137,6 +138,14 @@ def claimed_folder(bench: Benchmark, *, restate: bool = False) -> Iterator[State
         today = state(bench.root, _statement(bench), former, restate=restate)
         _note_grid(bench)
         yield today
+
+
+def _holds_something_else(root: Path) -> bool:
+    """Whether a folder is not empty and no benchmark's; one killed before its grid stood left the files before it."""
+    if not root.is_dir() or (root / "grid.yaml").is_file():
+        return False
+    there = set(os.listdir(root)) - {"lock", STATED}
+    return any(not (name.startswith((".grid.yaml.", f".{STATED}.")) and name.endswith(".tmp")) for name in there)
 
 
 def _statement(bench: Benchmark) -> Statement:

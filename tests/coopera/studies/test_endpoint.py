@@ -150,3 +150,18 @@ def test_a_repeated_sample_changes_nothing_but_the_replies(tmp_path: Path, data_
     assert (ours.calls.sample, again.calls.sample) == (0, 1)
     same = {"calls": ours.calls, "out": None}
     assert ours.model_copy(update=same) == again.model_copy(update=same)
+
+
+def test_a_benchmark_killed_before_its_grid_stood_is_begun_again_and_another_folder_is_refused(
+    tmp_path: Path, data_dir: Path
+) -> None:
+    root = tmp_path / "bench"
+    bench = benchmark(root, data_dir)
+    first = claim(bench)
+    (root / "grid.yaml").rename(root / ".grid.yaml.77.tmp")
+    (root / f".{FILE}.77.tmp").write_text("[")
+    assert claim(bench) == first
+    (root / "grid.yaml").unlink()
+    (root / "notes.txt").write_text("mine")
+    with pytest.raises(ConfigError, match="bench is not empty and holds no benchmark"):
+        claim(bench)
