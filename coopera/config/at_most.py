@@ -8,6 +8,7 @@ A documentation's commands can so be run as they stand, in seconds.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from pydantic import Field, ValidationError
@@ -61,10 +62,15 @@ def cut(config: Config) -> Config:
     most = at_most()
     update: dict[str, Any] = {"days": smaller(config.days, most.days), "hours": smaller(config.hours, most.hours)}
     if config.schedule:
-        update["schedule"] = config.schedule[: most.days]
-        who, where = zip(*update["schedule"], strict=True)
-        update |= {"humans": list(dict.fromkeys(who)), "scenes": list(dict.fromkeys(where))}
+        days = config.schedule[: most.days]
+        update |= {"schedule": days, **said_by(days)}  # else they would contradict it
     return config.model_copy(update=update)
+
+
+def said_by(schedule: Sequence[tuple[str, str]]) -> dict[str, Any]:
+    """What a schedule says of a run, as fields of its configuration: whose days, in which homes, how many."""
+    who, where = (list(dict.fromkeys(names)) for names in zip(*schedule, strict=True))
+    return {"humans": who, "scenes": where, "days": len(schedule)}
 
 
 def smaller(size: int | None, most: int | None) -> int | None:

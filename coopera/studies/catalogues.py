@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from coopera.config.at_most import cut
+from coopera.config.at_most import cut, said_by
 from coopera.config.schema import Config
 from coopera.core.errors import ConfigError
 from coopera.core.people import Persona
@@ -154,8 +154,7 @@ def _by_schedule(config: Config) -> Config:
     """With a schedule, its people, homes and days are the run's."""
     if not config.schedule:
         return config
-    who, where = (list(dict.fromkeys(names)) for names in zip(*config.schedule, strict=True))
-    said = {"humans": who, "scenes": where, "days": len(config.schedule)}
+    said = said_by(config.schedule)
     for field, value in said.items():
         if getattr(config, field) not in (None, value):
             raise ConfigError(f"{field}: the schedule says this already; leave it out.")
